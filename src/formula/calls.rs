@@ -182,34 +182,6 @@ impl Parser<'_> {
         })
     }
 
-    /// `root(x, n)` is the root of index n.
-    pub(super) fn root_of(&mut self, start: usize) -> Faulty<Written> {
-        let pair = self.list_of_two("root")?;
-        let end = pair.1.end;
-        let (inner, index) = (Box::new(pair.0), Box::new(pair.1));
-        Ok(Written::new(Shape::Root(Some(index), inner), start, end))
-    }
-
-    fn list_of_two(&mut self, name: &str) -> Faulty<(Written, Written)> {
-        let list = self.lexer.list;
-        self.lexer.list = true;
-        let token = self.peek()?;
-        let (from, to) = (token.start, token.end);
-        let read = self.primary();
-        self.lexer.list = list;
-        match read?.shape {
-            Shape::List(mut parts) if parts.len() == 2 => {
-                let second = parts.remove(1);
-                Ok((parts.remove(0), second))
-            }
-            _ => Err(Fault::new(
-                format!("{name} takes two arguments, as in {name}(x, 3)"),
-                from,
-                to,
-            )),
-        }
-    }
-
     /// e as the base of the natural logarithm: exp of the exponent behind it, or of 1.
     pub(super) fn exponential(&mut self, start: usize, end: usize) -> Faulty<Written> {
         let exponent = match self.peek()?.tok {

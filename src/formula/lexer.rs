@@ -6,6 +6,7 @@
 use super::Relation;
 use super::fault::{Fault, Faulty};
 use super::note::{Note, Remark};
+use super::pair::Pair;
 use super::symbols::{Symbols, is_angle_name};
 use super::tex::{decoration, degree_mark, shows_space};
 use super::written::{Literal, has_arrow, is_axis};
@@ -33,8 +34,8 @@ pub(crate) enum Tok {
     LogarithmTo,
     /// The inverse of a hyperbolic function, or of the reciprocal of a sine, cosine or tangent.
     Area(Function),
-    /// `root(x, n)`.
-    RootOf,
+    /// A function of two arguments.
+    Pair(Pair),
     /// The base of the natural logarithm, which shows its exponent behind.
     Exponential,
     /// `\over`

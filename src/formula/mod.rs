@@ -19,6 +19,7 @@ mod name;
 pub mod near;
 mod note;
 mod number;
+mod pair;
 mod parser;
 mod product;
 mod prose;

@@ -13,12 +13,15 @@
 //! exponent  = [ sign ] value [ "^" exponent ]
 //! value     = number | name | fraction | root | call | bars | bracket
 //! fraction  = "½" … | "\frac" argument argument
-//! root      = "√" value | "\sqrt" [ "[" sum "]" ] argument | "root(" sum "," sum ")"
+//! root      = "√" value | "\sqrt" [ "[" sum "]" ] argument | pair
+//! pair      = ( "root" | "atan2" | "hypot" | "max" | "min" ) "(" sum "," sum ")"
 //! call      = function [ "^" exponent ] ( bracket | group )      how far the group reaches: calls.rs
 //! bars      = "|" sum "|"
 //! bracket   = "(" sum { "," sum } ")" | "[" … "]" | "⟨" … "⟩" | "{" sum [ "\over" sum ] "}"
 //! argument  = digit | letter | command | bracket
 //! ```
+//!
+//! Lists, several relations, and intervals are cut into statements by `several.rs`.
 //!
 //! A unit behind a term stands wherever it is told from a product of letters, see `units.rs`. Where people's habits differ
 //! the decision is a numbered site, see [`super::other_readings`].

@@ -187,7 +187,7 @@ impl Parser<'_> {
             | Tok::Logarithm(_)
             | Tok::LogarithmTo
             | Tok::Area(_)
-            | Tok::RootOf
+            | Tok::Pair(_)
             | Tok::Exponential
             | Tok::Signum
             | Tok::Root(_)

@@ -4,6 +4,7 @@ use super::Relation;
 use super::fault::{Fault, Faulty, is_invisible};
 use super::lexer::{Before, Lexer, Matrix, Tok};
 use super::name;
+use super::pair::Pair;
 use super::symbols::Parts;
 use super::words::function;
 
@@ -187,6 +188,7 @@ impl<'a> Lexer<'a> {
         match function(&word) {
             Some(tok) => Ok(tok),
             None if matches!(&*word, "sgn" | "sign" | "signum") => Ok(Tok::Signum),
+            None if let Some(pair) = Pair::named(&word) => Ok(Tok::Pair(pair)),
             None => Err(Fault::new(
                 format!("`{word}` is no function I know"),
                 start,
@@ -320,6 +322,8 @@ fn plain(word: &str) -> Option<Tok> {
     Some(match word {
         "frac" | "dfrac" | "tfrac" | "cfrac" => Tok::Fraction,
         "sqrt" | "surd" => Tok::Root(2),
+        "max" => Tok::Pair(Pair::Greater),
+        "min" => Tok::Pair(Pair::Smaller),
         "cdot" | "ast" | "bullet" => Tok::Times,
         "times" => Tok::Cross,
         "div" => Tok::Slash,

@@ -135,7 +135,7 @@ impl Parser<'_> {
                 p.logarithm(base, start, end)
             }),
             Tok::Area(function) => self.deeper(|p| p.area(function, start, end)),
-            Tok::RootOf => self.deeper(|p| p.root_of(start)),
+            Tok::Pair(function) => self.deeper(|p| p.pair(function, start)),
             Tok::Exponential => self.deeper(|p| p.exponential(start, end)),
             Tok::Signum => self.deeper(|p| p.signum(start)),
             _ => Err(self.missing(&token)),

@@ -4,6 +4,7 @@ use super::fault::{Fault, Faulty};
 use super::lexer::{Before, Lexer, Tok};
 use super::name;
 use super::note::Remark;
+use super::pair::Pair;
 use super::symbols::{Parts, is_greek};
 use crate::expr::{Function, Symbol};
 
@@ -91,10 +92,17 @@ impl Lexer<'_> {
                 self.pos = start + length;
                 return Ok(Tok::Signum);
             }
-            let root = matches!(word, "root" | "nthroot") && rest[length..].starts_with('(');
-            if root && self.symbols.find(word).is_none() {
-                self.pos = start + length;
-                return Ok(Tok::RootOf);
+            let two = usize::from(rest[length..].starts_with("2("));
+            let pair = Pair::named(&rest[..length + two]);
+            let argued = rest[length + two..].starts_with('(');
+            if let Some(pair) = pair
+                && argued
+                && self.symbols.find(word).is_none()
+                && (pair == Pair::Root
+                    || self.outside(start + length + two + 1, b',', b"").is_some())
+            {
+                self.pos = start + length + two;
+                return Ok(Tok::Pair(pair));
             }
             if self.is_other_function(start, length) {
                 let two = rest[length..].starts_with("2(");
