@@ -16,13 +16,42 @@ use crate::interval::{Interval, Outcome, evaluate};
 pub(super) fn prove(a: &Expr, b: &Expr, domains: &Domains) -> Option<Proof> {
     let difference = a - b;
     if has_arc(&difference) {
-        return whole_turns(&difference, domains);
+        return whole_turns(&without_shared(&difference), domains);
     }
     let (x, y) = (exponentials(a, domains), exponentials(b, domains));
     if x == *a && y == *b {
         return None;
     }
     Some(compare(&x, &y, domains)).filter(|proof| matches!(proof, Proof::Equal(..)))
+}
+
+/// A sum without the factors that all its terms share: where the rest is zero the sum is.
+fn without_shared(e: &Expr) -> Expr {
+    let Node::Sum(terms) = e.node() else {
+        return e.clone();
+    };
+    fn factors(term: &Expr) -> Vec<Expr> {
+        match term.node() {
+            Node::Product(parts) => parts.iter().flat_map(factors).collect(),
+            Node::Power(base, k) if k.as_number().is_some_and(|k| k.is_integer()) => {
+                let parts = factors(base);
+                parts.iter().map(|part| part.power(k.clone())).collect()
+            }
+            _ => vec![term.clone()],
+        }
+    }
+    let terms: Vec<Vec<Expr>> = terms.iter().map(factors).collect();
+    let is_pi = |e: &Expr| e.as_symbol().is_some_and(|name| &**name == "pi");
+    let mut shared = terms[0].clone();
+    shared.retain(|factor| {
+        let free = factor.as_number().is_none() && !is_pi(factor) && !has_arc(factor);
+        free && terms.iter().all(|term| term.contains(factor))
+    });
+    let rest = |mut term: Vec<Expr>| {
+        term.retain(|factor| !shared.contains(factor));
+        Expr::product(term)
+    };
+    Expr::sum(terms.into_iter().map(rest).collect::<Vec<_>>())
 }
 
 fn has_arc(e: &Expr) -> bool {
