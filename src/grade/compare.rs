@@ -236,6 +236,14 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
             }
             _ => kind("an equation is expected"),
         },
+        (Claim::Relations([left, right], [Relation::Equal]), Claim::Value(None, value))
+            if left.expr().is_some_and(|e| {
+                let (theirs, mine) = (right.symbols(), value.symbols());
+                of_two_names(e, &|name| !theirs.contains(name) && !mine.contains(name))
+            }) =>
+        {
+            values(ctx, right, value)
+        }
         (Claim::Relations(sides, signs), Claim::Value(None, value)) => {
             match sides.first().and_then(Content::expr) {
                 // `v ≤ X`: the bare right side of an inequality does not say which way.
@@ -314,18 +322,14 @@ fn close(ctx: &Context, expected: &Content, side: &Content) -> bool {
 }
 
 /// Whether letters side by side, none of them of the question, are a name such as `KE`; so are the letters of a velocity
-/// with an index, `vf` and `vx`, and the difference, the sum or the quotient of two names, `E_1 − E_2` and `K_2/K_1`.
+/// with an index, `vf` and `vx`, and what is made of two names.
 fn is_word(ctx: &Context, e: &Expr) -> bool {
     let free = |name: &Symbol| !declared_symbol(ctx, name);
-    let pair = |parts: &[Expr], turned: &dyn Fn(&Expr) -> Expr| {
-        let name = |e: &Expr| e.as_symbol().is_some_and(free);
-        matches!(parts, [a, b] if name(a) && name(&turned(b)) || name(&turned(a)) && name(b))
-    };
-    let parts = match e.node() {
-        Node::Sum(parts) => return pair(parts, &|b| -b) || pair(parts, &Expr::clone),
-        Node::Product(parts) if pair(parts, &|b| b.powi(-1)) => return true,
-        Node::Product(parts) => parts,
-        _ => return false,
+    if of_two_names(e, &free) {
+        return true;
+    }
+    let Node::Product(parts) = e.node() else {
+        return false;
     };
     let letters: Option<Vec<&Symbol>> = parts.iter().map(Expr::as_symbol).collect();
     let index = |name: &Symbol| free(name) && matches!(&**name, "f" | "i" | "x" | "y");
@@ -334,6 +338,17 @@ fn is_word(ctx: &Context, e: &Expr) -> bool {
         letters.iter().all(|name| free(name))
             || matches!(letters.as_slice(), [a, b] if velocity(a) && index(b) || velocity(b) && index(a))
     })
+}
+
+/// Whether a formula is the difference, the sum or the quotient of two names, as in `E_1 − E_2` and `K_2/K_1`.
+fn of_two_names(e: &Expr, free: &dyn Fn(&Symbol) -> bool) -> bool {
+    let name = |e: &Expr| e.as_symbol().is_some_and(free);
+    let pair = |parts: &[Expr], turned: &dyn Fn(&Expr) -> Expr| matches!(parts, [a, b] if name(a) && name(&turned(b)) || name(&turned(a)) && name(b));
+    match e.node() {
+        Node::Sum(parts) => pair(parts, &|b| -b) || pair(parts, &Expr::clone),
+        Node::Product(parts) => pair(parts, &|b| b.powi(-1)),
+        _ => false,
+    }
 }
 
 /// The sides of an equation between vectors, names with an arrow and sums of them in their components.
