@@ -109,6 +109,16 @@ impl Dyadic {
         }
     }
 
+    /// The largest integer up to x·2^w.
+    pub fn floor_of(&self, w: u32) -> BigInt {
+        let up = self.exponent.saturating_add(i64::from(w));
+        if up >= 0 {
+            &self.mantissa << up as u64
+        } else {
+            &self.mantissa >> up.unsigned_abs()
+        }
+    }
+
     /// x + y, rounded.
     pub fn add(&self, other: &Dyadic, bits: u32, to: Round) -> Dyadic {
         if self.mantissa.is_zero() {
