@@ -520,29 +520,18 @@ pub fn real(value: &Expr, domains: &Domains) -> Vec<Sentence> {
     out
 }
 
-/// Keeps a candidate, or says why not.
-fn take(
-    e: &Expr,
+/// What must hold for a value to lie within a domain, where that is not sure; in `Err` why it does not.
+pub(super) fn placed(
     symbol: &Symbol,
-    value: Expr,
-    squared: bool,
+    value: &Expr,
     domain: &Domain,
     domains: &Domains,
-    out: &mut Roots,
-) {
-    let words = sentence![symbol, " = ", &value];
-    let mut given: Vec<Sentence> = Vec::new();
-    let mut probe = Field::new(domains);
-    probe.prepare([&value]);
-    if matches!(probe.element(&value), Err(Stop::NotReal)) {
-        out.discarded.push(sentence![words, ", which is not real"]);
-        return;
-    }
-    given.extend(real(&value, domains));
+) -> Result<Vec<Sentence>, Sentence> {
+    let mut given = Vec::new();
     for (limit, is_low) in [(&domain.low, true), (&domain.high, false)] {
         let Some(limit) = limit else { continue };
         let end = limit.expr();
-        let gap = if is_low { &value - &end } else { &end - &value };
+        let gap = if is_low { value - &end } else { &end - value };
         let seen = sign(&gap, domains);
         let outside = match seen {
             Seen::Proved(Sign::Negative | Sign::NotPositive) | Seen::Negative => true,
@@ -565,8 +554,42 @@ fn take(
             " (seen at points, not proved)"
         };
         if outside {
-            out.discarded
-                .push(sentence![words, ", outside ", within(domain, symbol), how]);
+            return Err(sentence![
+                symbol,
+                " = ",
+                value,
+                ", outside ",
+                within(domain, symbol),
+                how
+            ]);
+        }
+    }
+    Ok(given)
+}
+
+/// Keeps a candidate, or says why not.
+fn take(
+    e: &Expr,
+    symbol: &Symbol,
+    value: Expr,
+    squared: bool,
+    domain: &Domain,
+    domains: &Domains,
+    out: &mut Roots,
+) {
+    let words = sentence![symbol, " = ", &value];
+    let mut given: Vec<Sentence> = Vec::new();
+    let mut probe = Field::new(domains);
+    probe.prepare([&value]);
+    if matches!(probe.element(&value), Err(Stop::NotReal)) {
+        out.discarded.push(sentence![words, ", which is not real"]);
+        return;
+    }
+    given.extend(real(&value, domains));
+    match placed(symbol, &value, domain, domains) {
+        Ok(conditions) => given.extend(conditions),
+        Err(why) => {
+            out.discarded.push(why);
             return;
         }
     }

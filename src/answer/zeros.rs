@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use num_integer::Integer;
 
-use super::calc::{Root, Roots, Unsolved, is_zero, real, sign, solve, tidy};
+use super::calc::{Root, Roots, Unsolved, is_zero, placed, real, sign, solve, tidy};
 use crate::domain::{Domain, Domains, Limit};
 use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
 use crate::formula::{Sentence, sentence};
@@ -66,20 +66,22 @@ fn nowhere(e: &Expr, domains: &Domains) -> bool {
 
 /// Values of an angle at which an expression in its sine and cosine vanishes, factor by factor.
 pub(super) fn angle(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unsolved> {
-    let domain = domains
+    let own = domains
         .symbols
         .get(symbol)
         .cloned()
         .unwrap_or_else(Domain::first_quadrant);
-    let ends = [(&domain.low, true), (&domain.high, false)];
-    if ends
-        .iter()
-        .any(|(end, is_low)| end.as_ref().and_then(|l| half(l, *is_low)).is_none())
-    {
+    let ends = [(&own.low, true), (&own.high, false)]
+        .map(|(end, is_low)| end.as_ref().and_then(|end| to_right_angle(end, is_low)));
+    let [Some(low), Some(high)] = ends else {
         return Err(Unsolved::Limit(format!(
-            "an angle is solved for between bounds: give {symbol} a domain, such as {{\"min\": 0, \"max\": \"pi/2\"}}; the bounds are multiples of pi/2 within -pi and pi"
+            "an angle is solved for between bounds within -pi and pi: give {symbol} a domain, such as {{\"min\": 0, \"max\": \"pi/2\"}}"
         )));
-    }
+    };
+    let domain = Domain {
+        low: Some(low),
+        high: Some(high),
+    };
     let whole = tidy(e, domains)?;
     let factors = match whole.node() {
         Node::Product(factors) => factors.to_vec(),
@@ -104,7 +106,16 @@ pub(super) fn angle(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Root
                 None => by_half(&base, symbol, &domain, domains)?,
             },
         };
-        for root in found.inside {
+        for mut root in found.inside {
+            if domain != own {
+                match placed(symbol, &root.value, &own, domains) {
+                    Ok(given) => root.given.extend(given),
+                    Err(why) => {
+                        out.discarded.push(why);
+                        continue;
+                    }
+                }
+            }
             let same = |r: &Root| is_zero(&(&r.value - &root.value), domains) == Some(true);
             let at = BTreeMap::from([(symbol.clone(), root.value.clone())]);
             // A divisor may vanish with the factor.
@@ -307,6 +318,19 @@ fn by_half(
         }
     }
     Ok(out)
+}
+
+/// An end of the domain, or the next multiple of π/2 beyond it; `None` beyond a straight angle.
+fn to_right_angle(end: &Limit, is_low: bool) -> Option<Limit> {
+    if half(end, is_low).is_some() {
+        return Some(end.clone());
+    }
+    let quarters = end.approximate() / std::f64::consts::FRAC_PI_2;
+    let whole = match is_low {
+        true => quarters.floor(),
+        false => quarters.ceil(),
+    };
+    (whole.abs() <= 2.0).then(|| Limit::pi(ratio(whole as i64, 2), true))
 }
 
 /// The tangent of half an end of the domain, where it is a fraction; the inner `None` is infinite.
