@@ -36,7 +36,7 @@ pub(super) fn points_of(
         let prime = f64::from(PRIMES[k % PRIMES.len()]);
         let fraction =
             (0.618_033_988_75 * (k + 1) as f64 + prime.sqrt() * seed as f64).fract() * 0.9 + 0.05;
-        // Later points are of all sizes: a motion may get to its end only where something is large.
+        // Later points are of all sizes, and near the ends: a motion may get to its end only where something is large.
         let size = (0.754_877_666 * (k + 1) as f64 + prime.cbrt() * seed as f64).fract();
         let size = match seed {
             0..=ORDINARY => 1.0,
@@ -45,7 +45,8 @@ pub(super) fn points_of(
         let low = domain.and_then(|d| d.low.as_ref()).map(Limit::approximate);
         let high = domain.and_then(|d| d.high.as_ref()).map(Limit::approximate);
         match (low, high) {
-            (Some(low), Some(high)) => low + fraction * (high - low),
+            (Some(low), Some(high)) if size <= 1.0 => low + fraction * size * (high - low),
+            (Some(low), Some(high)) => high - fraction / size * (high - low),
             (Some(low), None) => low + (0.3 + 2.0 * fraction) * size,
             (None, Some(high)) => high - (0.3 + 2.0 * fraction) * size,
             (None, None) => (4.0 * fraction - 2.0) * size,
