@@ -167,7 +167,14 @@ pub(super) fn hurdle(
                 body.name,
                 crate::formula::write_plain(&left)
             ),
-            "end the stage before, or give it more energy",
+            match seen.contains(&false) {
+                true => {
+                    "end the stage before it: with `\"until\": \"stops\"`, or by a domain that keeps `by` below it; or give it more energy"
+                }
+                false => {
+                    "end the stage before it, as with `\"until\": \"stops\"`, or give it more energy"
+                }
+            },
         )),
         _ => {
             let words = sentence![
