@@ -68,6 +68,16 @@ impl Field {
         Some((part, others_vanish))
     }
 
+    /// Whether a relation says this polynomial to be positive, or its opposite; `None` where none speaks of just this.
+    pub(super) fn stated_sign(&self, p: &Poly) -> Option<bool> {
+        let is_opposite = |q: &Poly| q.len() == p.len() && *q == p.neg();
+        let mut all = self.supposed.iter();
+        all.find_map(|(q, _)| match q == p {
+            true => Some(true),
+            false => is_opposite(q).then_some(false),
+        })
+    }
+
     /// The sign of a polynomial by what is supposed.
     pub(crate) fn by_relations(&self, p: &Poly) -> Option<Sign> {
         if self.supposed.is_empty() || p.len() > MOST_TERMS {

@@ -238,9 +238,13 @@ impl Field {
         }
         let mut terms = self.shortened(p);
         let minus = terms.iter().filter(|t| t.coeff.is_negative()).count();
-        // More minus than plus, or as many and a number that is negative: the other way round reads better.
+        // What a relation says to be positive is written so; else, with more minus than plus, or as many and a number that
+        // is negative, the other way round reads better.
         let number_negative = terms.iter().any(|t| t.coeff.is_negative() && t.is_number());
-        let flip = 2 * minus > terms.len() || (2 * minus == terms.len() && number_negative);
+        let flip = self.stated_sign(p).map_or_else(
+            || 2 * minus > terms.len() || (2 * minus == terms.len() && number_negative),
+            |positive| !positive,
+        );
         if flip {
             terms.iter_mut().for_each(|t| t.coeff = -t.coeff.clone());
         }

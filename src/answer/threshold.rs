@@ -204,8 +204,11 @@ fn sides(
     let value = &root.value;
     let domain = domains.symbols.get(parameter).cloned();
     let domain = domain.unwrap_or_else(Domain::positive);
-    let below = beside(gap, parameter, value, domain.low.as_ref(), -1, domains);
-    let above = beside(gap, parameter, value, domain.high.as_ref(), 1, domains);
+    let [below, above] = match slope(gap, parameter, domains) {
+        Some(slope) => [Seen::Proved(slope.flip()), Seen::Proved(slope)],
+        None => [(&domain.low, -1), (&domain.high, 1)]
+            .map(|(end, way)| beside(gap, parameter, value, end.as_ref(), way, domains)),
+    };
     let wants_negative = relation.is_below();
     let strict = matches!(relation, Relation::Less | Relation::Greater);
     let holds = |s: Seen| {
@@ -247,6 +250,18 @@ fn sides(
             out.checks.push(by_signs("sign", words, proved));
         }
         None => intervals::fill(out, parameter, gap, relation, &roots.inside, domains),
+    }
+}
+
+/// The sign of the slope of a difference that is linear in the parameter, where it is proved and never zero.
+fn slope(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sign> {
+    let at = |k: i64| gap.substitute(&BTreeMap::from([(parameter.clone(), Expr::from(k))]));
+    let (start, slope) = (at(0), at(1) - at(0));
+    let line = &start + &(&slope * &Expr::symbol(parameter));
+    let is_linear = is_zero(&(gap - &line), domains) == Some(true);
+    match is_linear.then(|| sign(&slope, domains))? {
+        Seen::Proved(sign @ (Sign::Positive | Sign::Negative)) => Some(sign),
+        _ => None,
     }
 }
 

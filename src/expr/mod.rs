@@ -242,6 +242,20 @@ impl Expr {
         }
     }
 
+    /// Whether it is an angle by its form: an arc of sine, cosine or tangent, or π, times numbers, or a sum of such.
+    pub fn is_arc(&self) -> bool {
+        match self.node() {
+            Node::Symbol(name) => &**name == "pi",
+            Node::Call(f, _) => matches!(f, Function::Asin | Function::Acos | Function::Atan),
+            Node::Sum(parts) => parts.iter().all(Expr::is_arc),
+            Node::Product(parts) => match parts.as_slice() {
+                [number, arc] => number.as_number().is_some() && arc.is_arc(),
+                _ => false,
+            },
+            Node::Number(_) | Node::Power(..) => false,
+        }
+    }
+
     /// Number of nodes; the measure of length that limits and tie-breaks use.
     pub fn size(&self) -> usize {
         self.parts().count()

@@ -197,7 +197,14 @@ pub fn answers(scene: &Scene, answers: &[Answer]) -> String {
         let formula = a.formula().filter(|e| !e.is_zero());
         if let Some(value) = formula.and_then(|e| super::value(scene, e)) {
             let number = super::digits(value.approximate);
-            line(format!("      ≈ {}", a.dimension.measured(&number)));
+            let measured = match formula.is_some_and(|e| e.is_arc()) {
+                true => format!(
+                    "{number} rad, {}°",
+                    super::digits(value.approximate.to_degrees())
+                ),
+                false => a.dimension.measured(&number),
+            };
+            line(format!("      ≈ {measured}"));
         }
         if let Form::Matrix(m) = &a.form {
             super::text::matrix(scene, m)
