@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 
 use super::Sign;
-use super::field::{Field, Kind};
+use super::field::{AngleOf, Field, Kind};
 use super::poly::Poly;
 use super::substitution::MOST_TERMS;
-use crate::domain::Relation;
-use crate::expr::{Expr, Symbol};
+use crate::domain::{Domain, Relation};
+use crate::expr::{Expr, Rational, Symbol, ratio};
 
 /// Relations put in one after the other for one sign.
 const DEPTH: usize = 3;
@@ -22,13 +22,44 @@ impl Field {
     /// Takes in what relations tell of signs.
     pub(super) fn relate_signs(&mut self, relations: &[Relation]) {
         for relation in relations {
-            // Where a factor may be zero, so may the whole, and nothing is told of the rest.
-            if let Some((p, others_vanish)) = self.undecided_part(&relation.excess)
-                && !(relation.closed && others_vanish)
-            {
-                self.take(p, relation.closed);
+            let follow = self.of_angles(relation);
+            for excess in [&relation.excess].into_iter().chain(&follow) {
+                // Where a factor may be zero, so may the whole, and nothing is told of the rest.
+                if let Some((p, others_vanish)) = self.undecided_part(excess)
+                    && !(relation.closed && others_vanish)
+                {
+                    self.take(p, relation.closed);
+                }
             }
         }
+    }
+
+    /// What a relation of two angles says of their sines and cosines, where these grow or fall.
+    fn of_angles(&self, relation: &Relation) -> Vec<Expr> {
+        let [small, large] = &relation.sides;
+        let range = |e: &Expr| self.domains.symbols.get(e.as_symbol()?);
+        let (Some(one), Some(other)) = (range(small), range(large)) else {
+            return Vec::new();
+        };
+        let is_angle = |e: &Expr| {
+            let mut bases = self.bases.iter();
+            bases.any(|b| matches!(&b.of, AngleOf::Symbol(name) if Some(name) == e.as_symbol()))
+        };
+        if !is_angle(small) || !is_angle(large) {
+            return Vec::new();
+        }
+        let both_within = |low: Rational, high: Rational| {
+            let range = Domain::angle(low, high);
+            one.lies_within(&range) && other.lies_within(&range)
+        };
+        let mut out = Vec::new();
+        if both_within(ratio(-1, 2), ratio(1, 2)) {
+            out.push(large.sin() - small.sin());
+        }
+        if both_within(ratio(0, 1), ratio(1, 1)) {
+            out.push(small.cos() - large.cos());
+        }
+        out
     }
 
     /// Supposes a polynomial positive, or not negative.
@@ -183,7 +214,6 @@ fn replaced(p: &Poly, v: usize, top: &Poly, below: &Poly) -> Option<Poly> {
 mod tests {
     use super::*;
     use crate::domain::Domains;
-    use crate::expr::ratio;
 
     fn s(name: &str) -> Expr {
         Expr::symbol(name)
@@ -270,5 +300,25 @@ mod tests {
         let open = crate::domain::Domain::between(ratio(0, 1), ratio(1, 1));
         domains.symbols.insert("c".into(), open);
         assert_eq!(sign(&(s("a") - s("b")), &domains), Some(Sign::Positive));
+    }
+
+    #[test]
+    fn a_relation_of_angles_decides_their_sines_and_cosines() {
+        let domains = |low, high| {
+            let mut domains = related(&[(s("beta"), s("theta"), false)]);
+            for name in ["beta", "theta"] {
+                let range = Domain::angle(ratio(low, 2), ratio(high, 2));
+                domains.symbols.insert(name.into(), range);
+            }
+            domains
+        };
+        let sines = s("theta").sin() - s("beta").sin();
+        let cosines = s("theta").cos() - s("beta").cos();
+        assert_eq!(sign(&sines, &domains(0, 1)), Some(Sign::Positive));
+        assert_eq!(sign(&cosines, &domains(0, 1)), Some(Sign::Negative));
+        assert_eq!(sign(&sines, &domains(-1, 1)), Some(Sign::Positive));
+        assert_eq!(sign(&cosines, &domains(-1, 1)), None);
+        assert_eq!(sign(&sines, &domains(0, 2)), None);
+        assert_eq!(sign(&cosines, &domains(0, 2)), Some(Sign::Negative));
     }
 }

@@ -513,16 +513,38 @@ fn threshold(table: &Table, forms: &mut Forms, event: FrictionEvent) -> Result<E
     if event == FrictionEvent::Jams {
         return table.jamming.clone().ok_or_else(none);
     }
-    let of_mode = |mode: &Mode| table.cases.iter().find(|case| case.mode == *mode);
-    let case = modes
-        .iter()
-        .find_map(of_mode)
-        .filter(|case| case.known_direction);
+    let of_mode = |mode: &Mode| -> Vec<&Case> {
+        let all = table.cases.iter();
+        all.filter(|case| case.mode == *mode).collect()
+    };
+    let cases = modes.iter().map(of_mode).find(|cases| !cases.is_empty());
     let upward = event == FrictionEvent::Sticks;
+    let mut bounds = Vec::new();
+    for case in cases.iter().flatten() {
+        let bound = bound(table, forms, case, upward)?;
+        bounds.push((case.known_direction, bound.ok_or_else(none)?));
+    }
+    match bounds.as_slice() {
+        [(true, bound)] => Ok(bound.clone()),
+        // Either way the same, but for the sign that the direction of slip has.
+        [(_, one), (_, other)] if forms.tidy(&(one + other))?.is_zero() => {
+            forms.tidy(&Expr::call(Function::Abs, one.clone()))
+        }
+        _ => Err(none()),
+    }
+}
+
+/// The least coefficient of friction of a case, or the largest; `None` where it has none.
+fn bound(
+    table: &Table,
+    forms: &mut Forms,
+    case: &Case,
+    upward: bool,
+) -> Result<Option<Expr>, Stop> {
     let mut bound: Option<Expr> = None;
-    for condition in case.iter().flat_map(|case| &case.conditions) {
+    for condition in &case.conditions {
         if condition.left != table.law.mu {
-            return Err(none());
+            return Ok(None);
         }
         let is_upward = matches!(
             condition.relation,
@@ -535,7 +557,7 @@ fn threshold(table: &Table, forms: &mut Forms, event: FrictionEvent) -> Result<E
             });
         }
     }
-    bound.ok_or_else(none)
+    Ok(bound)
 }
 
 /// What a contact feels of its bodies: a, b, c and the relative velocity before, along t and n.

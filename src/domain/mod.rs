@@ -187,6 +187,20 @@ impl Domain {
             })
     }
 
+    /// Whether it lies within another bounded interval, ends included.
+    pub fn lies_within(&self, outer: &Domain) -> bool {
+        let at = |l: &Option<Limit>| l.as_ref().map(Limit::approximate);
+        match (
+            at(&self.low),
+            at(&self.high),
+            at(&outer.low),
+            at(&outer.high),
+        ) {
+            (Some(a), Some(b), Some(low), Some(high)) => a >= low && b <= high,
+            _ => false,
+        }
+    }
+
     /// Whether a number is an end of the interval.
     pub fn is_end(&self, x: &Rational) -> bool {
         [&self.low, &self.high]

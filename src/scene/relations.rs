@@ -163,7 +163,7 @@ fn unwound(small: &Expr, large: &Expr, domains: &Domains) -> Option<Expr> {
         _ => (ratio(-1, 2), ratio(1, 2)),
     };
     let domain = domains.symbols.get(angle.as_symbol()?)?;
-    if !lies_between(domain, &Domain::angle(low, high)) {
+    if !domain.lies_within(&Domain::angle(low, high)) {
         return None;
     }
     // The inverse function minus the angle, up to a positive factor.
@@ -173,18 +173,4 @@ fn unwound(small: &Expr, large: &Expr, domains: &Domains) -> Option<Expr> {
         _ => x * angle.cos() - angle.sin(),
     };
     Some(if is_above { rest } else { -rest })
-}
-
-/// Whether an interval of angles lies within another one, ends included.
-fn lies_between(inner: &Domain, outer: &Domain) -> bool {
-    let at = |l: &Option<crate::domain::Limit>| l.as_ref().map(|l| l.approximate());
-    match (
-        at(&inner.low),
-        at(&inner.high),
-        at(&outer.low),
-        at(&outer.high),
-    ) {
-        (Some(a), Some(b), Some(low), Some(high)) => a >= low && b <= high,
-        _ => false,
-    }
 }

@@ -10,16 +10,7 @@ use crate::expr::{Expr, Symbol};
 impl Writer<'_> {
     /// All answers, with abbreviations below.
     pub(super) fn results(&mut self) {
-        let shorts: Vec<Expr> = self
-            .d
-            .answers
-            .iter()
-            .filter(|a| !self.told.contains(a.name.as_str()))
-            .filter_map(|a| match &a.form {
-                Form::Value { short, .. } => Some(short.clone()),
-                _ => None,
-            })
-            .collect();
+        let shorts = self.untold();
         let open = self
             .d
             .answers
@@ -28,6 +19,23 @@ impl Writer<'_> {
         if !shorts.is_empty() || open {
             self.section(vec![say("Results")]);
         }
+        self.boxed();
+    }
+
+    /// The answers that were not told yet, as they are written.
+    fn untold(&self) -> Vec<Expr> {
+        let answers = self.d.answers.iter();
+        let untold = answers.filter(|a| !self.told.contains(a.name.as_str()));
+        let shorts = untold.filter_map(|a| match &a.form {
+            Form::Value { short, .. } => Some(short.clone()),
+            _ => None,
+        });
+        shorts.collect()
+    }
+
+    /// The answers that were not told yet, in a box.
+    pub(super) fn boxed(&mut self) {
+        let shorts = self.untold();
         self.abbreviations(&shorts);
         self.name_roots(&shorts, 2);
         let mut lines = Vec::new();

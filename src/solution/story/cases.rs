@@ -1,7 +1,99 @@
-//! Several outcomes of one impact: what a case shares with one before it is named there and not told again.
+//! Several outcomes of one impact: what a case shares with one before it is named there and not told again, and a case with
+//! the results of one before it is not worked out again.
 
-use crate::solution::words::say;
-use crate::solution::{Inline, Line, Math, Part, Section};
+use std::collections::BTreeMap;
+
+use crate::answer::Form;
+use crate::expr::{Expr, Symbol};
+use crate::scene::{ContactLaw, Decided, Scene};
+use crate::solution::neat::tidied;
+use crate::solution::words::{self, say};
+use crate::solution::{Inline, Line, Math, Part, Section, Writer, sentence};
+use crate::story::Case;
+
+/// The number of an earlier case whose results, as they are or with the opposite sign of a coefficient of friction, are those
+/// of a later one.
+pub(super) struct Again {
+    pub case: usize,
+    pub opposite: Option<Symbol>,
+}
+
+impl Writer<'_> {
+    /// A case whose results can be read off an earlier one; `rubs` is what its rough contact does.
+    pub(super) fn again(&mut self, rubs: &str, again: &Again) {
+        let Some(name) = &again.opposite else {
+            let words = match rubs.is_empty() {
+                true => format!("The results are those of case {}.", again.case),
+                false => format!("{rubs}, and the results are those of case {}.", again.case),
+            };
+            let words = sentence::called(self.scene, &words);
+            return self.text(vec![say(words)]);
+        };
+        let mu = Expr::symbol(name);
+        self.text(vec![
+            say(format!(
+                "Friction acts the other way: the results are those of case {} with ",
+                again.case
+            )),
+            words::formula(&-&mu),
+            say(" in place of "),
+            words::formula(&mu),
+            say("."),
+        ]);
+        self.boxed();
+    }
+}
+
+/// The first case before one, by index, that has its results already.
+pub(super) fn again(scene: &Scene, cases: &[Case], k: usize) -> Option<Again> {
+    let own = results(&cases[k]);
+    if own.is_empty() {
+        return None;
+    }
+    let (earlier, own_law) = (&cases[..k], decided(&cases[k]));
+    if let Some(j) = earlier.iter().position(|case| results(case) == own) {
+        return Some(Again {
+            case: j + 1,
+            opposite: None,
+        });
+    }
+    let name = own_law?.law.mu.as_symbol()?;
+    let opposite = BTreeMap::from([(name.clone(), -Expr::symbol(name))]);
+    let turned = |(a, e): (String, Expr)| (a, tidied(scene, &e.substitute(&opposite)));
+    let turned: Vec<(String, Expr)> = own.into_iter().map(turned).collect();
+    let is_opposite = |case: &Case| {
+        let same_mode = decided(case).map(|d| d.mode) == own_law.map(|d| d.mode);
+        let tidy = |(a, e): (String, Expr)| (a, tidied(scene, &e));
+        same_mode
+            && results(case)
+                .into_iter()
+                .map(tidy)
+                .eq(turned.iter().cloned())
+    };
+    earlier.iter().position(is_opposite).map(|j| Again {
+        case: j + 1,
+        opposite: Some(name.clone()),
+    })
+}
+
+/// What is asked of a case, by name.
+fn results(case: &Case) -> Vec<(String, Expr)> {
+    let (_, derivation) = case.asked();
+    let all = derivation.answers.into_iter();
+    all.filter_map(|a| match a.form {
+        Form::Value { closed, .. } => Some((a.name, closed)),
+        _ => None,
+    })
+    .collect()
+}
+
+fn decided(case: &Case) -> Option<&Decided> {
+    let mut contacts = case.scene.contacts.iter();
+    contacts.find_map(|c| match &c.law {
+        ContactLaw::Decided(decided) => Some(&**decided),
+        _ => None,
+    })
+}
 
 /// Equations that a case tells, with the sentence that leads to them.
 pub(super) struct Shared {

@@ -279,9 +279,15 @@ impl Page<'_> {
         if self.solution.detail != Detail::Brief && !several {
             writer.case();
         }
-        writer.blocks();
-        if !derivation.definitions.is_empty() {
-            writer.results();
+        let full = self.solution.detail == Detail::Full;
+        match cases::again(self.scene, &told.cases, k).filter(|_| !full) {
+            Some(again) => writer.again(&case.rubs, &again),
+            None => {
+                writer.blocks();
+                if !derivation.definitions.is_empty() {
+                    writer.results();
+                }
+            }
         }
         // That everything was checked is told once, at the end.
         if self.solution.detail == Detail::Full || !case.proof.holds() {
