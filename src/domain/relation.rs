@@ -1,5 +1,6 @@
 //! Relations between symbols, such as `M > m`: which points keep to them, and which belong to the symbols in play.
 
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 
 use super::{Domains, Sample};
@@ -68,14 +69,19 @@ impl Domains {
         if self.relations.is_empty() {
             return true;
         }
-        let point = sample.point::<Interval>(true);
+        // Angles known by direction get their value where a relation needs it.
+        let plain = sample.point::<Interval>(false);
+        let full = OnceCell::new();
         let placed = |name: &Symbol| &**name == "pi" || sample.coordinates.contains_key(name);
         let bearing = self.relations.iter();
         bearing
             .filter(|r| r.excess.symbols().iter().all(placed))
-            .all(|r| match evaluate::<Interval>(&r.excess, &point) {
-                Outcome::Value(v) => r.admits(v.low, v.high) == Some(true),
-                _ => false,
+            .all(|r| {
+                let bounds = match evaluate::<Interval>(&r.excess, &plain) {
+                    Outcome::Value(v) => Outcome::Value(v),
+                    _ => evaluate(&r.excess, full.get_or_init(|| sample.point(true))),
+                };
+                matches!(bounds, Outcome::Value(v) if r.admits(v.low, v.high) == Some(true))
             })
     }
 
