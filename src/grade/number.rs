@@ -127,6 +127,9 @@ fn least_distance([a, b]: [&Rational; 2], [low, high]: [&Rational; 2]) -> Ration
     }
 }
 
+/// Most digits to which numbers are compared.
+pub const MOST_DIGITS: u32 = 40;
+
 /// To how many significant digits a decimal number is the rounding of an exact one; 0 where it is not even close.
 pub fn digits_shared(answer: &Rational, exact: &[Rational; 2]) -> u32 {
     if exact[0].is_zero() {
@@ -137,7 +140,7 @@ pub fn digits_shared(answer: &Rational, exact: &[Rational; 2]) -> u32 {
     if off.is_zero() {
         return 100;
     }
-    (1..=40)
+    (1..=MOST_DIGITS)
         .rev()
         .find(|n| off <= half_unit(&middle, *n))
         .unwrap_or(0)

@@ -96,6 +96,16 @@ pub(crate) fn numbers(expected: &Expr, answer: &Expr) -> Vec<Diagnosis> {
         ));
         return found;
     }
+    // An angle that is a fraction in degrees was rounded in degrees.
+    let in_degrees = answer.is_arc().then(|| {
+        let degrees = Expr::from(180);
+        let expected = expected * &(&degrees / &Expr::pi());
+        [expected, answer.replace(&Expr::pi(), &degrees)]
+    });
+    let [expected, answer] = match &in_degrees {
+        Some([expected, answer]) => [expected, answer],
+        None => [expected, answer],
+    };
     let (Some(exact), Some(value)) = (number::bounds(expected), fraction(answer)) else {
         return found;
     };
@@ -110,12 +120,14 @@ pub(crate) fn numbers(expected: &Expr, answer: &Expr) -> Vec<Diagnosis> {
         return found;
     }
     let minus = -value.clone();
-    if (2..100).contains(&number::digits_shared(&minus, &exact)) {
-        found.push(Diagnosis::new(
-            "SIGN",
-            "right up to the sign and rounding",
-            "check the sign",
-        ));
+    let digits = number::digits_shared(&minus, &exact);
+    if (2..100).contains(&digits) {
+        // As far as anything is compared.
+        let message = match digits < number::MOST_DIGITS {
+            true => "right up to the sign and rounding",
+            false => "right up to the sign",
+        };
+        found.push(Diagnosis::new("SIGN", message, "check the sign"));
     }
     if let Some(e) = fraction(expected).filter(|e| *e != ratio(0, 1)) {
         let q = &value / &e;
@@ -289,4 +301,23 @@ fn symbols(ctx: &Context, expected: &Expr, answer: &Expr) -> Vec<Diagnosis> {
         found.push(Diagnosis::new("SYMBOLS_MISSING", words.clone(), words));
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formula::{Symbols, read_expr};
+
+    #[test]
+    fn an_angle_rounded_in_degrees_is_told_as_rounded() {
+        let read = |text: &str| read_expr(text, &Symbols::strict()).expect("a formula");
+        let codes = |expected: &str, answer: &str| -> Vec<String> {
+            let found = numbers(&read(expected), &read(answer));
+            found.iter().map(|d| d.code.to_string()).collect()
+        };
+        assert_eq!(codes("atan(4/3)", "53.13*pi/180"), ["ROUNDED"]);
+        assert_eq!(codes("atan(4/3)", "-53.13*pi/180"), ["SIGN"]);
+        assert_eq!(codes("pi/3", "-pi/3"), ["SIGN"]);
+        assert!(codes("atan(4/3)", "37*pi/180").is_empty());
+    }
 }

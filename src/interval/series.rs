@@ -97,7 +97,7 @@ pub(super) fn call(x: &Enclosure, function: Function, bits: u32) -> Outcome<Encl
         }
         Function::Asin => asin(x, bits),
         Function::Acos => asin(x, w).then(|a| Value(pi(w).scale(-1).sub(a, bits))),
-        Function::Atan => Value(monotone(x, |t| atan_point(t, bits))),
+        Function::Atan => Value(atan(x, bits)),
         Function::Exp => exp(x, bits),
         Function::Ln => ln(x, bits),
         Function::Sinh | Function::Cosh | Function::Tanh => hyperbolic(x, function, bits),
@@ -351,6 +351,21 @@ fn odd_series(z: &Enclosure, w: u32, alternating: bool) -> Enclosure {
     z.mul(&series, w)
 }
 
+/// atan x; its slope is at most 1, so a narrow interval that is not far from zero needs one end only.
+fn atan(x: &Enclosure, bits: u32) -> Enclosure {
+    let width = x.high.add(&x.low.neg(), 64, Round::Up);
+    let is_narrow =
+        width.top().saturating_add(i64::from(bits) / 2) < x.low.top() && x.low.top() <= 4;
+    if !is_narrow || width.sign() == 0 {
+        return monotone(x, |t| atan_point(t, bits));
+    }
+    let low = atan_point(&x.low, bits);
+    Enclosure {
+        low: low.low,
+        high: low.high.add(&width, bits, Round::Up),
+    }
+}
+
 /// atan x by |x| > 1 → π/2 − atan(1/x), then atan x = 2 atan(x/(1 + √(1 + x²))).
 fn atan_point(x: &Dyadic, bits: u32) -> Enclosure {
     if x.sign() == 0 {
@@ -402,7 +417,7 @@ fn asin(x: &Enclosure, bits: u32) -> Outcome<Enclosure> {
         // (1 − t)(1 + t) loses nothing near ±1.
         let rest = unit().sub(&point, 4 * w).mul(&unit().add(&point, 4 * w), w);
         match rest.sqrt(w).and_then(|r| r.recip(w)) {
-            Some(inverse) => monotone(&point.mul(&inverse, w), |q| atan_point(q, w)),
+            Some(inverse) => atan(&point.mul(&inverse, w), w),
             None if rest.is_exact() => {
                 if t.sign() > 0 {
                     pi(w).scale(-1)
