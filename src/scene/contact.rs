@@ -16,7 +16,10 @@ use crate::expr::{Expr, Vector, minus};
 impl Resolver<'_> {
     pub(super) fn contact(&mut self, name: &Text, contact: &ContactFile, scene: &mut Scene) {
         let bodies = self.pair(&contact.bodies.items, contact.bodies.span, "contact");
-        let at = self.position(&contact.at);
+        let at = match &contact.at {
+            Some(at) => self.position(at),
+            None => self.where_particle_is(name, contact),
+        };
         let normal = contact.normal.as_ref().map(|n| self.direction(n));
         let restitution = contact.restitution.as_ref().map(|e| {
             let value = self.symbols.read(e, Quantity::NUMBER, &mut self.faults);
@@ -110,6 +113,26 @@ impl Resolver<'_> {
                 law,
             });
         }
+    }
+
+    /// The place of a contact that is not given: that of the particle in it.
+    fn where_particle_is(&mut self, name: &Text, contact: &ContactFile) -> Option<Vector> {
+        let bodies = &self.file.bodies.0;
+        let find = |text: &Text| bodies.iter().position(|(body, _)| body.text == text.text);
+        let is_particle = |i: &usize| {
+            let body = bodies[*i].1.as_ref();
+            body.is_some_and(|body| body.shape == ShapeName::Particle)
+        };
+        let mut all = contact.bodies.items.iter().filter_map(find);
+        if let Some(i) = all.find(is_particle) {
+            return self.center(i);
+        }
+        if is_sound(contact.span, &self.faults) {
+            let fault = Fault::new(contact.span, "the field `at` is missing").shown_at(name.span);
+            let hint = "where the bodies touch: a point's name, [x, y] or {\"from\": …}";
+            self.faults.push(fault.hint(hint));
+        }
+        None
     }
 
     /// Friction is followed along the path of one impulse: beside it bodies may be held where they do not collide, by hinges,

@@ -69,8 +69,8 @@ record! {
     ContactFile {
         /// Names of the two bodies; one may be fixed. The impulse is the one on the second.
         bodies: Pair<Text>,
-        /// Where they touch.
-        at: PositionFile,
+        /// Where they touch. Missing: where the particle of the two is.
+        at: Option<PositionFile>,
         /// Unit normal, out of the first body into the second.
         normal: Option<DirectionFile>,
         /// The law that closes the equations. Missing: none, and carom tells what remains undetermined.

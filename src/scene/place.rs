@@ -89,7 +89,8 @@ impl<'f> Resolver<'f> {
     fn touched(&self, name: &str) -> Option<&'f PositionFile> {
         let file = self.file;
         let hinges = entries(file.hinges.as_ref()).map(|(_, h)| (&h.bodies.items[..], &h.at));
-        let contacts = entries(file.contacts.as_ref()).map(|(_, c)| (&c.bodies.items[..], &c.at));
+        let contacts = entries(file.contacts.as_ref());
+        let contacts = contacts.filter_map(|(_, c)| Some((&c.bodies.items[..], c.at.as_ref()?)));
         let blows = entries(file.blows.as_ref()).map(|(_, b)| (std::slice::from_ref(&b.on), &b.at));
         let is_itself = |at: &PositionFile| matches!(at, PositionFile::Name(n) if n.text == name && !self.points.contains_key(name));
         hinges
