@@ -168,6 +168,29 @@ fn a_scene_without_values_is_measured_at_seeded_points_and_says_so() {
     );
 }
 
+#[test]
+fn a_report_is_written_in_the_format_that_its_file_name_tells() {
+    let short = [
+        "report", "--quick", "--points", "1", "--family", "overflow", STICK, "-o",
+    ];
+    let begins = [
+        ("report.json", "{\n"),
+        ("report.txt", "Falling stick"),
+        ("report.html", "<!DOCTYPE html>"),
+    ];
+    for (name, first) in begins {
+        let path = scratch(name);
+        let out = Command::new(env!("CARGO_BIN_EXE_carom"))
+            .args(short)
+            .arg(&path)
+            .output()
+            .expect("carom starts");
+        assert_eq!(out.status.code(), Some(0));
+        let text = fs::read_to_string(&path).expect("the report");
+        assert!(text.starts_with(first), "{name}: {text:.40}");
+    }
+}
+
 /// A file of this test's own below the build's folder.
 fn scratch(name: &str) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)

@@ -37,9 +37,9 @@ pub struct ReportArgs {
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Also write one self-contained page with the plots
-    #[arg(long, value_name = "FILE")]
-    html: Option<PathBuf>,
+    /// Also write it whole to a file: .json for programs, .txt for people, else one self-contained page with the plots
+    #[arg(short, long, visible_alias = "html", value_name = "FILE")]
+    output: Option<PathBuf>,
     /// Also write every finished row at once, one JSON object a line
     #[arg(long, value_name = "FILE")]
     rows: Option<PathBuf>,
@@ -57,7 +57,7 @@ pub fn run(args: &ReportArgs) -> Result<u8, Failure> {
         .as_deref()
         .map(|path| create(path, &inputs))
         .transpose()?;
-    if let Some(path) = &args.html {
+    if let Some(path) = &args.output {
         files::writable(path, &inputs)?;
     }
     let mut scenes = Vec::new();
@@ -121,9 +121,13 @@ pub fn run(args: &ReportArgs) -> Result<u8, Failure> {
     if args.format == Format::Json {
         print(&pretty(&render::report::json(&reports)))?;
     }
-    if let Some(path) = &args.html {
-        let page = render::report::html(&reports);
-        files::save(path, page.as_bytes(), &inputs)?;
+    if let Some(path) = &args.output {
+        let whole = match path.extension().and_then(|e| e.to_str()) {
+            Some("json") => pretty(&render::report::json(&reports)),
+            Some("txt") => reports.iter().map(render::report::text).collect(),
+            _ => render::report::html(&reports),
+        };
+        files::save(path, whole.as_bytes(), &inputs)?;
     }
     Ok(if interrupted { 130 } else { 0 })
 }
