@@ -1,4 +1,4 @@
-//! Every command of the guide is run, and prints what stands below it.
+//! Every command of the guide is run, and prints what stands below it; what it shows of a scene stands there.
 //!
 //! `UPDATE=1 cargo test --test guide` writes the outputs anew; reading that diff is the review.
 
@@ -7,6 +7,8 @@
 use std::fs;
 use std::path::Path;
 use std::process::Command;
+
+use serde_json::Value;
 
 const GUIDE: &str = "GUIDE.md";
 
@@ -66,4 +68,49 @@ fn every_command_of_the_guide_prints_what_stands_below_it() {
     }
     let told = fs::read_to_string(GUIDE).expect("the guide");
     assert_eq!(told, renewed, "UPDATE=1 cargo test --test guide");
+}
+
+/// Whether all that a part says is said by the whole.
+fn says(whole: &Value, part: &Value) -> bool {
+    match (whole, part) {
+        (Value::Object(whole), Value::Object(part)) => part
+            .iter()
+            .all(|(name, part)| whole.get(name).is_some_and(|whole| says(whole, part))),
+        (Value::Array(whole), Value::Array(part)) => {
+            whole.len() == part.len()
+                && whole
+                    .iter()
+                    .zip(part)
+                    .all(|(whole, part)| says(whole, part))
+        }
+        _ => whole == part,
+    }
+}
+
+/// Whether a scene, or anything inside of it, says all that a part says.
+fn holds(scene: &Value, part: &Value) -> bool {
+    says(scene, part)
+        || match scene {
+            Value::Object(inside) => inside.values().any(|v| holds(v, part)),
+            Value::Array(inside) => inside.iter().any(|v| holds(v, part)),
+            _ => false,
+        }
+}
+
+#[test]
+fn what_the_guide_shows_of_a_scene_stands_in_that_scene() {
+    let guide = fs::read_to_string(GUIDE).expect("the guide");
+    let mut rows = 0;
+    for row in guide.lines().filter(|line| line.ends_with(".json) |")) {
+        let (_, shown) = row.split_once("| `").expect("a part of a scene");
+        let (part, link) = shown.split_once("` | ").expect("an end of the part");
+        let (_, path) = link.split_once("](").expect("a link");
+        let path = path.trim_end_matches(") |");
+        let part: Value = serde_json::from_str(&format!("{{{part}}}")).expect(row);
+        let scene = fs::read_to_string(path).expect(path);
+        let scene: Value = serde_json::from_str(&scene).expect(path);
+        assert!(holds(&scene, &part), "{path} does not say {part}");
+        rows += 1;
+    }
+    assert!(rows >= 50);
 }
