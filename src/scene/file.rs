@@ -174,8 +174,8 @@ record! {
         latex: Option<Text>,
         /// Its value in the unit: a number, or a formula without symbols such as "1/3" or "acos(3/5)".
         value: Option<Formula>,
-        /// Where it may lie. Missing: positive; for an angle any value; for a restitution from 0 to 1; for a component of a
-        /// unit vector from -1 to 1.
+        /// Where it may lie. Missing: positive; for an angle any value, or the quarter turn in which its `value` lies; for a
+        /// restitution from 0 to 1; for a component of a unit vector from -1 to 1.
         domain: Option<DomainFile>,
     }
 }

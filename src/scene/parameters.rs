@@ -4,6 +4,7 @@
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::FRAC_PI_2;
 
 use super::check::{Claim, Claimed};
 use super::contact_file::ContactFile;
@@ -121,7 +122,9 @@ fn parameter(
         None if is_tangential(file, &name.text) || is_component(file, &name.text) => {
             Some(Domain::between(ratio(-1, 1), ratio(1, 1)))
         }
-        None if unit.angle && unit.dimension.is_none() => Some(Domain::real()),
+        None if unit.angle && unit.dimension.is_none() => {
+            Some(parameter.value.as_ref().map_or(Domain::real(), quarter))
+        }
         None => Some(Domain::positive()),
     };
     let Some(domain) = domain else { return ends };
@@ -133,6 +136,17 @@ fn parameter(
     scene.domains.symbols.insert(parameter.name.clone(), domain);
     scene.parameters.push(parameter);
     ends
+}
+
+/// The quarter turn inside of which a given angle lies; any angle where it lies at an end of one.
+fn quarter(angle: &Expr) -> Domain {
+    let quarters = angle.evaluate::<f64>(&Point::default()).unwrap_or(0.0) / FRAC_PI_2;
+    let beyond = (quarters - quarters.round()).abs();
+    if !(1e-9..=1.0).contains(&beyond) || quarters.abs() > 4.0 {
+        return Domain::real();
+    }
+    let first = quarters.floor() as i64;
+    Domain::angle(ratio(first, 2), ratio(first + 1, 2))
 }
 
 /// The value of a quantity as a person writes it, in the parameter's unit or one beside it, brought to SI units.

@@ -495,16 +495,7 @@ fn of_case(question: &Question, case: &Case, several: bool) -> Vec<Answer> {
 fn for_any(case: &Case, check: &Check) -> Check {
     let mut check = check.clone();
     if !case.handed.is_empty() {
-        let handed = case.handed.iter();
-        let (names, values): (Vec<String>, Vec<Sentence>) = handed
-            .map(|(name, value)| (name.to_string(), sentence![name, " = ", value]))
-            .unzip();
-        let values = Sentence::join(values, ", ");
-        check.words = format!(
-            "{} for any {}, and so for {values}",
-            check.words,
-            names.join(", ")
-        );
+        check.words += ", whatever motion is handed on";
     }
     check
 }
