@@ -106,7 +106,7 @@ impl<'a> Reader<'a> {
             let Some(c) = self.peek() else { break };
             match c {
                 ')' if depth > 0 => break,
-                '*' | '·' | '⋅' | '.' | '×' | '/' if waiting || before == 0 => {
+                '*' | '·' | '⋅' | '•' | '∙' | '.' | '×' | '/' if waiting || before == 0 => {
                     return Err(fault(
                         format!("a unit is missing before `{c}`"),
                         self.at,
@@ -114,7 +114,8 @@ impl<'a> Reader<'a> {
                     ));
                 }
                 // `N-s` and `kg-m²`: a hyphen between two units ties them.
-                '*' | '·' | '⋅' | '.' | '×' | '-' if c != '-' || self.hyphen() => {
+                '*' | '·' | '⋅' | '•' | '∙' | '.' | '×' | '-' if c != '-' || self.hyphen() =>
+                {
                     self.at += c.len_utf8();
                     // kg/m·s: the dot multiplies the denominator for some and the whole for others.
                     if over && below > 0 {
@@ -166,7 +167,10 @@ impl<'a> Reader<'a> {
     /// Whether a hyphen here stands right between two units of which the first is no length or time: `2 m-s` may be 2m − s.
     fn hyphen(&self) -> bool {
         let (before, behind) = (&self.text[..self.at], &self.text[self.at + 1..]);
-        let first = ["N", "kg", "lb", "lbf", "ft"].iter().any(|unit| {
+        const FIRST: [&str; 9] = [
+            "N", "kg", "lb", "lbf", "ft", "newton", "kilogram", "pound", "foot",
+        ];
+        let first = FIRST.iter().any(|unit| {
             let rest = before.strip_suffix(unit);
             rest.is_some_and(|rest| !rest.ends_with(|c: char| c.is_alphanumeric() && c != 'k'))
         });
@@ -233,11 +237,17 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The exponent after a unit: `^-2`, `^{2}`, `**2`, `²`, `⁻¹`, or a digit right behind, as in `m2`; at the end and behind
+    /// The exponent after a unit: `^-2`, `^{2}`, `**2`, `²`, `⁻¹`, or a digit right behind, as in `m2`, or a word, as in `second squared`; at the end and behind
     /// another unit with a sign as well, as in `m s-1`.
     fn exponent(&mut self, behind: bool) -> Result<i64, UnitFault> {
         let start = self.at;
         let rest = &self.text[start..];
+        for (word, power) in [(" squared", 2), (" cubed", 3)] {
+            if rest.starts_with(word) {
+                self.at += word.len();
+                return Ok(power);
+            }
+        }
         if behind
             && let Some(digit) = rest.strip_prefix(['-', '−'])
             && matches!(digit, "1" | "2" | "3")
@@ -522,12 +532,13 @@ fn plain(word: &str) -> Option<Unit> {
             -2,
             ratio(45_359_237, 100_000_000) * ratio(980_665, 100_000),
         ),
-        "slug" => si(
+        "slug" | "slugs" => si(
             1,
             0,
             0,
             ratio(45_359_237, 100_000_000) * ratio(980_665, 100_000) * ratio(1250, 381),
         ),
+        "kph" => si(0, 1, -1, ratio(5, 18)),
         "mph" => si(0, 1, -1, ratio(1397, 3125)),
         _ => return None,
     })
@@ -563,6 +574,11 @@ mod tests {
             ("MJ", Dimension::new(1, 2, -2), (1_000_000, 1)),
             ("m2", Dimension::new(0, 2, 0), (1, 1)),
             ("ft/s", Dimension::new(0, 1, -1), (381, 1250)),
+            ("kph", Dimension::new(0, 1, -1), (5, 18)),
+            ("kg•m", Dimension::new(1, 1, 0), (1, 1)),
+            ("newton-seconds", Dimension::new(1, 1, -1), (1, 1)),
+            ("meters/second squared", Dimension::new(0, 1, -2), (1, 1)),
+            ("meters cubed", Dimension::new(0, 3, 0), (1, 1)),
         ];
         for (text, dimension, (n, d)) in table {
             let read = unit(text).unwrap_or_else(|fault| panic!("{text}: {}", fault.message));

@@ -72,6 +72,8 @@ pub(crate) fn value(w: &Written, mode: Mode) -> Faulty<Value> {
             match k.and_then(|k| k.numer().as_i64()) {
                 Some(2) => scalar(one(inner, mode)?.sqrt()),
                 Some(k) if k <= 64 => scalar(one(inner, mode)?.power(Expr::ratio(1, k))),
+                // `root(x, n)`
+                _ if index.as_symbol().is_some() => scalar(power(w, inner, index.powi(-1), mode)?),
                 _ => Err(Fault::new(
                     "the index of a root is a whole number from 1 to 64",
                     w.start,

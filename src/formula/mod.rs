@@ -12,6 +12,7 @@ mod convert;
 mod differential;
 mod digits;
 mod fault;
+mod frames;
 mod inverse;
 mod lexer;
 mod measured;
@@ -43,6 +44,7 @@ pub use content::{Content, Join, Quantity, Relation};
 use convert::Value;
 pub use fault::Fault;
 use fault::Faulty;
+pub(crate) use frames::lines_apart;
 pub use note::{Note, Remark};
 use parser::{Parser, Side};
 pub(crate) use sentence::sentence;
@@ -100,7 +102,7 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     {
         return read(&text, symbols);
     }
-    if (held.joins() || held.any("\\") && text.contains("\\\\"))
+    if several::is_likely(text, held)
         && let Some(pair) = several::values(text, symbols)
     {
         return pair;

@@ -1,5 +1,7 @@
 //! Several values or bounds that are said as one: alternatives, lists, sets, intervals and their unions.
 
+use super::frames::{below_each_other, without_braces};
+use super::prose::Held;
 use super::{
     Content, Fault, Join, MAX_BYTES, Reading, Relation, Remark, Symbols, boxed, read_either,
     read_inner,
@@ -9,6 +11,23 @@ use crate::expr::{Expr, Symbol};
 
 /// What lies in an interval that is written without a name, `[0, 1)`.
 pub(crate) const UNNAMED: &str = "·";
+
+/// Signs that join two relations.
+const LOGIC: [&str; 6] = ["∨", "∧", "\\lor", "\\land", "\\vee", "\\wedge"];
+
+/// Whether a text could hold several values or relations; nearly all hold one.
+pub(super) fn is_likely(text: &str, held: Held) -> bool {
+    let command = |at: usize| {
+        let behind = &text[at..];
+        behind.starts_with("\\\\")
+            || behind.starts_with("\\{")
+            || LOGIC.iter().any(|sign| behind.starts_with(sign))
+    };
+    held.joins()
+        || held.any("|:") && held.any("{")
+        || held.any("\x01") && text.contains(['∨', '∧', '∈'])
+        || held.any("\\") && text.match_indices('\\').any(|(at, _)| command(at))
+}
 
 /// Most values or bounds of one text.
 const MOST: usize = 12;
@@ -90,15 +109,28 @@ fn joined(join: Join, mut parts: Vec<Content>) -> Option<Content> {
 
 /// The parts of a union of sets.
 fn pieces(text: &str, [from, stop]: [usize; 2]) -> Vec<[usize; 2]> {
-    const SIGNS: [&str; 4] = ["∪", "\\cup", "\\bigcup", " U "];
+    const SIGNS: [&str; 3] = ["∪", "\\cup", "\\bigcup"];
+    const WORDS: [&str; 3] = ["U", "u", "or"];
     let mut out = Vec::new();
     let mut start = from;
     loop {
         let rest = &text[start..stop];
+        // A letter or a word joins two intervals where it stands between their brackets.
+        let between = |word: &str, at: usize| {
+            let closed = rest[..at].trim_end().ends_with([')', ']', '[']);
+            closed
+                && rest[at + word.len()..]
+                    .trim_start()
+                    .starts_with(['(', ']', '['])
+        };
+        let word = |word: &'static str| {
+            let mut found = rest.match_indices(word).map(|(at, _)| at);
+            Some((found.find(|at| between(word, *at))?, word.len()))
+        };
         let sign = SIGNS
             .iter()
-            .filter_map(|sign| Some((rest.find(sign)?, sign.len())))
-            .min();
+            .filter_map(|sign| Some((rest.find(sign)?, sign.len())));
+        let sign = sign.chain(WORDS.iter().filter_map(|name| word(name))).min();
         let Some((at, length)) = sign else {
             out.push([start, stop]);
             return out;
@@ -136,7 +168,10 @@ fn ends(text: &str, [from, stop]: [usize; 2]) -> Option<Ends> {
     }
     let bounded = |[from, to]: [usize; 2]| {
         let end = text[from..to].trim().trim_start_matches(['+', '-', '−']);
-        !matches!(end.trim(), "∞" | "\\infty" | "inf" | "oo")
+        !matches!(
+            end.trim(),
+            "∞" | "\\infty" | "inf" | "oo" | "infinity" | "\\infin"
+        )
     };
     let [low, high] = [[from, from + comma], [from + comma + 1, to]];
     let (low, high) = (
@@ -155,36 +190,15 @@ fn ends(text: &str, [from, stop]: [usize; 2]) -> Option<Ends> {
     })
 }
 
-/// `{2, 3}` and `x ∈ {2, 3}` with blanks for the braces and an equals sign for that of membership, byte for byte; nothing
-/// where the text is no set.
-fn without_braces(text: &str) -> Option<String> {
-    let (open, close) = (text.find('{')?, text.rfind('}')?);
-    let inside = text.get(open + 1..close)?;
-    if inside.contains(['{', '}']) || !text[close + 1..].trim().is_empty() {
-        return None;
-    }
-    let escaped = inside.ends_with('\\');
-    let before = match (text[..open].strip_suffix('\\'), escaped) {
-        (Some(before), true) => before,
-        (None, false) => &text[..open],
-        _ => return None,
-    };
-    let inside = &inside[..inside.len() - usize::from(escaped)];
-    let named = before.trim_end();
-    let name = ["∈", "\\in", " in"]
-        .iter()
-        .find_map(|sign| named.strip_suffix(sign));
-    let start = match name {
-        Some(name) => format!("{name}{:<1$}", "=", open - name.len() + 1),
-        None if named.is_empty() => " ".repeat(open + 1),
-        None => return None,
-    };
-    Some(format!("{start}{inside}"))
-}
-
 /// Where the parts of a list end and the next begin: `x = 3 or x = -3`, `2, -2`. In a set any comma parts them.
 fn gaps(text: &str, set: bool) -> Vec<(usize, usize)> {
-    const WORDS: [&str; 10] = [
+    const WORDS: [&str; 16] = [
+        "∨",
+        "∧",
+        "\\lor",
+        "\\land",
+        "\\vee",
+        "\\wedge",
         "\\text{ or }",
         "\\text{or}",
         "\\mathrm{or}",
@@ -199,18 +213,21 @@ fn gaps(text: &str, set: bool) -> Vec<(usize, usize)> {
     let mut found: Vec<(usize, usize)> = Vec::new();
     let mut depth = 0i32;
     let mut at = 0;
+    let semicolons = text.contains(';');
+    let begins = |c: char| c.is_alphabetic() || " \\-−±".contains(c);
     while let Some(c) = text[at..].chars().next() {
         let word = WORDS.iter().find(|word| text[at..].starts_with(**word));
         let length = match (word, c) {
             (Some(word), _) if depth == 0 => word.len(),
-            // Behind a comma a sign begins another value: `3,-3`.
+            // Behind a comma a sign or a name begins another value: `3,-3`, `x=1,y=2`.
             (None, ',')
                 if depth == 0
                     && !text[at + 1..].starts_with("\\!")
-                    && (set || text[at + 1..].starts_with([' ', '\\', '-', '−', '±'])) =>
+                    && (set && !semicolons || text[at + 1..].starts_with(begins)) =>
             {
                 1
             }
+            (None, ';') if depth == 0 && set => 1,
             _ => 0,
         };
         if length > 0 {
@@ -246,10 +263,19 @@ pub(super) fn values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fa
     }
     let (start, stop) = boxed(text).ok()?;
     let set = without_braces(&text[start..stop]);
-    let set = set.map(|set| format!("{}{set}", " ".repeat(start)));
     let list = set.is_some();
-    let (text, stop) = set.as_ref().map_or((text, stop), |set| (set, set.len()));
+    let plain = set.or_else(|| below_each_other(&text[start..stop]));
+    let plain = plain.map(|plain| format!("{:start$}{plain}", ""));
+    let (text, stop) = plain
+        .as_ref()
+        .map_or((text, stop), |plain| (plain, plain.len()));
     let gaps = gaps(&text[start..stop], list);
+    if list && gaps.is_empty() {
+        let one = read_either(&text[..stop], start, symbols, 0).ok();
+        return one
+            .filter(|one| matches!(one.content, Content::Relations(..)))
+            .map(Ok);
+    }
     if gaps.is_empty() || symbols.find("or").is_some() || symbols.find("and").is_some() {
         return None;
     }
@@ -269,18 +295,28 @@ pub(super) fn values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fa
         let what = format!("at most {MOST} values or bounds are read");
         return Some(Err(*Fault::new(what, start + first, start + second)));
     }
-    let is_or = gaps
-        .iter()
-        .any(|(end, next)| text[start + end..start + next].contains("or"));
     let notes = parts
         .iter()
         .flat_map(|part| part.notes.iter().cloned())
         .collect();
+    let between = |signs: &[&str]| {
+        let mut gaps = gaps
+            .iter()
+            .map(|(end, next)| &text[start + end..start + next]);
+        gaps.any(|gap| signs.iter().any(|sign| gap.contains(*sign)))
+    };
+    let is_or = between(&["or", "∨", "\\vee"]);
     let (content, unit) = together(&parts, is_or)?;
     // Lines hold results with their names; `a\\b` is a slip of the pen.
-    let lines = gaps
-        .iter()
-        .any(|(end, next)| text[start + end..start + next].contains("\\\\"));
+    let lines = between(&["\\\\"]);
+    // Between vectors ∧ is a product.
+    if between(&LOGIC)
+        && parts
+            .iter()
+            .any(|part| !matches!(part.content, Content::Relations(..)))
+    {
+        return None;
+    }
     if lines && !matches!(content, Content::Joined(..)) {
         return None;
     }

@@ -320,6 +320,7 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
     doubt::turned(key, answer, options, &mut reading, &mut finding);
     doubt::unit_behind(key, answer, options, &mut reading, &mut finding);
     unit::behind(key, &reading, &mut finding);
+    unit::of_relations(key, &reading, &mut finding);
     let settled = finding.note == "EQUIV_READING";
     let open_to_doubt = options.strength == Strength::Identity
         && !settled

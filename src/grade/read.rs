@@ -138,6 +138,14 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         let spaced = formula::read(&text.replace(',', ", "), &key.readable);
         usual = spaced.ok().filter(either).map_or(usual, Ok);
     }
+    // A result in each line, where several are asked.
+    if matches!(key.reading.content, Content::Joined(..))
+        && let Some(spaced) = formula::lines_apart(text)
+        && let Ok(reading) = formula::read(&spaced, &key.readable)
+        && matches!(reading.content, Content::Joined(..))
+    {
+        return worded(key, &spaced, reading);
+    }
     // `r × p`, where the expected formula has arrows over these letters.
     let crossed = match &usual {
         Ok(reading) => reading.notes.iter().any(|n| n.remark == Remark::Cross),

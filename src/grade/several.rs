@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::compare::{Context, Finding, kind, scalars, values};
-use super::{Diagnosis, Verdict, relation, show};
+use super::{Diagnosis, Verdict, relation, show, unit};
 use crate::dimension::Unit;
 use crate::expr::{Expr, Symbol};
 use crate::formula::UNNAMED;
@@ -70,8 +70,10 @@ pub(super) fn joined(ctx: &Context, expected: &Content, reading: &Reading) -> Op
             return unit_missing(ctx, answer)
                 .or_else(|| Some(values(ctx, vector, &components(answer)?)));
         }
-        // `v_1 = 2, v_2 = 3` for `2, 3`
-        (Content::Either(values), _) => {
+        // `v_1 = 2, v_2 = 3` for `2, 3`, and for `v = 2 or v = 3`
+        (Content::Either(values), _) | (_, Content::Either(values))
+            if results(expected).is_none_or(|r| answer_counts(&r, answer)) =>
+        {
             let given = results(answer)?;
             let given: Option<Vec<Expr>> = given.iter().map(|(_, v)| v.expr().cloned()).collect();
             return unit_missing(ctx, answer).or_else(|| Some(lists(ctx, values, &given?)));
@@ -95,6 +97,18 @@ pub(super) fn joined(ctx: &Context, expected: &Content, reading: &Reading) -> Op
     }
 }
 
+/// Whether the names of an answer are the only expected one with a number each, `x_1` and `x_2` for `x`.
+fn answer_counts(expected: &[(Symbol, Content)], answer: &Content) -> bool {
+    let ([(name, _)], Some(answer)) = (expected, results(answer)) else {
+        return false;
+    };
+    let number = |other: &Symbol| {
+        let index = other.strip_prefix(&**name)?.trim_start_matches('_');
+        Some(!index.is_empty() && index.bytes().all(|b| b.is_ascii_digit()))
+    };
+    answer.iter().all(|(other, _)| number(other) == Some(true))
+}
+
 /// A value in SI units, as a quantity where a unit stands behind it or a list with it.
 fn measured(value: &Expr, unit: Option<&Unit>) -> Content {
     match unit {
@@ -116,14 +130,7 @@ fn unit_missing(ctx: &Context, answer: &Content) -> Option<Finding> {
         _ => false,
     };
     let bare = results(answer)?.iter().any(|(_, value)| bare(value));
-    (bare && !unit.dimension.is_none()).then(|| {
-        let words = format!("the unit {} is missing", unit.dimension.si());
-        Finding::different("DIFF_UNIT_MISSING", "dimension", words.clone()).with(Diagnosis::new(
-            "UNIT_MISSING",
-            words,
-            "a unit is missing",
-        ))
-    })
+    (bare && !unit.dimension.is_none()).then(|| unit::missing(&unit.dimension.si()))
 }
 
 /// A content that says of something without a name what the other says of its symbol.
@@ -158,12 +165,15 @@ fn subject(content: &Content, bounds: &BTreeSet<Symbol>) -> Option<Symbol> {
     everywhere.or(only).cloned()
 }
 
-/// `v_x = 3, v_y = 4` as a vector.
+/// `v_x = 3, v_y = 4` or `x = 3, y = 4` as a vector.
 fn components(content: &Content) -> Option<Content> {
     let results = results(content)?;
-    let stem = results.first()?.0.rsplit_once('_')?.0;
+    let stem = results.first()?.0.rsplit_once('_').map(|(stem, _)| stem);
     let along = |axis: &str| {
-        let of = |name: &Symbol| name.rsplit_once('_') == Some((stem, axis));
+        let of = |name: &Symbol| match stem {
+            Some(stem) => name.rsplit_once('_') == Some((stem, axis)),
+            None => **name == *axis,
+        };
         results
             .iter()
             .find(|(name, _)| of(name))

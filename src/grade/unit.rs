@@ -1,8 +1,10 @@
 //! Units of answers: missing, wrong, compatible, in excess, or standing behind a formula that carries its own.
 
+use std::collections::BTreeMap;
+
 use super::compare::{Context, Finding, scalars};
 use super::{Diagnosis, Key, Proof, Tolerance, Verdict};
-use crate::dimension::{self, Dimension, Unit};
+use crate::dimension::{self, Clash, Dimension, Unit};
 use crate::expr::Expr;
 use crate::formula::{self, Content, Quantity, Reading, write_plain};
 
@@ -32,9 +34,7 @@ pub(super) fn behind(key: &Key, reading: &Reading, finding: &mut Finding) {
             && constant
             && !zero
         {
-            let words = format!("the unit {} is missing", needed.dimension.si());
-            *finding = Finding::different("DIFF_UNIT_MISSING", "dimension", words.clone())
-                .with(Diagnosis::new("UNIT_MISSING", words, "a unit is missing"));
+            *finding = missing(&needed.dimension.si());
         }
         return;
     };
@@ -54,6 +54,68 @@ pub(super) fn behind(key: &Key, reading: &Reading, finding: &mut Finding) {
             *finding = extra(&unit.dimension.si(), false)
         }
         _ => {}
+    }
+}
+
+/// Relations that would be right but for a number without its unit, or with another: `v > 2` for `v > 2 m/s`. What stands alone
+/// beside a quantity in the expected relations has its dimension.
+pub(super) fn of_relations(key: &Key, reading: &Reading, finding: &mut Finding) {
+    let mut known = BTreeMap::new();
+    each_chain(&key.reading.content, &mut |sides| {
+        let measured = sides.iter().find_map(dimension_of);
+        let names = sides.iter().filter_map(|side| side.expr()?.as_symbol());
+        if let Some(dimension) = measured {
+            known.extend(names.map(|name| (name.to_string(), dimension.clone())));
+        }
+    });
+    if finding.verdict != Verdict::Equivalent || known.is_empty() {
+        return;
+    }
+    let mut clash = None;
+    each_chain(&reading.content, &mut |sides| {
+        let dimension = |side: &Content| match side {
+            Content::Quantity(q) => Some(q.unit.dimension.clone()),
+            other => dimension::of(other.expr()?, &|name| known.get(name).cloned()).ok()?,
+        };
+        let sum = |side: &Content| {
+            let found = dimension::of(side.expr()?, &|name| known.get(name).cloned());
+            let Clash::Sum {
+                left_is, right_is, ..
+            } = *found.err()?
+            else {
+                return None;
+            };
+            Some([left_is, right_is])
+        };
+        let all: Vec<Dimension> = sides.iter().filter_map(dimension).collect();
+        let apart = all.iter().find(|other| **other != all[0]);
+        let apart = apart.map(|other| [all[0].clone(), other.clone()]);
+        clash = clash
+            .take()
+            .or(apart)
+            .or_else(|| sides.iter().find_map(sum));
+    });
+    let Some(parts) = clash else { return };
+    *finding = match parts.iter().position(Dimension::is_none) {
+        Some(bare) => missing(&parts[1 - bare].si()),
+        None => wrong(&parts[0], &parts[1], &parts[1].si(), false),
+    };
+}
+
+/// The sides of every chain of relations in a content.
+fn each_chain(content: &Content, visit: &mut dyn FnMut(&[Content])) {
+    match content {
+        Content::Relations(sides, _) => visit(sides),
+        Content::Joined(_, parts) => parts.iter().for_each(|part| each_chain(part, visit)),
+        _ => {}
+    }
+}
+
+/// The dimension of a quantity that is no plain number.
+fn dimension_of(side: &Content) -> Option<Dimension> {
+    match side {
+        Content::Quantity(q) => Some(&q.unit.dimension).filter(|d| !d.is_none()).cloned(),
+        _ => None,
     }
 }
 
@@ -80,6 +142,16 @@ pub(super) fn metres(key: &Key, reading: &mut Reading) {
         quantity.value = &quantity.written * &unit.value();
         quantity.unit = unit;
     }
+}
+
+/// The finding where a number stands without a unit.
+pub(super) fn missing(unit: &str) -> Finding {
+    let words = format!("the unit {unit} is missing");
+    Finding::different("DIFF_UNIT_MISSING", "dimension", words.clone()).with(Diagnosis::new(
+        "UNIT_MISSING",
+        words,
+        "a unit is missing",
+    ))
 }
 
 fn is_coherent(unit: &Unit) -> bool {

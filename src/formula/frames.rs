@@ -1,0 +1,104 @@
+//! What stands around several values, taken off: braces of a set, the brace of a system, lines.
+
+/// `{2, 3}` and `x ∈ {2, 3}` with blanks for the braces and an equals sign for that of membership, byte for byte; nothing
+/// where the text is no set.
+pub(super) fn without_braces(text: &str) -> Option<String> {
+    let text = text.replace("\\mathbb{R}", "ℝ       ");
+    let (open, close) = (text.find('{')?, text.rfind('}')?);
+    let inside = text.get(open + 1..close)?;
+    if inside.contains(['{', '}']) || !text[close + 1..].trim().is_empty() {
+        return None;
+    }
+    let escaped = inside.ends_with('\\');
+    let before = match (text[..open].strip_suffix('\\'), escaped) {
+        (Some(before), true) => before,
+        (None, false) => &text[..open],
+        _ => return None,
+    };
+    let inside = &inside[..inside.len() - usize::from(escaped)];
+    let named = before.trim_end();
+    let name = ["∈", "\\in", " in"]
+        .iter()
+        .find_map(|sign| named.strip_suffix(sign));
+    if let Some(condition) = behind_bar(inside).filter(|_| named.is_empty()) {
+        return Some(format!(
+            "{:1$}{condition}",
+            "",
+            open + 1 + inside.len() - condition.len()
+        ));
+    }
+    let start = match name {
+        Some(name) => format!("{name}{:<1$}", "=", open - name.len() + 1),
+        None if named.is_empty() || is_set_name(named) => " ".repeat(open + 1),
+        None => return None,
+    };
+    Some(format!("{start}{inside}"))
+}
+
+/// Whether a set is called by what stands before it: `S =`, `\mathbb{L} =`.
+fn is_set_name(before: &str) -> bool {
+    let name = before.strip_suffix('=').map(str::trim_end);
+    matches!(name, Some("S" | "L" | "\\mathbb{L}" | "\\mathbb L" | "𝕃"))
+}
+
+/// The condition in `x | x > 3`, `x \mid x > 3` and `x ∈ ℝ : x > 3`.
+fn behind_bar(inside: &str) -> Option<&str> {
+    const NUMBERS: [&str; 4] = ["R", "ℝ", "\\mathbb R", "\\R"];
+    let (name, condition) = ["\\mid", ":", "|"]
+        .iter()
+        .find_map(|bar| inside.split_once(*bar))?;
+    let set = ["∈", "\\in"].iter().find_map(|sign| name.split_once(*sign));
+    let (name, real) = set.map_or((name, true), |(name, of)| {
+        (name, NUMBERS.contains(&of.trim()))
+    });
+    let name = name.trim();
+    let first = name.starts_with(|c: char| c.is_alphabetic() || c == '\\');
+    let plain = |c: char| c.is_alphanumeric() || "_\\{}".contains(c);
+    let again = condition.contains(name) && condition.contains(['<', '>', '≤', '≥', '=', '\\']);
+    (real && first && name.chars().all(plain) && again).then_some(condition)
+}
+
+/// Equations below each other behind a brace, with blanks for what lays them out, byte for byte.
+pub(super) fn below_each_other(text: &str) -> Option<String> {
+    const FRAMES: [[&str; 2]; 3] = [
+        ["\\begin{cases}", "\\end{cases}"],
+        ["\\left\\{\\begin{array}{l}", "\\end{array}\\right."],
+        ["\\left\\{\\begin{aligned}", "\\end{aligned}\\right."],
+    ];
+    let around = |c: char| c.is_whitespace() || c == '$';
+    let inside = |[open, close]: &[&str; 2]| {
+        let inside = text.trim_matches(around).strip_prefix(open)?;
+        inside.strip_suffix(close)
+    };
+    let inside = FRAMES.iter().find_map(inside)?;
+    let mut marks = inside.split('&').skip(1);
+    let aligned = marks.all(|behind| {
+        behind
+            .trim_start()
+            .starts_with(['=', '<', '>', '≤', '≥', '\\'])
+    });
+    let start = text.find(inside)?;
+    let end = text.len() - start - inside.len();
+    aligned.then(|| format!("{:start$}{}{:end$}", "", inside.replace('&', " "), ""))
+}
+
+/// A text of several lines with signs between them, as `x = 1, y = 2` has.
+pub(crate) fn lines_apart(text: &str) -> Option<String> {
+    let text = text.trim();
+    let framed = |name: &str| {
+        let inside = text.strip_prefix(&format!("\\begin{{{name}}}"))?;
+        inside.strip_suffix(&format!("\\end{{{name}}}"))
+    };
+    if let Some(inside) = ["aligned", "align", "align*", "gathered"]
+        .iter()
+        .find_map(|n| framed(n))
+    {
+        return Some(inside.replace('&', " "));
+    }
+    let lines: Vec<&str> = text
+        .lines()
+        .map(str::trim)
+        .filter(|line| !line.is_empty())
+        .collect();
+    (lines.len() > 1).then(|| lines.join("; "))
+}
