@@ -177,11 +177,15 @@ impl Symbols {
         !self.bases.is_empty() && self.bases.contains(word)
     }
 
-    /// Whether a word is a declared name only by an index that runs into it, and one of its letters is a name by itself: then
-    /// it is a product.
+    /// Whether a word is a declared name only by an index that runs into it, and one of its letters is a name by itself, or both
+    /// where nothing else may occur: then it is a product.
     pub(crate) fn is_product(&self, word: &str) -> bool {
         let letter = |at: usize| self.find(&word[at..=at]).is_some();
-        self.joined.contains(word) && (letter(0) || letter(1))
+        self.joined.contains(word)
+            && match self.open {
+                true => letter(0) || letter(1),
+                false => letter(0) && letter(1),
+            }
     }
 
     /// The declared name that looks most like `name`, when one is near.

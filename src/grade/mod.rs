@@ -21,6 +21,7 @@ pub mod sheet;
 pub mod steps;
 mod unit;
 mod verdict;
+mod worked;
 
 use crate::dimension::Dimension;
 use crate::domain::{Domain, Domains};
@@ -307,6 +308,13 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         && let Some(fault) = doubt::unclear_slash(answer, &reading)
     {
         return unreadable(fault);
+    }
+    if let Some(parts) = worked::worked(key, answer, &reading) {
+        let mut grade = judge_here(key, parts.formula, options);
+        if grade.verdict == Verdict::Equivalent {
+            parts.unjudged(key, &mut grade);
+        }
+        return grade;
     }
     unit::metres(key, &mut reading);
     let names = key.question.symbols.iter().map(|g| &g.name);

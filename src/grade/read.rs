@@ -14,6 +14,11 @@ use crate::formula::{self, Content, Fault, Note, Reading, Remark, Symbols};
 /// Quantities of mechanics that students bring in although a collision does not know them.
 const STRANGERS: [&str; 6] = ["g", "t", "mu", "h", "dt", "F"];
 
+/// Whether a name is read although nobody declared it.
+pub(super) fn is_stranger(name: &Symbol) -> bool {
+    STRANGERS.contains(&&**name)
+}
+
 /// Reads an expected formula; numbers in round brackets are components there.
 pub(super) fn expected(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     let reading = formula::read(text, symbols).or_else(|fault| {
@@ -214,7 +219,7 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         return formula::read(text, &symbols).map_err(|_| fault);
     }
     let left = first(&reading.content);
-    let strange = |name: &Symbol| STRANGERS.contains(&&**name) || left.as_ref() == Some(name);
+    let strange = |name: &Symbol| is_stranger(name) || left.as_ref() == Some(name);
     let split = reading.notes.iter().any(|n| n.remark == Remark::Letters);
     let named_quantity = measured && left.is_some();
     if !split
@@ -442,7 +447,7 @@ fn worded(key: &Key, text: &str, reading: Reading) -> Result<Reading, Fault> {
         let letters = text.get(note.start..note.end).unwrap_or_default();
         let strange = |c: &char| {
             let name = Symbol::from(c.to_string().as_str());
-            !declared(key, &name) && !STRANGERS.contains(&&*name)
+            !declared(key, &name) && !is_stranger(&name)
         };
         if letters.chars().filter(strange).count() > 1 {
             let before = text.get(..note.start).unwrap_or_default();

@@ -3,6 +3,7 @@
 mod earlier;
 
 use super::believed::{self, Believed, Story, Written};
+use super::worked::worked;
 use super::{
     Diagnosis, Given, Grade, Key, Options, Question, Strength, Tolerance, Verdict, judge_against,
     key_of,
@@ -240,7 +241,31 @@ impl Sheet {
         grade
     }
 
+    /// The grade of a formula with its number behind it: that of the formula, and where it is right that of the number.
+    fn judge_worked(&self, entry: &Entry, answer: &str, options: &Options) -> Option<Grade> {
+        let reading = super::read::answer(&entry.key, answer).ok()?;
+        let parts = worked(&entry.key, answer, &reading)?;
+        let mut grade = self.judge_in_given(entry, parts.formula, options);
+        if grade.verdict != Verdict::Equivalent {
+            return Some(grade);
+        }
+        match self.numeric(entry, &parts.reading, parts.number, options) {
+            Some((mut number, _)) if number.verdict != Verdict::Equivalent => {
+                let words = "the formula is right, and its number is not";
+                let diagnosis = Diagnosis::new("NUMBER", words, "put the values in once more");
+                number.diagnosis.insert(0, diagnosis);
+                return Some(number);
+            }
+            Some(_) => {}
+            None => parts.unjudged(&entry.key, &mut grade),
+        }
+        Some(grade)
+    }
+
     fn judge_in_given(&self, entry: &Entry, answer: &str, options: &Options) -> Grade {
+        if let Some(grade) = self.judge_worked(entry, answer, options) {
+            return grade;
+        }
         let sensed = in_words(&entry.question.ask, answer);
         let answer = sensed.as_deref().unwrap_or(answer);
         let along = super::read::answer(&entry.key, answer)

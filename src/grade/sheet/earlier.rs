@@ -14,7 +14,7 @@ impl Sheet {
         entry: &Entry,
         answer: &str,
     ) -> Option<(String, Vec<String>)> {
-        read::answer(&entry.key, answer).err()?;
+        let alone = read::answer(&entry.key, answer);
         let asked = self.scene.questions.iter();
         let before = asked.take_while(|q| q.name != entry.question.name);
         let of = |name: &str| {
@@ -27,6 +27,11 @@ impl Sheet {
             .filter_map(|q| of(&q.name).filter(|a| a.name == q.name))
             .filter_map(|a| Some((Symbol::from(a.name.as_str()), a.formula()?.clone())))
             .collect();
+        // A time that was asked for is no stranger.
+        let named = |name: &Symbol| read::is_stranger(name) && values.contains_key(name);
+        if alone.is_ok_and(|reading| !reading.symbols().iter().any(named)) {
+            return None;
+        }
         let mut question = entry.key.question.clone();
         let names = values.keys().cloned().map(|name| Given {
             name,
