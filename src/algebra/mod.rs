@@ -35,6 +35,9 @@ mod zeros;
 
 use std::fmt;
 
+use crate::domain::Domains;
+use crate::expr::Expr;
+
 pub use element::Element;
 pub use field::{Assumption, Field};
 pub use powers::Powers;
@@ -63,6 +66,14 @@ impl fmt::Display for Stop {
 }
 
 impl std::error::Error for Stop {}
+
+/// The expression as a person would write it.
+pub fn tidy(e: &Expr, domains: &Domains) -> Result<Expr, Stop> {
+    let mut field = Field::new(domains);
+    field.prepare([e]);
+    let x = field.element(e)?;
+    Ok(field.expr(&x))
+}
 
 /// A sign that holds at every point of the domain.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

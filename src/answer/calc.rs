@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use num_integer::Integer;
 
 use super::Check;
+pub use crate::algebra::tidy;
 use crate::algebra::{Element, Field, Powers, Sign, Stop};
 use crate::domain::{Domain, Domains, Relation, roles, samples};
 use crate::expr::{Expr, Function, Node, Point, Symbol};
@@ -60,14 +61,6 @@ impl Seen {
 pub fn by_signs(kind: &'static str, words: &str, proved: bool) -> Check {
     let how = if proved { "proved" } else { "seen at points" };
     Check::new(kind, words.replace("{how}", how), proved.then_some(true))
-}
-
-/// The expression as a person would write it.
-pub fn tidy(e: &Expr, domains: &Domains) -> Result<Expr, Stop> {
-    let mut field = Field::new(domains);
-    field.prepare([e]);
-    let x = field.element(e)?;
-    Ok(field.expr(&x))
 }
 
 /// The same as the root of its square where it is positive and that is shorter, which opens nested roots.

@@ -35,7 +35,9 @@ impl Work<'_> {
         }
         Ok(match self.field.sign(&determinant) {
             Some(Sign::Positive | Sign::Negative) => Vec::new(),
-            _ => vec![self.field.expr(&determinant)],
+            _ => vec![self.hangs_on(&determinant, |s| {
+                matches!(s, Sign::Positive | Sign::Negative)
+            })],
         })
     }
 
@@ -62,15 +64,23 @@ impl Work<'_> {
             if self.field.sign(&element).is_some_and(Sign::is_not_negative) {
                 continue;
             }
-            let shown = self.field.expr(&element);
-            let factors = match shown.node() {
-                Node::Product(factors) => factors.clone(),
-                _ => vec![shown],
-            };
-            let hangs_on = factors.into_iter().filter(|f| !self.is_positive(f));
-            open.push(Expr::product(hangs_on));
+            open.push(self.hangs_on(&element, |s| s == Sign::Positive));
         }
         open
+    }
+
+    /// The factors of a value on which a condition hangs: those without a sign that settles it.
+    fn hangs_on(&mut self, value: &Element, settles: impl Fn(Sign) -> bool) -> Expr {
+        let shown = self.field.expr(value);
+        let factors = match shown.node() {
+            Node::Product(factors) => factors.clone(),
+            _ => vec![shown],
+        };
+        let open = factors.into_iter().filter(|f| {
+            let sign = self.field.element(f).ok().and_then(|x| self.field.sign(&x));
+            !sign.is_some_and(&settles)
+        });
+        Expr::product(open)
     }
 
     fn is_positive(&mut self, e: &Expr) -> bool {

@@ -27,7 +27,7 @@ pub use eval::{Point, Scalar};
 pub use function::Function;
 pub use number::{Int, Rational, ratio};
 pub use table::Table;
-pub use vector::{Vector, cross, dot, minus};
+pub use vector::{Vector, cross, dot, minus, plus};
 
 /// The name of a symbol as the scene writes it, such as `m1`, `theta` or `v_G`.
 pub type Symbol = Arc<str>;

@@ -19,3 +19,8 @@ pub fn dot(a: &Vector, b: &Vector) -> Expr {
 pub fn minus(a: &Vector, b: &Vector) -> Vector {
     [&a[0] - &b[0], &a[1] - &b[1]]
 }
+
+/// The sum a + b.
+pub fn plus(a: &Vector, b: &Vector) -> Vector {
+    [&a[0] + &b[0], &a[1] + &b[1]]
+}

@@ -227,10 +227,9 @@ fn hinged(scene: &Scene, hinge: &Hinge) -> Tried {
                     "before the collision `{a}` and `{b}` move differently at the hinge `{name}`{}",
                     at(&point)
                 );
-                let hint = format!(
-                    "a body that turns about it has \"velocity\": {{\"about\": \"{name}\"}} and a `spin`"
-                );
-                return Tried::Refuted(message, hint);
+                let hint =
+                    "with `velocity` left out, a body with its `spin` moves as its hinges do";
+                return Tried::Refuted(message, hint.into());
             }
             Zero::Unknown => {
                 let remark = format!(

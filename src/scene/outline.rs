@@ -7,7 +7,7 @@
 //! `body` have no outline. Nothing here knows of velocities.
 
 use super::{Body, Shape, geometry};
-use crate::expr::{Expr, Point, Vector, cross, dot, minus};
+use crate::expr::{Expr, Point, Vector, cross, dot, minus, plus};
 
 /// A piece of an outline.
 #[derive(Clone, Debug)]
@@ -283,10 +283,6 @@ fn across(along: &Vector) -> Vector {
 
 fn scaled(v: &Vector, k: &Expr) -> Vector {
     [&v[0] * k, &v[1] * k]
-}
-
-fn plus(a: &Vector, b: &Vector) -> Vector {
-    [&a[0] + &b[0], &a[1] + &b[1]]
 }
 
 fn ends(middle: &Vector, along: &Vector, half: &Expr) -> [Vector; 2] {

@@ -6,18 +6,19 @@
 use std::collections::HashMap;
 
 use super::body::{Solid, SolidReader};
-use super::body_file::{ShapeName, VelocityFile};
+use super::body_file::{BodyFile, ShapeName, VelocityFile};
 use super::check::{Claim, Claimed, check, unused};
 use super::fault::{Fault, TOLD};
 use super::file::SceneFile;
 use super::formulas::{Quantity, Symbols};
-use super::geometry;
+use super::geometry::turned;
 use super::place::Place;
 use super::record::{Map, Text};
 use super::{
     Blow, BlowImpulse, Body, Force, Hinge, NamedPoint, Scene, Shape, parameters, plots, questions,
 };
-use crate::expr::{Expr, Vector, minus};
+use crate::algebra;
+use crate::expr::{Expr, Vector, minus, plus};
 use crate::formula::near::nearest;
 
 /// Most bodies, points or questions a scene may have.
@@ -195,6 +196,7 @@ impl<'f> Resolver<'f> {
                 });
             }
         }
+        self.move_with_hinges(scene);
         for (name, contact) in entries(file.contacts.as_ref()) {
             self.contact(name, contact, scene);
         }
@@ -245,6 +247,61 @@ impl<'f> Resolver<'f> {
         }
     }
 
+    /// Lets hinged bodies without a velocity of their own move as their hinges do: v_G = v_A + ω k × r_G/A, from one body to
+    /// the next. In a scene with stages the hinges of its first impact say so, where that is how it begins.
+    fn move_with_hinges(&mut self, scene: &mut Scene) {
+        let file = self.file;
+        let first = file
+            .stages
+            .as_ref()
+            .and_then(|s| s.first()?.impact.as_ref());
+        let begins = first.and_then(|impact| impact.hinges.as_ref());
+        let mut hinges: Vec<([usize; 2], Vector)> = Vec::new();
+        for (_, hinge) in entries(begins) {
+            let named = |name: &Text| self.find_body(&name.text);
+            if let [Some(a), Some(b)] =
+                [named(&hinge.bodies.items[0]), named(&hinge.bodies.items[1])]
+                && let Some(at) = self.position(&hinge.at)
+            {
+                hinges.push(([a, b], at));
+            }
+        }
+        hinges.extend(scene.hinges.iter().map(|h| (h.bodies, h.at.clone())));
+        let told = |(_, entry): &(Text, Option<BodyFile>)| {
+            entry
+                .as_ref()
+                .is_none_or(|b| b.velocity.is_some() || b.shape == ShapeName::Fixed)
+        };
+        let mut moves: Vec<bool> = file.bodies.0.iter().map(told).collect();
+        while let Some(waiting) = hinges
+            .iter()
+            .flat_map(|(pair, _)| pair)
+            .find(|b| !moves[**b])
+        {
+            let next = hinges
+                .iter()
+                .find_map(|([a, b], at)| match [moves[*a], moves[*b]] {
+                    [true, false] => Some((*a, *b, at)),
+                    [false, true] => Some((*b, *a, at)),
+                    _ => None,
+                });
+            // The first of bodies hinged to each other alone is at rest.
+            let Some((known, other, at)) = next else {
+                moves[*waiting] = true;
+                continue;
+            };
+            let [known, body] = [known, other].map(|b| &scene.bodies[b]);
+            let there = plus(
+                &known.velocity,
+                &turned(&known.spin, &minus(at, &known.center)),
+            );
+            let on = turned(&body.spin, &minus(&body.center, at));
+            scene.bodies[other].velocity =
+                plus(&there, &on).map(|v| algebra::tidy(&v, &scene.domains).unwrap_or(v));
+            moves[other] = true;
+        }
+    }
+
     /// The body as the scene holds it. Of a body that cannot be read only the name is right, and a fault tells.
     fn body(&mut self, i: usize) -> Body {
         let (name, entry) = &self.file.bodies.0[i];
@@ -292,7 +349,7 @@ impl<'f> Resolver<'f> {
                     self.faults.push(fault.hint("give its velocity as [x, y]"));
                 }
                 self.position(&turn.about)
-                    .map(|about| geometry::turned(&body.spin, &minus(&body.center, &about)))
+                    .map(|about| turned(&body.spin, &minus(&body.center, &about)))
             }
         };
         body.velocity = velocity.unwrap_or_else(origin);
