@@ -177,15 +177,20 @@ impl Writer<'_> {
             let still = self.stands(link.to, link.at);
             let mut math = vec![name("v", &c, "+", true), Math::Op("=")];
             let there = words::at(self.scene, link.at);
-            let lead = if still && self.scene.bodies[b].is_particle() {
-                format!("Just after, {whom} is at rest at {there}:")
+            let body = &self.scene.bodies[b];
+            let hinged = matches!(link.at, Place::Hinge(_));
+            let moved = !body.velocity.iter().chain([&body.spin]).all(Expr::is_zero);
+            let when = match hinged && moved {
+                true => "Just after, as just before,",
+                false => "Just after,",
+            };
+            let lead = if still && body.is_particle() {
+                format!("{when} {whom} is at rest at {there}:")
             } else if still {
-                format!("Just after, {whom} turns about {there}:")
+                format!("{when} {whom} turns about {there}:")
             } else {
-                format!(
-                    "Just after, {whom} moves with {} at {there}:",
-                    words::body(self.scene, link.to)
-                )
+                let to = words::body(self.scene, link.to);
+                format!("{when} {whom} moves with {to} at {there}:")
             };
             if !still {
                 math.push(name("v", &at, "+", true));
