@@ -97,6 +97,12 @@ impl Symbols {
         out
     }
 
+    /// Takes over what other symbols have used and what is to be told of them.
+    pub fn absorb(&mut self, other: &Symbols) {
+        self.used.borrow_mut().extend(other.used());
+        self.remarks.borrow_mut().extend(other.remarks());
+    }
+
     /// Takes in a name with each of these endings, of unknown dimension.
     pub fn add(&mut self, name: &str, endings: &[&str]) {
         for ending in endings {

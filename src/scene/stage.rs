@@ -1,8 +1,8 @@
 //! Stages that hand the motion on. Types only.
 //!
 //! Every stage carries a [`Scene`] with the bodies as they are when it begins. A stage that follows another does not know
-//! where that is: its formulas hold symbols for the places, [`Stage::places`], and each of the two ways puts in what it
-//! has found, [`Stage::placed`].
+//! where that is: its formulas hold symbols for the places, [`Stage::places`], and for answers to stages before it,
+//! [`Stage::earlier`], and each of the two ways puts in what it has found, [`Stage::placed`].
 
 use std::collections::BTreeMap;
 
@@ -23,6 +23,8 @@ pub struct Stage {
     /// Symbols for center x, y and angle of each body at the beginning, by index of body; empty for a stage that begins as
     /// the file says.
     pub places: Vec<[Symbol; 3]>,
+    /// Names of answers to earlier stages that its formulas hold.
+    pub earlier: Vec<Symbol>,
     /// The bodies at the beginning; of an impact also its hinges, contacts and blows. Its questions are those about the
     /// end of this stage. Velocities are those of the file and mean nothing after another stage.
     pub scene: Scene,
@@ -40,20 +42,31 @@ impl Stage {
                 supposed: None,
             },
             places: Vec::new(),
+            earlier: Vec::new(),
             scene: scene.clone(),
         }
     }
 
-    /// The stage with what is known of the places put in; a symbol without a value stays.
+    /// The stage with what is known of the places and of earlier answers put in; a symbol without a value stays.
     pub fn placed(&self, values: &BTreeMap<Symbol, Expr>) -> Stage {
         let mut out = self.clone();
-        if values.is_empty() {
-            return out;
+        if !values.is_empty() {
+            out.formulas_mut(&mut |e| *e = e.substitute(values));
         }
-        let mut put = |e: &mut Expr| *e = e.substitute(values);
-        out.kind.formulas_mut(&mut put);
-        out.scene.geometry_mut(&mut put);
         out
+    }
+
+    /// Every formula of what happens, where bodies are, and how they start.
+    pub(super) fn formulas_mut(&mut self, put: &mut impl FnMut(&mut Expr)) {
+        self.kind.formulas_mut(put);
+        self.scene.geometry_mut(put);
+        for (_, velocity, spin) in &mut self.start {
+            velocity
+                .iter_mut()
+                .flatten()
+                .chain(spin)
+                .for_each(&mut *put);
+        }
     }
 
     /// What a question about the end of this stage asks, with the places known here.
@@ -115,8 +128,13 @@ impl Scene {
             at.iter_mut()
                 .chain(normal.iter_mut().flatten())
                 .for_each(&mut *put);
-            if let ContactLaw::Frictionless { restitution } = law {
-                put(restitution);
+            match law {
+                ContactLaw::Frictionless { restitution } => put(restitution),
+                ContactLaw::Friction(friction) => {
+                    put(&mut friction.mu);
+                    put(&mut friction.restitution);
+                }
+                _ => {}
             }
         }
         for blow in &mut self.blows {

@@ -6,7 +6,8 @@ use super::place_file::{DirectionFile, PositionFile};
 use super::record::{Formula, Map, Pair, Text, choice, record};
 
 record! {
-    /// A stage: exactly one of impact, turn, slide, fall, wind and linkage.
+    /// A stage: exactly one of impact, turn, slide, fall, wind and linkage. Its formulas may hold the names of answers to
+    /// stages before it.
     StageFile {
         /// Name, by which questions and later stages refer to it.
         name: Text,

@@ -425,8 +425,18 @@ pub fn course(scene: &Scene) -> Result<Told, Refused> {
     let mut ended = Vec::new();
     for stage in &scene.stages {
         let mut mine = Vec::new();
-        for (branch, before, given) in beginnings(stage, &stages, &told_as) {
-            let mut placed = stage.placed(&before.places(stage));
+        for (branch, mut before, given) in beginnings(stage, &stages, &told_as) {
+            let mut known = before.places(stage);
+            for name in &stage.earlier {
+                match answer::earlier(scene, &stages, branch, name)? {
+                    Ok(value) => _ = known.insert(name.clone(), value),
+                    Err(why) => _ = before.open.insert(name.clone(), why),
+                }
+            }
+            let mut placed = stage.placed(&known);
+            if stage.from.is_none() && !stage.earlier.is_empty() {
+                before = start(&placed.scene, &placed.start);
+            }
             for open in before.open.keys() {
                 placed
                     .scene

@@ -9,7 +9,7 @@ use super::impact::velocity_at;
 use super::{
     BodyState, Component, Course, Followed, Impact, Impulse, Lost, Open, Passed, What, kinetic,
 };
-use crate::expr::{Point, Vector};
+use crate::expr::{Point, Symbol, Vector};
 use crate::numeric::Answer;
 use crate::numeric::given::{Freedom, Undefined, vector};
 use crate::numeric::number::{cross, dot};
@@ -47,6 +47,35 @@ impl From<Open> for Unanswered {
     }
 }
 
+/// The number that the name of an answer stands for in a formula: of a question about a stage that was followed, of a
+/// component of its vector, or of a formula of such answers.
+pub(super) fn named(
+    scene: &Scene,
+    followed: &Followed,
+    name: &Symbol,
+    values: &Point<f64>,
+) -> Option<f64> {
+    let question = scene.answering(name)?;
+    if let Ask::Value { formula, .. } = &question.ask {
+        let mut values = values.clone();
+        for part in formula.symbols() {
+            if !values.values.contains_key(&part)
+                && let Some(value) = named(scene, followed, &part, &values)
+            {
+                values.values.insert(part, value);
+            }
+        }
+        return formula.evaluate(&values);
+    }
+    if question.stage? >= followed.stages.len() {
+        return None;
+    }
+    match answer(scene, followed, question, values).ok()? {
+        Answer::Scalar(value) => Some(value),
+        Answer::Vector(v) => Some(v[usize::from(name.ends_with("_y"))]),
+    }
+}
+
 /// The number or vector that a question about a stage asks for, or about the one impact of a scene without stages.
 pub fn answer(
     scene: &Scene,
@@ -63,7 +92,8 @@ pub fn answer(
         Err(lost) => return Err(Unanswered::Lost(lost.clone())),
     };
     let before = &passed.before;
-    let values = super::at_places(stage, before, &super::with_angles(values));
+    let values = super::with_earlier(scene, followed, stage, &super::with_angles(values));
+    let values = super::at_places(stage, before, &values);
     let course = Course {
         name: &stage.name,
         scene: &stage.scene,

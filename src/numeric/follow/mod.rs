@@ -108,11 +108,15 @@ pub fn follow(scene: &Scene, values: &Point<f64>) -> Result<Followed, Undefined>
     let values = with_angles(values);
     let start = start(scene, &solids, &values)?;
     let course = scene.course();
-    let mut stages: Vec<Result<Passed, Lost>> = Vec::new();
+    let mut followed = Followed {
+        solids,
+        stages: Vec::new(),
+    };
     for stage in course.iter() {
+        let values = with_earlier(scene, &followed, stage, &values);
         let before = match stage.from {
             None => changed(stage, &start, &values),
-            Some(j) => match &stages[j] {
+            Some(j) => match &followed.stages[j] {
                 Ok(passed) => Ok(passed.after.clone()),
                 Err(_) => Err(Lost {
                     stage: stage.name.clone(),
@@ -120,13 +124,30 @@ pub fn follow(scene: &Scene, values: &Point<f64>) -> Result<Followed, Undefined>
                 }),
             },
         };
-        let mut passed = before.and_then(|before| one(stage, &solids, before, &values));
+        let solids = &followed.solids;
+        let mut passed = before.and_then(|before| one(stage, solids, before, &values));
         if let Ok(passed) = &mut passed {
-            passed.passing = passage::passing(scene, &solids, &values, passed);
+            passed.passing = passage::passing(scene, solids, &values, passed);
         }
-        stages.push(passed);
+        followed.stages.push(passed);
     }
-    Ok(Followed { solids, stages })
+    Ok(followed)
+}
+
+/// Values of the parameters, and of the answers to earlier stages that a stage uses.
+fn with_earlier(
+    scene: &Scene,
+    followed: &Followed,
+    stage: &Stage,
+    values: &Point<f64>,
+) -> Point<f64> {
+    let mut out = values.clone();
+    for name in &stage.earlier {
+        if let Some(value) = answer::named(scene, followed, name, values) {
+            out.values.insert(name.clone(), value);
+        }
+    }
+    out
 }
 
 /// Values of the parameters, and of the places of a stage that begins like this.
@@ -174,10 +195,10 @@ pub fn symbols(scene: &Scene) -> BTreeSet<Symbol> {
         }
         stage.kind.clone().formulas_mut(&mut |e| add(e));
     }
-    let places = course.iter().flat_map(|s| s.places.iter().flatten());
-    places.for_each(|symbol| {
-        out.remove(symbol);
-    });
+    for stage in course.iter() {
+        let found = stage.places.iter().flatten().chain(&stage.earlier);
+        found.for_each(|symbol| _ = out.remove(symbol));
+    }
     out
 }
 

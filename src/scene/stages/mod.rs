@@ -3,6 +3,7 @@
 //! In: the records of [`crate::scene::stage_file`]. Out: the stages of the scene, or faults. Where bodies are after another stage is
 //! found out by [`crate::story`] and by [`crate::numeric`], each for itself; here symbols stand for it.
 
+mod earlier;
 mod kind;
 mod seen;
 
@@ -108,6 +109,11 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     let composed: Vec<SceneFile> = (0..stages.len())
         .map(|i| composed(file, &stages[i], i, &homes))
         .collect();
+    let names = earlier::names(file);
+    let with_names = base.symbols.extended(&names);
+    let plain = std::mem::replace(&mut base.symbols, with_names);
+    let domains = scene.domains.clone();
+    earlier::live(file, &mut scene.domains);
     // One that does not read keeps its place, since the others name their predecessors by number.
     let mut read: Vec<Option<Stage>> = Vec::new();
     for (i, stage) in stages.iter().enumerate() {
@@ -117,20 +123,14 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
         };
         let symbols = std::mem::replace(&mut base.symbols, Symbols::new(Default::default()));
         let left_at = left_at(&read, from);
-        let (one, symbols, mut faults) = one(&composed[i], stage, (from, &left_at), scene, symbols);
+        let (one, symbols, faults) = one(&composed[i], stage, (from, &left_at), scene, symbols);
         base.symbols = symbols;
-        for (name, _) in file.questions.iter().flat_map(|m| &m.0) {
-            let open = format!("`{}` is not declared", name.text);
-            for fault in faults.iter_mut().filter(|f| f.message == open) {
-                fault.hint = Some(format!(
-                    "`{}` is the answer to a question, and stages are read before any is answered: write its formula in parameters here",
-                    name.text
-                ));
-            }
-        }
         base.faults.extend(faults);
         read.push(one);
     }
+    let with_names = std::mem::replace(&mut base.symbols, plain);
+    base.symbols.absorb(&with_names);
+    scene.domains = domains;
     let Some(read) = read.into_iter().collect() else {
         return;
     };
@@ -152,6 +152,9 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     begin(scene);
     if base.faults.is_empty() {
         questions::of_stages(base, scene, &homes);
+    }
+    if base.faults.is_empty() {
+        earlier::take(base, scene, stages, &names);
     }
 }
 
@@ -468,6 +471,7 @@ fn one(
         start: starts,
         kind,
         places,
+        earlier: Vec::new(),
         scene,
     });
     (read, symbols, faults)

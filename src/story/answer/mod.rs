@@ -6,6 +6,7 @@ mod motion;
 mod reached;
 
 use std::collections::BTreeSet;
+use std::iter::successors;
 
 use super::{Case, StageTold, State, Told, granted, second, spring, words, worlds};
 use crate::answer::{self, Answer, Check, Form, Known, Refused};
@@ -184,6 +185,47 @@ fn one(
             |stage| quantity(scene, stages, question, stage),
         ),
     }
+}
+
+/// What the name of an answer to an earlier stage stands for on the way that ends with an outcome of a stage, or why it is
+/// open.
+pub(super) fn earlier(
+    scene: &Scene,
+    stages: &[StageTold],
+    branch: Option<(usize, usize)>,
+    name: &Symbol,
+) -> Result<Result<Expr, String>, Refused> {
+    let is_given = scene.parameters.iter().any(|p| p.name == *name);
+    let question = scene.answering(name).filter(|_| !is_given);
+    let Some(question) = question else {
+        return Ok(Ok(Expr::symbol(name)));
+    };
+    if let Ask::Value { formula, .. } = &question.ask {
+        let mut known = Known::new();
+        for part in formula.symbols() {
+            match earlier(scene, stages, branch, &part)? {
+                Ok(value) => _ = known.insert(part, value),
+                Err(why) => return Ok(Err(why)),
+            }
+        }
+        return Ok(Ok(formula.substitute(&known)));
+    }
+    let way: Vec<(usize, usize)> = successors(branch, |(stage, _)| stages[*stage].branch).collect();
+    let all = one(scene, stages, question, &[])?;
+    let mine = |a: &&Answer| {
+        let rest = a.name.strip_prefix(&**name);
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with("_case"))
+    };
+    let all: Vec<&Answer> = all.iter().filter(mine).collect();
+    let here = |a: &&&Answer| a.told.is_some_and(|told| way.contains(&told));
+    let found = match all[..] {
+        [only] => Some(only),
+        _ => all.iter().find(here).copied(),
+    };
+    let value = found.and_then(Answer::formula);
+    Ok(value
+        .cloned()
+        .ok_or_else(|| format!("it needs {name}, which is not determined")))
 }
 
 /// An answer in sentences; `None` where it needs a stage and names none.

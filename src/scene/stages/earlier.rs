@@ -1,0 +1,104 @@
+//! Answers to earlier stages in the formulas of later ones: the height to which a ball rose is the height from which it falls.
+//!
+//! Names are read as symbols. Each of the two ways through a scene puts in what it has found for them; here only who may
+//! use what is decided.
+
+use std::collections::BTreeSet;
+
+use super::super::fault::Fault;
+use super::super::file::SceneFile;
+use super::super::resolve::{Resolver, entries};
+use super::super::stage_file::StageFile;
+use super::super::{Ask, Question, Scene};
+use crate::domain::{Domain, Domains};
+use crate::expr::Symbol;
+
+/// Names that answers may have in formulas; a question that bears the name of a parameter gives none.
+pub(super) fn names(file: &SceneFile) -> Vec<String> {
+    let parameters = entries(file.parameters.as_ref());
+    let parameters: BTreeSet<&str> = parameters.map(|(name, _)| name.text.as_str()).collect();
+    let asked = entries(file.questions.as_ref());
+    let each = asked.flat_map(|(name, q)| {
+        let axes: &[&str] = match q.along.is_none()
+            && (q.velocity.is_some() || q.position.is_some() || q.impulse.is_some())
+        {
+            true => &["_x", "_y"],
+            false => &[""],
+        };
+        axes.iter().map(|axis| format!("{}{axis}", name.text))
+    });
+    each.filter(|name| !parameters.contains(name.as_str()))
+        .collect()
+}
+
+/// Where answers live: times, distances and speeds are not negative, anything else may have either sign.
+pub(super) fn live(file: &SceneFile, domains: &mut Domains) {
+    for (name, q) in entries(file.questions.as_ref()) {
+        let is_size = q.time.is_some() || q.speed.is_some() || q.energy.is_some();
+        for axis in ["", "_x", "_y"] {
+            let domain = match is_size {
+                true => Domain::nonnegative(),
+                false => Domain::real(),
+            };
+            let name = Symbol::from(format!("{}{axis}", name.text).as_str());
+            domains.symbols.entry(name).or_insert(domain);
+        }
+    }
+}
+
+/// Notes which answers the formulas of each stage hold, and refuses those that are not known by then.
+pub(super) fn take(
+    base: &mut Resolver<'_>,
+    scene: &mut Scene,
+    stages: &[StageFile],
+    names: &[String],
+) {
+    for i in 0..scene.stages.len() {
+        let mut used = BTreeSet::new();
+        scene.stages[i].formulas_mut(&mut |e| used.extend(e.symbols()));
+        let (earlier, other): (Vec<Symbol>, Vec<Symbol>) = used
+            .into_iter()
+            .filter(|s| names.iter().any(|name| **name == **s))
+            .partition(|s| is_known(scene, s, i));
+        for name in other {
+            let message = format!("`{name}` is no answer to a stage before this one");
+            let fault = Fault::new(stages[i].name.span, message);
+            base.faults.push(fault.hint(
+                "a stage may use what is asked of the motions and impacts before it, and a `value` made of that",
+            ));
+        }
+        // Answers that it does not use are nothing to it.
+        let stage = &mut scene.stages[i];
+        stage.scene.domains.symbols.retain(|name, _| {
+            earlier.contains(name) || !names.iter().any(|other| **other == **name)
+        });
+        stage.earlier = earlier;
+    }
+}
+
+/// Whether an answer is known when a stage begins: it is asked of one before it, or is a formula of such answers.
+fn is_known(scene: &Scene, name: &Symbol, stage: usize) -> bool {
+    if scene.parameters.iter().any(|p| p.name == *name) {
+        return true;
+    }
+    let Some(question) = scene.answering(name) else {
+        return false;
+    };
+    match &question.ask {
+        Ask::Value { formula, with, .. } => {
+            let mut parts = formula.symbols().into_iter();
+            with.is_empty() && parts.all(|s| &*s == "pi" || is_known(scene, &s, stage))
+        }
+        Ask::Balance { .. } | Ask::Matrix { .. } => false,
+        ask => ask.is_motion() && question.stage.is_some_and(|j| j < stage),
+    }
+}
+
+impl Scene {
+    /// The question whose answer, or a component of it, has this name.
+    pub fn answering(&self, name: &str) -> Option<&Question> {
+        let whole = ["_x", "_y"].iter().find_map(|axis| name.strip_suffix(axis));
+        let named = |name: &str| self.questions.iter().find(|q| q.name == name);
+        named(name).or_else(|| named(whole?))
+    }
+}
