@@ -53,7 +53,7 @@ pub(super) fn take(
     stages: &[StageFile],
     names: &[String],
 ) {
-    for i in 0..scene.stages.len() {
+    for (i, file) in stages.iter().enumerate() {
         let mut used = BTreeSet::new();
         scene.stages[i].formulas_mut(&mut |e| used.extend(e.symbols()));
         let (earlier, other): (Vec<Symbol>, Vec<Symbol>) = used
@@ -62,7 +62,7 @@ pub(super) fn take(
             .partition(|s| is_known(scene, s, i));
         for name in other {
             let message = format!("`{name}` is no answer to a stage before this one");
-            let fault = Fault::new(stages[i].name.span, message);
+            let fault = Fault::new(file.name.span, message);
             base.faults.push(fault.hint(
                 "a stage may use what is asked of the motions and impacts before it, and a `value` made of that",
             ));
