@@ -49,7 +49,7 @@ pub use note::{Note, Remark};
 use parser::{Parser, Side};
 pub(crate) use sentence::sentence;
 pub use sentence::{Piece, Sentence, sides};
-pub(crate) use several::UNNAMED;
+pub(crate) use several::{UNNAMED, letters_apart};
 pub use symbols::{Declared, Symbols, letter};
 pub(crate) use symbols::{is_angle_name, is_greek, letters};
 pub(crate) use units::plain_unit;

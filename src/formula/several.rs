@@ -190,6 +190,31 @@ fn ends(text: &str, [from, stop]: [usize; 2]) -> Option<Ends> {
     })
 }
 
+/// A text with blanks between the letters of declared names that could be products of declared letters, `m u` for `mu`;
+/// nothing where there are none.
+pub(crate) fn letters_apart(text: &str, symbols: &Symbols) -> Option<String> {
+    let letter = |c: char| symbols.find(c.encode_utf8(&mut [0; 4])).is_some();
+    let product =
+        |name: &&str| name.len() > 1 && name.chars().all(|c| c.is_ascii_alphabetic() && letter(c));
+    let names = symbols.declared().iter().map(|d| &*d.name);
+    let mut out = text.to_string();
+    for name in names.filter(product) {
+        let letters: Vec<String> = name.chars().map(String::from).collect();
+        let mut from = 0;
+        while let Some(at) = out[from..].find(name).map(|at| from + at) {
+            let end = at + name.len();
+            let command = out[..at].ends_with(|c: char| c == '\\' || c.is_ascii_alphabetic());
+            let alone = !command && !out[end..].starts_with(|c: char| c.is_ascii_alphabetic());
+            from = end;
+            if alone {
+                out.replace_range(at..end, &letters.join(" "));
+                from += name.len() - 1;
+            }
+        }
+    }
+    (out != text).then_some(out)
+}
+
 /// Where the parts of a list end and the next begin: `x = 3 or x = -3`, `2, -2`. In a set any comma parts them.
 fn gaps(text: &str, set: bool) -> Vec<(usize, usize)> {
     const WORDS: [&str; 16] = [

@@ -8,6 +8,7 @@
 mod cause;
 mod link;
 mod names;
+mod rounded;
 mod text;
 mod why;
 
@@ -127,7 +128,7 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
         .take(MAX_LINES)
         .map(|(i, line)| {
             let line = line.trim();
-            let whole = text::continued(&before, line);
+            let whole = text::continued(&before, &text::unaligned(line));
             let (status, diagnosis) = desk.line(i + 1, &whole, options);
             before = whole;
             Line {
@@ -213,6 +214,19 @@ impl<'a> Desk<'a> {
                     continue;
                 }
                 closed.insert(Symbol::from(answer.name.as_str()), value.clone());
+            }
+        }
+        // A vector along one axis may be written by its letter alone: `P = m (v_G + v)`.
+        let axes = ["x", "y"].map(|axis| move |name: &str| Symbol::from(format!("{name}_{axis}")));
+        for q in &sheet.scene.questions {
+            let [x, y] = axes.each_ref().map(|of| closed.get(&of(&q.name)));
+            let along = match (x, y) {
+                (Some(x), Some(y)) if x.is_zero() => Some(y),
+                (Some(x), Some(y)) if y.is_zero() => Some(x),
+                _ => None,
+            };
+            if let Some(along) = along.cloned() {
+                closed.entry(Symbol::from(q.name.as_str())).or_insert(along);
             }
         }
         Desk {
@@ -420,9 +434,16 @@ impl<'a> Desk<'a> {
             return (Status::Holds, vec![found]);
         }
         if let Weighed::Slip(_) = weighed {
-            // The student may have meant the other reading of a slash.
-            let others = formula::other_readings(text, &self.symbols(text), true);
-            for other in others.into_iter().take(4) {
+            // `v(t) = v − μ g t` tells a motion in time, of which the scene knows the end.
+            if text::is_of_time(text) {
+                return (Status::Undecided, Vec::new());
+            }
+            // The student may have meant the other reading of a slash, or m u by `mu`.
+            let symbols = self.symbols(text);
+            let others = formula::other_readings(text, &symbols, true);
+            let apart = formula::letters_apart(text, &symbols);
+            let apart = apart.and_then(|text| formula::read(&text, &symbols).ok());
+            for other in others.into_iter().take(4).chain(apart) {
                 let Some(links) = self.links(&other) else {
                     continue;
                 };

@@ -2,15 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use num_traits::Signed;
-
 use super::super::relation::{proportional, solve_for};
 use super::super::sheet::{Entry, Sheet};
-use super::super::{Diagnosis, Options, Tolerance, Verdict, number};
+use super::super::{Diagnosis, Options, Verdict};
 use super::{Desk, Final, Status};
 use crate::algebra::{Field, Sign};
 use crate::answer::Answer;
-use crate::expr::{Expr, Function, Rational, Symbol};
+use crate::expr::{Expr, Function, Symbol};
 use crate::formula::{Content, Reading, Relation};
 use crate::scene::Ask;
 
@@ -100,7 +98,7 @@ impl Desk<'_> {
         Some([part("x")?, part("y")?, part("z").unwrap_or(Expr::zero())])
     }
 
-    fn vector(&self, side: &Content) -> Option<[Expr; 3]> {
+    pub(super) fn vector(&self, side: &Content) -> Option<[Expr; 3]> {
         match side {
             Content::Vector(v) => Some(v.clone()),
             other => self.components(other.expr()?.as_symbol()?),
@@ -112,8 +110,8 @@ impl Desk<'_> {
         let mut sides = [a.clone(), b.clone()];
         let differences = match (self.vector(a), self.vector(b)) {
             (Some(a), Some(b)) => a.iter().zip(&b).map(|(a, b)| a - b).collect(),
-            // A velocity that is put equal to a number is meant as the speed.
-            (Some(_), None) if !b.expr()?.is_zero() => {
+            // A velocity that is put equal to a number is meant as the speed, unless it has one component and is that.
+            (Some(_), None) if !b.expr()?.is_zero() && !self.is_along(a.expr()?, b.expr()?) => {
                 let speed = Expr::call(Function::Abs, a.expr()?.clone());
                 sides[0] = Content::Scalar(speed.clone());
                 vec![speed - b.expr()?]
@@ -121,6 +119,14 @@ impl Desk<'_> {
             _ => vec![a.expr()? - b.expr()?],
         };
         Some(Link { sides, differences })
+    }
+
+    /// Whether a vector with one component is this component.
+    fn is_along(&self, vector: &Expr, value: &Expr) -> bool {
+        let known = vector
+            .as_symbol()
+            .is_some_and(|name| self.closed.contains_key(name));
+        known && self.all_zero(&[vector - value], &BTreeMap::new()) == Some(true)
     }
 
     /// The links of a chain of equalities.
@@ -159,53 +165,11 @@ impl Desk<'_> {
         }
     }
 
-    /// Whether a side in numbers is the value of the other, up to the rounding of the numbers in the line; the scene's
-    /// values are put in. A number of the scene is exact.
-    pub(super) fn is_rounded(
-        &self,
-        text: &str,
-        link: &Link,
-        instead: &BTreeMap<Symbol, Expr>,
-    ) -> bool {
-        let values = super::super::believed::values(&self.sheet.scene);
-        let exact = |e: &Expr| self.put_in(e, instead).substitute(&values);
-        let sides = match (self.vector(&link.sides[0]), self.vector(&link.sides[1])) {
-            (Some(a), Some(b)) => a.into_iter().zip(b).collect(),
-            _ => match (link.sides[0].expr(), link.sides[1].expr()) {
-                (Some(a), Some(b)) => vec![(a.clone(), b.clone())],
-                _ => return false,
-            },
-        };
-        let Some((share, decimal)) = coarsest(text, &values) else {
-            return false;
-        };
-        let room = Tolerance::Relative(share);
-        sides.iter().all(|(a, b)| {
-            if !(a.symbols().is_empty() || b.symbols().is_empty()) {
-                // `5v/7 ≈ 0.714 v`: up to a rounded factor.
-                let [a, b] = [a, b].map(|e| self.put_in(e, instead));
-                let share = self.share(&a, &b).filter(|_| decimal);
-                return share
-                    .is_some_and(|k| number::within(&k, &Expr::one(), &room) == Some(true));
-            }
-            let (a, b) = (exact(a), exact(b));
-            let constant = a.symbols().is_empty() && b.symbols().is_empty();
-            constant && number::within(&b, &a, &room) == Some(true)
-        })
-    }
-
-    /// The constant factor between two formulas.
-    pub(super) fn share(&self, a: &Expr, b: &Expr) -> Option<Expr> {
-        let mut field = Field::new(&self.sheet.scene.domains);
-        field.prepare([a, b]);
-        let (a, b) = (field.element(a).ok()?, field.element(b).ok()?);
-        let share = field.expr(&field.div(&b, &a).ok()?);
-        share.is_constant().then_some(share)
-    }
-
     /// Whether something is said about a name: the scene answers it, or the solution solves for it where a condition holds.
     pub(super) fn is_found(&self, name: &Symbol) -> bool {
-        let mut sought = self.sought.iter().filter(|s| s.parameter == *name);
+        let is_named =
+            |s: &&Sought| s.parameter == *name || s.condition.is_some() && *s.question == **name;
+        let mut sought = self.sought.iter().filter(is_named);
         self.closed.contains_key(name) || sought.any(|s| self.is_solved_for(s))
     }
 
@@ -334,7 +298,9 @@ impl Desk<'_> {
             return None;
         };
         let name = sides.first()?.expr()?.as_symbol()?;
-        let mut sought = self.sought.iter().filter(|s| s.parameter == *name);
+        let is_named =
+            |s: &&Sought| s.parameter == *name || s.condition.is_some() && *s.question == **name;
+        let mut sought = self.sought.iter().filter(is_named);
         // Where a quantity is largest is no answer of its own.
         let places = sought.clone().filter(|s| s.condition.is_none());
         let links = self.links(reading).unwrap_or_default();
@@ -493,41 +459,4 @@ impl Desk<'_> {
             "compare the two sides of this equality sign",
         ))
     }
-}
-
-/// How far numbers of a line may be off, as a share: half a unit in the last digit of the coarsest one. What stands last
-/// counts from two digits, what leads to it from three; values of the scene are exact. Also whether any has a decimal point.
-fn coarsest(text: &str, values: &BTreeMap<Symbol, Expr>) -> Option<(Rational, bool)> {
-    let last = text.rfind(['=', '≈']).unwrap_or(0);
-    let share = |word: &str, least: usize| {
-        let value = number::decimal(word).filter(Signed::is_positive)?;
-        let digits = word.trim_start_matches(['0', '.']).replace('.', "").len();
-        let mut known = values.values().filter_map(super::super::fraction);
-        if digits < least || known.any(|v| v == value) {
-            return None;
-        }
-        let digits = u32::try_from(digits.max(2)).ok()?.min(12);
-        Some(number::half_unit(&value, digits) / value)
-    };
-    let words = |text: &'_ str| -> Vec<String> {
-        let words = text.split(|c: char| !(c.is_ascii_digit() || c == '.'));
-        let words = words.map(|word| word.trim_end_matches('.').to_string());
-        words.collect()
-    };
-    let decimal = |word: &&String| word.contains('.');
-    let before = words(&text[..last]);
-    let behind = words(&text[last..]);
-    let led = before.iter().filter(decimal).filter_map(|w| share(w, 3));
-    let mut ends: Vec<Rational> = behind
-        .iter()
-        .filter(decimal)
-        .filter_map(|w| share(w, 2))
-        .collect();
-    let led: Vec<Rational> = led.collect();
-    let decimals = !(led.is_empty() && ends.is_empty());
-    if ends.is_empty() {
-        let whole = behind.iter().find(|w| !w.is_empty() && !w.contains('.'));
-        ends.extend(whole.and_then(|w| share(w, 1)));
-    }
-    Some((led.into_iter().chain(ends).max()?, decimals))
 }

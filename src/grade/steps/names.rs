@@ -110,7 +110,9 @@ impl Desk<'_> {
         text: &str,
         options: &Options,
     ) -> Option<(Status, Vec<Diagnosis>)> {
-        let (name, right) = named(text).filter(|(name, _)| !self.is_known(name))?;
+        let known = |c: char| self.is_known(&Symbol::from(c.to_string()));
+        let new = |name: &Symbol| !self.is_known(name) && !name.chars().all(known);
+        let (name, right) = named(text).filter(|(name, _)| new(name))?;
         let right = match formula::read(right, &self.symbols(right)) {
             Ok(reading) => reading,
             Err(_) => match self.looked_ahead(right) {
@@ -255,6 +257,7 @@ impl Desk<'_> {
             let word = text.get(from..to)?;
             let missing = formula::read(word, &Symbols::open()).ok();
             let missing = missing.and_then(|r| r.expr()?.as_symbol().cloned());
+            let missing = missing.or_else(|| self.new_letter(word));
             let missing = missing.unwrap_or_else(|| Symbol::from(word.trim()));
             let (name, right) = self
                 .ahead
@@ -275,6 +278,17 @@ impl Desk<'_> {
         None
     }
 
+    /// The one letter of a short run that is no name: `a` in `ma`, where m is one.
+    fn new_letter(&self, run: &str) -> Option<Symbol> {
+        let letters = run.bytes().all(|b| b.is_ascii_alphabetic());
+        let names = run.chars().map(|c| Symbol::from(c.to_string()));
+        let (known, new): (Vec<Symbol>, Vec<Symbol>) = names.partition(|name| self.is_known(name));
+        match new.as_slice() {
+            [name] if letters && run.len() < 4 && !known.is_empty() => Some(name.clone()),
+            _ => None,
+        }
+    }
+
     /// An equation with one name that is new: it says what the name stands for.
     pub(super) fn new_name(&mut self, text: &str) -> Option<Status> {
         let mut open = Symbols::open();
@@ -288,10 +302,14 @@ impl Desk<'_> {
         let known = self.closed.keys().chain(self.own.keys());
         known.for_each(|name| open.declare(name));
         let reading = formula::read(text, &open).ok()?;
+        let product = |n: &formula::Note| {
+            text.get(n.start..n.end)
+                .is_some_and(|run| self.new_letter(run).is_some())
+        };
         let letters = reading
             .notes
             .iter()
-            .any(|n| n.remark == formula::Remark::Letters);
+            .any(|n| n.remark == formula::Remark::Letters && !product(n));
         let new: Vec<Symbol> = reading
             .symbols()
             .into_iter()

@@ -28,7 +28,7 @@ const LEADS: [&str; 18] = [
 ];
 
 /// What stands between two equations of one line.
-const BETWEEN: [&str; 16] = [
+const BETWEEN: [&str; 18] = [
     "<=>",
     "⇔",
     "\\Leftrightarrow",
@@ -40,6 +40,8 @@ const BETWEEN: [&str; 16] = [
     "\\Rightarrow",
     "\\implies",
     "\\therefore",
+    "→",
+    "->",
     "; ",
     ", ",
     " so ",
@@ -86,6 +88,26 @@ pub(super) fn equations(text: &str) -> Vec<&str> {
     out.push(equation(&text[start..]));
     out.retain(|part| relates(part));
     out
+}
+
+/// A line without what aligns it with others in LaTeX: `ω &= 3v/(2ℓ) \\\\`.
+pub(super) fn unaligned(line: &str) -> String {
+    let line = line.trim_end_matches("\\\\").trim_end();
+    let line = line
+        .trim_end_matches("\\\\")
+        .replace("&=", "=")
+        .replace("&\\approx", "\\approx");
+    line.replace("\\quad", " ").replace('&', " ")
+}
+
+/// Whether a line says what a name is as a function of time: `v(t) = …`.
+pub(super) fn is_of_time(text: &str) -> bool {
+    let left = text.split('=').next().unwrap_or_default().trim_end();
+    let name = left.strip_suffix("(t)").map(str::trim_end);
+    name.is_some_and(|name| {
+        let plain = |c: char| c.is_alphanumeric() || "_\\{}".contains(c);
+        !name.is_empty() && name.chars().all(plain)
+    })
 }
 
 /// A line that goes on with an equality sign, with the ends of the chain before it: what is spoken of, and its last side.
@@ -173,5 +195,7 @@ pub(super) fn is_near(fault: &Fault, text: &str) -> bool {
     let own = text.get(fault.start..fault.end).unwrap_or_default();
     let indexed = |name: &str| name.contains('_');
     let alike = |meant: &str| first(meant) == first(own) && (indexed(meant) || !indexed(own));
-    own.len() > 1 && meant.is_some_and(alike)
+    // `ma` is m a rather than a slip for m.
+    let product = |meant: &str| meant.len() == 1 && own.len() < 4 && !own.contains('_');
+    own.len() > 1 && meant.is_some_and(|meant| alike(meant) && !product(meant))
 }

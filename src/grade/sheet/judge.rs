@@ -1,0 +1,341 @@
+//! Judges answers of a scene: formulas, numbers where the scene gives values, and what beliefs a wrong one shows.
+
+use super::super::believed::{self, Written};
+use super::super::worked::worked;
+use super::super::{
+    Diagnosis, Grade, Options, Strength, Tolerance, Verdict, fraction, judge_against, key_of,
+    number, read,
+};
+use super::{Entry, Sheet};
+use crate::answer::Answer;
+use crate::expr::{Expr, Symbol};
+use crate::formula::{Content, Quantity, Reading, Relation};
+use crate::scene::Ask;
+
+impl Sheet {
+    /// Judges an answer for a quantity of the scene; a wrong one is held against the beliefs students have. Names of earlier
+    /// answers stand for the right ones, which is told.
+    pub fn judge(&self, entry: &Entry, answer: &str, options: &Options) -> Grade {
+        let grade = self.judge_with_earlier(entry, answer, options);
+        if grade.verdict != Verdict::Different {
+            return grade;
+        }
+        // `mu²` for m u², where μ is given and u was asked before.
+        let mut names = entry.key.readable.clone();
+        let before = self.scene.questions.iter().map(|q| q.name.as_str());
+        before
+            .take_while(|name| *name != entry.question.name)
+            .for_each(|name| names.declare(name));
+        let Some(apart) = crate::formula::letters_apart(answer, &names) else {
+            return grade;
+        };
+        let mut other = self.judge_with_earlier(entry, &apart, options);
+        if other.verdict != Verdict::Equivalent {
+            return grade;
+        }
+        other.note = "EQUIV_READING";
+        let message = format!("right when it is read as {apart}");
+        let hint = "write a space between the factors of a product";
+        other
+            .diagnosis
+            .insert(0, Diagnosis::new("READING", message, hint));
+        other
+    }
+
+    fn judge_with_earlier(&self, entry: &Entry, answer: &str, options: &Options) -> Grade {
+        let Some((answer, told)) = self.with_earlier(entry, answer) else {
+            return self.judge_in_given(entry, answer, options);
+        };
+        let mut grade = self.judge_in_given(entry, &answer, options);
+        grade.assumed.extend(told);
+        grade
+    }
+
+    /// The grade of a formula with its number behind it: that of the formula, and where it is right that of the number.
+    fn judge_worked(&self, entry: &Entry, answer: &str, options: &Options) -> Option<Grade> {
+        let reading = read::answer(&entry.key, answer).ok()?;
+        let parts = worked(&entry.key, answer, &reading)?;
+        let mut grade = self.judge_in_given(entry, parts.formula, options);
+        if grade.verdict != Verdict::Equivalent {
+            return Some(grade);
+        }
+        match self.numeric(entry, &parts.reading, parts.number, options) {
+            Some((mut number, _)) if number.verdict != Verdict::Equivalent => {
+                let words = "the formula is right, and its number is not";
+                let diagnosis = Diagnosis::new("NUMBER", words, "put the values in once more");
+                number.diagnosis.insert(0, diagnosis);
+                return Some(number);
+            }
+            Some(_) => {}
+            None => parts.unjudged(&entry.key, &mut grade),
+        }
+        Some(grade)
+    }
+
+    fn judge_in_given(&self, entry: &Entry, answer: &str, options: &Options) -> Grade {
+        if let Some(grade) = self.judge_worked(entry, answer, options) {
+            return grade;
+        }
+        let sensed = in_words(&entry.question.ask, answer);
+        let answer = sensed.as_deref().unwrap_or(answer);
+        let along = read::answer(&entry.key, answer)
+            .ok()
+            .and_then(|reading| about_z(&entry.question.ask, &reading));
+        let answer = along.as_deref().unwrap_or(answer);
+        let mut grade = judge_against(&entry.key, answer, options);
+        let Ok(reading) = read::answer(&entry.key, answer) else {
+            return grade;
+        };
+        if let Some(bound) = self.bounds().find(|b| b.name == entry.name)
+            && let Content::Relations(_, signs) = &reading.content
+            && signs.iter().any(|s| *s != Relation::Equal)
+        {
+            let sides = [Expr::symbol(&bound.parameter), bound.value.clone()];
+            let sides = sides.map(Content::Scalar).to_vec();
+            let content = Content::Relations(sides, vec![bound.relation]);
+            return judge_against(&key_of(content, &self.question()), answer, options);
+        }
+        let numeric = self.numeric(entry, &reading, answer, options);
+        let rounding = numeric.as_ref().and_then(|(_, room)| *room);
+        if let Some((better, _)) = numeric {
+            grade = better;
+        }
+        if grade.verdict != Verdict::Different || options.strength == Strength::Fast {
+            return grade;
+        }
+        let given = |s: &Symbol| {
+            let answered = self.derivation.answers.iter().any(|a| *a.name == **s);
+            answered || self.scene.parameters.iter().any(|p| p.name == *s)
+        };
+        let finite = |s: &&Symbol| matches!(&***s, "g" | "t" | "dt") && !given(s);
+        if reading.symbols().iter().any(|s| finite(&s)) {
+            grade.note = "DIFF_BELIEF";
+            grade.diagnosis.insert(0, Diagnosis::new(
+                "GRAVITY_KEPT",
+                "a finite force, or the time the collision takes, enters: in a collision neither has an impulse",
+                "which forces are large enough to matter in so short a time?",
+            ));
+        }
+        let values = match reading.content.answer() {
+            Content::Scalar(e) => vec![e.clone()],
+            Content::Quantity(q) => vec![q.value.clone()],
+            Content::Vector([x, y, z]) if z.is_zero() => vec![x.clone(), y.clone()],
+            Content::Vector([x, y, z]) if x.is_zero() && y.is_zero() => vec![z.clone()],
+            _ => return grade,
+        };
+        let known = |e: &Expr| {
+            e.symbols()
+                .iter()
+                .all(|s| self.scene.parameters.iter().any(|p| p.name == *s))
+        };
+        if !values.iter().all(known) || values.iter().any(|e| e.size() > 2_000) {
+            return grade;
+        }
+        let told = values.iter().any(|v| !v.is_constant());
+        let (scene, ask) = self.impact(entry);
+        let written = Written {
+            scene,
+            ask,
+            component: entry.component,
+            values,
+            rounding,
+        };
+        let expected = if matches!(entry.key.reading.content, Content::Vector(_)) {
+            2
+        } else {
+            1
+        };
+        let (mut found, mut others) = believed::explain(&written, written.values.len() == expected);
+        if let (true, Some(story)) = (found.is_empty(), &self.story) {
+            let answers = self.derivation.answers.iter();
+            let mine = |a: &&Answer| a.name == entry.name || a.question == entry.name;
+            let names: Vec<String> = answers.filter(mine).map(|a| a.name.clone()).collect();
+            let asked = (entry.question.name.as_str(), names.as_slice());
+            found = story.explain(&entry.key, asked, &written.values, rounding);
+        }
+        // Which direction counts as positive is asked before any belief that only turns the sign.
+        let turned = grade.diagnosis.iter().position(|d| d.code == "SIGN");
+        let sign = turned.map(|at| grade.diagnosis.remove(at));
+        if !found.is_empty() && sign.is_none() {
+            grade.note = "DIFF_BELIEF";
+        }
+        if told && !others.iter().any(|d| d.code == "OTHER_QUANTITY") {
+            others.extend(self.another_answer(entry, answer));
+        }
+        let mut all: Vec<Diagnosis> = sign.into_iter().chain(found).collect();
+        all.append(&mut others);
+        all.append(&mut grade.diagnosis);
+        grade.diagnosis = all;
+        grade
+    }
+
+    /// The answer to another question that this is, of any stage.
+    fn another_answer(&self, entry: &Entry, answer: &str) -> Option<Diagnosis> {
+        let options = Options {
+            strength: Strength::Fast,
+            ..Options::default()
+        };
+        let others = self.answered().filter(|q| q.name != entry.question.name);
+        let mut entries = others.filter_map(|q| self.entry(&q.name).ok());
+        let is_it = |other: &Entry| {
+            let grade = judge_against(&other.key, answer, &options);
+            grade.verdict == Verdict::Equivalent
+        };
+        let other = entries.find(is_it)?;
+        Some(Diagnosis::new(
+            "OTHER_QUANTITY",
+            format!("this is {}, the {}", other.name, other.words),
+            "this is right for another quantity: what is asked for?",
+        ))
+    }
+
+    /// An answer in numbers, where the scene gives values: right when it is the exact value rounded to its own digits, three
+    /// at least, or within the tolerance. Also how far it may be off for a belief to explain it.
+    fn numeric(
+        &self,
+        entry: &Entry,
+        reading: &Reading,
+        answer: &str,
+        options: &Options,
+    ) -> Option<(Grade, Option<f64>)> {
+        let values = believed::values(&self.scene);
+        let has_values = values.len() == self.scene.parameters.len() && !values.is_empty();
+        if !has_values
+            || !reading
+                .symbols()
+                .iter()
+                .all(|s| entry.key.question.asked.iter().any(|g| g.name == *s))
+        {
+            return None;
+        }
+        let closed = match &entry.key.reading.content {
+            Content::Scalar(closed) => closed,
+            Content::Vector(closed) => {
+                let exact = closed.each_ref().map(|e| e.substitute(&values));
+                return Some((components(entry, exact, answer, options)?, None));
+            }
+            _ => return None,
+        };
+        let exact = closed.substitute(&values);
+        let mut question = entry.key.question.clone();
+        question.dimension = None;
+        let content = match entry
+            .key
+            .question
+            .dimension
+            .as_ref()
+            .filter(|d| !d.is_none())
+        {
+            Some(dimension) => Content::Quantity(Box::new(Quantity {
+                value: exact.clone(),
+                written: exact.clone(),
+                unit: crate::dimension::unit(&dimension.si().replace('²', "^2")).ok()?,
+                unit_text: dimension.si(),
+            })),
+            None => Content::Scalar(exact.clone()),
+        };
+        let key = key_of(content, &question);
+        let digits = reading.literal.as_ref().map_or(40, |l| l.digits).min(40);
+        let tolerance = options
+            .tolerance
+            .clone()
+            .unwrap_or(Tolerance::Significant(digits.max(3)));
+        let mut grade = judge_against(
+            &key,
+            answer,
+            &Options {
+                tolerance: Some(tolerance),
+                ..options.clone()
+            },
+        );
+        if grade.note == "EQUIV_TOLERANCE" && options.tolerance.is_none() {
+            grade.note = "EQUIV_ROUNDED";
+            grade.proof.words = format!("the exact value rounded to {digits} significant digits");
+        }
+        let value = reading.content.answer().expr().and_then(fraction)?;
+        let room = number::half_unit(&value, digits.min(12));
+        Some((grade, Some(crate::expr::number::to_f64(&room) * 1.000_001)))
+    }
+}
+
+/// A vector in numbers, each component to three digits or within the tolerance.
+fn components(entry: &Entry, exact: [Expr; 3], answer: &str, options: &Options) -> Option<Grade> {
+    let mut question = entry.key.question.clone();
+    let dimension = question.dimension.take();
+    let mut key = key_of(Content::Vector(exact), &question);
+    key.reading.unit = dimension
+        .filter(|d| !d.is_none())
+        .map(crate::dimension::Unit::coherent);
+    let tolerance = options.tolerance.clone();
+    let rounded = tolerance.is_none();
+    let options = Options {
+        tolerance: tolerance.or(Some(Tolerance::Significant(3))),
+        ..options.clone()
+    };
+    let mut grade = judge_against(&key, answer, &options);
+    if grade.verdict == Verdict::Equivalent && rounded {
+        grade.note = "EQUIV_ROUNDED";
+        grade.proof.words = "the exact values rounded to 3 significant digits".into();
+    }
+    Some(grade)
+}
+
+/// `9.31 rad/s clockwise` with the sign the question counts by.
+fn in_words(ask: &Ask, answer: &str) -> Option<String> {
+    const SENSES: [(&str, bool); 5] = [
+        ("counterclockwise", false),
+        ("anticlockwise", false),
+        ("clockwise", true),
+        ("ccw", false),
+        ("cw", true),
+    ];
+    let Ask::Spin { clockwise, .. } = ask else {
+        return None;
+    };
+    let text = answer.trim().trim_end_matches(['.', ')']).trim_end();
+    let lower = text.to_ascii_lowercase();
+    let (word, sense) = SENSES.iter().find(|(word, _)| lower.ends_with(word))?;
+    let body = text[..text.len() - word.len()].trim_end_matches([' ', ',', '(', '~']);
+    let (name, value) = match body.rfind('=') {
+        Some(at) => body.split_at(at + 1),
+        None => ("", body),
+    };
+    let value = value.trim();
+    let positive = value.strip_prefix(['-', '−']);
+    let several = positive
+        .unwrap_or(value)
+        .contains(['+', '-', '−', '±', '∓']);
+    Some(match (sense == clockwise, positive) {
+        (true, _) => format!("{name}{value}"),
+        (false, _) if several => format!("{name}-({value})"),
+        (false, Some(positive)) => format!("{name}{positive}"),
+        (false, None) => format!("{name}-{value}"),
+    })
+}
+
+/// A spin as a vector along k, which points out of the page, in the sense the question counts by.
+fn about_z(ask: &Ask, reading: &Reading) -> Option<String> {
+    let Ask::Spin { clockwise, .. } = ask else {
+        return None;
+    };
+    let Content::Vector([x, y, z]) = reading.content.answer() else {
+        return match &reading.content {
+            // `\vec ω = … k̂` has a name in front that is no answer's.
+            Content::Relations(sides, _) => match sides.last() {
+                Some(last @ Content::Vector(_)) => {
+                    let content = last.clone();
+                    let alone = Reading {
+                        content,
+                        ..reading.clone()
+                    };
+                    about_z(ask, &alone)
+                }
+                _ => None,
+            },
+            _ => None,
+        };
+    };
+    let flat = x.is_zero() && y.is_zero() && reading.unit.is_none();
+    let value = if *clockwise { -z } else { z.clone() };
+    flat.then(|| crate::formula::write_plain(&value))
+}

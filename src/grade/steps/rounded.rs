@@ -1,0 +1,93 @@
+//! Rounded numbers in a line: how far they may be off.
+
+use std::collections::BTreeMap;
+
+use num_traits::Signed;
+
+use super::super::{Tolerance, believed, fraction, number};
+use super::Desk;
+use super::link::Link;
+use crate::algebra::Field;
+use crate::expr::{Expr, Rational, Symbol};
+
+impl Desk<'_> {
+    /// Whether a side in numbers is the value of the other, up to the rounding of the numbers in the line; the scene's
+    /// values are put in. A number of the scene is exact.
+    pub(super) fn is_rounded(
+        &self,
+        text: &str,
+        link: &Link,
+        instead: &BTreeMap<Symbol, Expr>,
+    ) -> bool {
+        let values = believed::values(&self.sheet.scene);
+        let exact = |e: &Expr| self.put_in(e, instead).substitute(&values);
+        let sides = match (self.vector(&link.sides[0]), self.vector(&link.sides[1])) {
+            (Some(a), Some(b)) => a.into_iter().zip(b).collect(),
+            _ => match (link.sides[0].expr(), link.sides[1].expr()) {
+                (Some(a), Some(b)) => vec![(a.clone(), b.clone())],
+                _ => return false,
+            },
+        };
+        // Without digits to round a number is meant as it stands.
+        let (share, decimal) = coarsest(text, &values).unwrap_or_default();
+        let room = Tolerance::Relative(share);
+        sides.iter().all(|(a, b)| {
+            if !(a.symbols().is_empty() || b.symbols().is_empty()) {
+                // `5v/7 ≈ 0.714 v`: up to a rounded factor.
+                let [a, b] = [a, b].map(|e| self.put_in(e, instead));
+                let share = self.share(&a, &b).filter(|_| decimal);
+                return share
+                    .is_some_and(|k| number::within(&k, &Expr::one(), &room) == Some(true));
+            }
+            let (a, b) = (exact(a), exact(b));
+            let constant = a.symbols().is_empty() && b.symbols().is_empty();
+            constant && number::within(&b, &a, &room) == Some(true)
+        })
+    }
+
+    /// The constant factor between two formulas.
+    pub(super) fn share(&self, a: &Expr, b: &Expr) -> Option<Expr> {
+        let mut field = Field::new(&self.sheet.scene.domains);
+        field.prepare([a, b]);
+        let (a, b) = (field.element(a).ok()?, field.element(b).ok()?);
+        let share = field.expr(&field.div(&b, &a).ok()?);
+        share.is_constant().then_some(share)
+    }
+}
+
+/// How far numbers of a line may be off, as a share: half a unit in the last digit of the coarsest one. What stands last
+/// counts from two digits, what leads to it from three; values of the scene are exact. Also whether any has a decimal point.
+fn coarsest(text: &str, values: &BTreeMap<Symbol, Expr>) -> Option<(Rational, bool)> {
+    let last = text.rfind(['=', '≈']).unwrap_or(0);
+    let share = |word: &str, least: usize| {
+        let value = number::decimal(word).filter(Signed::is_positive)?;
+        let digits = word.trim_start_matches(['0', '.']).replace('.', "").len();
+        let mut known = values.values().filter_map(fraction);
+        if digits < least || known.any(|v| v == value) {
+            return None;
+        }
+        let digits = u32::try_from(digits.max(2)).ok()?.min(12);
+        Some(number::half_unit(&value, digits) / value)
+    };
+    let words = |text: &'_ str| -> Vec<String> {
+        let words = text.split(|c: char| !(c.is_ascii_digit() || c == '.'));
+        let words = words.map(|word| word.trim_end_matches('.').to_string());
+        words.collect()
+    };
+    let decimal = |word: &&String| word.contains('.');
+    let before = words(&text[..last]);
+    let behind = words(&text[last..]);
+    let led = before.iter().filter(decimal).filter_map(|w| share(w, 3));
+    let mut ends: Vec<Rational> = behind
+        .iter()
+        .filter(decimal)
+        .filter_map(|w| share(w, 2))
+        .collect();
+    let led: Vec<Rational> = led.collect();
+    let decimals = !(led.is_empty() && ends.is_empty());
+    if ends.is_empty() {
+        let whole = behind.iter().find(|w| !w.is_empty() && !w.contains('.'));
+        ends.extend(whole.and_then(|w| share(w, 1)));
+    }
+    Some((led.into_iter().chain(ends).max()?, decimals))
+}
