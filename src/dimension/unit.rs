@@ -140,7 +140,13 @@ impl<'a> Reader<'a> {
             // `ms-2` has two letters, of which the exponent belongs to the second.
             let several = total.as_ref().is_some_and(|t| *t != Unit::number())
                 || &self.text[start..self.at] == "ms";
+            let word = &self.text[start..self.at];
             let power = self.exponent(several)?;
+            // Nobody squares litres: `mL^2` is a mass and the square of a length.
+            if power.abs() > 1 && matches!(word, "L" | "l" | "mL" | "ml") {
+                let message = format!("the square of `{word}` is no unit");
+                return Err(fault(message, start, self.at));
+            }
             let signed = if over { -power } else { power };
             if over {
                 below += 1;
@@ -602,7 +608,7 @@ mod tests {
     fn what_is_no_unit_is_refused_with_its_place() {
         for text in [
             "Kg", "kg m^", "kg/m s/s", "kg/m s", "m^99999", "v", "m/", "/s", "m··s", "(m", "m)",
-            "kkg", "^2", "m^0", "é",
+            "kkg", "^2", "m^0", "é", "mL^2", "kg L²",
         ] {
             let found = unit(text);
             assert!(found.is_err(), "{text} was read as {found:?}");

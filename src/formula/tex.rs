@@ -8,6 +8,9 @@ use super::pair::Pair;
 use super::symbols::Parts;
 use super::words::function;
 
+/// Words that a condition begins with.
+const CONDITIONAL: [&str; 7] = ["for", "if", "when", "where", "since", "because", "as"];
+
 impl<'a> Lexer<'a> {
     pub(super) fn command(&mut self, single: bool) -> Faulty<Tok> {
         let start = self.pos;
@@ -249,9 +252,24 @@ impl<'a> Lexer<'a> {
                 return Ok(Tok::Number(literal));
             }
         }
+        let inside = self.group(start).map_or("", |(inside, _)| inside);
+        if word == "text" && CONDITIONAL.contains(&inside.trim()) {
+            let end = self.group(start)?.1;
+            let fault = Fault::new("a word between formulas", start, end);
+            return Err(fault.hint("give the formula alone, without the condition behind it"));
+        }
         let mut parts = Parts::default();
         match name::base(self.text, start, &mut parts, 0) {
             Some(at) => self.finish(start, at, parts),
+            // `\mathbf{\frac{a}{b}}` is a formula in another font.
+            None if matches!(word, "mathbf" | "boldsymbol" | "bm")
+                && inside.contains(['\\', '+', '-', '/', '^']) =>
+            {
+                self.pos = start + 1 + word.len();
+                self.skip_blanks()?;
+                let single = false;
+                self.token(single)
+            }
             None => {
                 let end = self.group(start).map_or(self.pos, |(_, end)| end);
                 Err(Fault::new(

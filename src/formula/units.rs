@@ -106,7 +106,7 @@ impl Lexer<'_> {
                 return None;
             }
             if !self.units_first {
-                // Without declarations 3 m g is a force more often than a unit.
+                // Without declarations 3 m g is a force more often than a unit, and m V a momentum.
                 let telling = words(&plain).any(|w| {
                     matches!(
                         w,
@@ -130,10 +130,6 @@ impl Lexer<'_> {
                             | "eV"
                             | "keV"
                             | "MeV"
-                            | "kV"
-                            | "mA"
-                            | "mV"
-                            | "mL"
                             | "kcal"
                             | "bar"
                             | "hp"

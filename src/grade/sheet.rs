@@ -255,9 +255,9 @@ impl Sheet {
             };
             let as_it_stands =
                 printed.at.is_empty() && printed.short.is_empty() && printed.small.is_empty();
-            let slip = "comes out when";
+            let slips = ["comes out when", "right up to the factor"];
             let known = finding.explained.as_ref().filter(|e| *e != UNEXPLAINED);
-            let open = known.is_none_or(|e| e.starts_with(slip));
+            let open = known.is_none_or(|e| slips.iter().any(|slip| e.starts_with(slip)));
             let grade = match finding.holds {
                 Some(false) if as_it_stands && open => self
                     .entry(name)

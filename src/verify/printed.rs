@@ -388,6 +388,21 @@ impl<'a> Desk<'a> {
         finding
     }
 
+    /// Whether an answer is a spin that counts clockwise.
+    fn is_clockwise(&self, item: &str) -> bool {
+        let mut questions = self.scene.questions.iter();
+        let clockwise = |ask: &Ask| {
+            matches!(
+                ask,
+                Ask::Spin {
+                    clockwise: true,
+                    ..
+                }
+            )
+        };
+        questions.any(|q| q.name == item && clockwise(&q.ask))
+    }
+
     fn formula(
         &self,
         printed: &Printed,
@@ -406,7 +421,13 @@ impl<'a> Desk<'a> {
             _ if let Some((_, value, derived)) = &bound => vec![(derived.clone(), value.clone())],
             (_, Some(closed), content) => {
                 let value = match content {
-                    Content::Vector([x, y, z]) if x.is_zero() && y.is_zero() => z.clone(),
+                    // Along k, out of the page, whichever way the answer counts.
+                    Content::Vector([x, y, z]) if x.is_zero() && y.is_zero() => {
+                        match self.is_clockwise(item) {
+                            true => -z,
+                            false => z.clone(),
+                        }
+                    }
                     other => other
                         .expr()
                         .cloned()
