@@ -75,6 +75,18 @@ pub(crate) fn quotients(
     Ok(Some((values, determinant)))
 }
 
+/// The determinant of a square matrix of at most 31 rows.
+pub fn determinant(field: &Field, rows: &[Vec<Element>]) -> Result<Element, Stop> {
+    let n = rows.len();
+    let mut minors = Minors::from([(0, field.integer(1))]);
+    for column in 0..n {
+        let above = |chosen: u32, row: usize| chosen >> row;
+        minors = extended(field, &minors, n, |row| rows[row].get(column), above)?;
+    }
+    let all = (1u32 << n) - 1;
+    Ok(minors.remove(&all).unwrap_or_else(Element::zero))
+}
+
 /// Minors with one column more. `passed` picks the rows over which an entry is moved to its place.
 fn extended<'a>(
     field: &Field,

@@ -40,6 +40,7 @@ use crate::expr::Expr;
 
 pub use element::Element;
 pub use field::{Assumption, Field};
+pub use minors::determinant;
 pub use powers::Powers;
 pub use solve::{Row, Solution, solve};
 pub use zeros::Cell;

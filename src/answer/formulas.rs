@@ -287,14 +287,17 @@ impl Work<'_> {
         of: &Expr,
         parameter: &Symbol,
         to: &Expr,
-        order: u32,
+        order: Option<u32>,
     ) -> Result<Answer, Refused> {
         let near = if to.is_zero() {
             format!("small {parameter}")
         } else {
             format!("{parameter} near {}", write_plain(to))
         };
-        let words = format!("{} for {near}, to order {order}", write_plain(of));
+        let words = match order {
+            Some(order) => format!("{} for {near}, to order {order}", write_plain(of)),
+            None => format!("leading term of {} for {near}", write_plain(of)),
+        };
         let mut out = self.blank(words);
         let value = self.put(of, &[])?;
         out.dimension = dimension_of(self.scene, &value, self.name)?;

@@ -21,6 +21,8 @@ use crate::interval::{Interval, Outcome, evaluate};
 
 /// Highest power of the distance that is looked at.
 const POWERS: usize = 12;
+/// Highest power among which the leading one is looked for.
+const LEADING: usize = 6;
 /// Largest formula whose derivatives are followed, in nodes.
 const LONGEST: usize = 4_000;
 
@@ -94,13 +96,13 @@ pub fn fill(out: &mut Answer, of: &Expr, parameter: &Symbol, to: Option<&Expr>, 
     }
 }
 
-/// The polynomial in the distance that stands for a formula near a value.
+/// The polynomial in the distance that stands for a formula near a value; without an order, its leading term.
 pub(super) fn approximate(
     out: &mut Answer,
     of: &Expr,
     parameter: &Symbol,
     to: &Expr,
-    order: u32,
+    order: Option<u32>,
     domains: &Domains,
 ) {
     if let Some(words) = outside(to, parameter, domains) {
@@ -108,7 +110,7 @@ pub(super) fn approximate(
         out.checks.push(open("series"));
         return;
     }
-    let wanted = order as usize;
+    let wanted = order.map_or(LEADING, |order| order as usize);
     // Two powers more tell what is left out.
     let Some(series) = Series::of(of, parameter, to, wanted + 3, domains) else {
         out.text.push(sentence![
@@ -120,7 +122,24 @@ pub(super) fn approximate(
         return;
     };
     out.assumptions.extend(series.given);
+    let distance = &Expr::symbol(parameter) - to;
+    let leading = series.coefficients.iter().position(|c| !c.is_zero());
+    let power = leading.unwrap_or_default() as i64 + series.lowest.min(0);
+    if order.is_none() && leading.is_some() {
+        out.text
+            .push(Sentence::words(format!("the leading power is {power}")));
+    }
     if series.lowest < 0 {
+        let lead = &series.coefficients[0];
+        if order.is_none() {
+            let stretched = of * &distance.powi(-power);
+            out.checks.push(exact());
+            out.checks
+                .extend(tried(&stretched, lead, parameter, Some(to), 0, domains));
+            let term = lead * &distance.powi(power);
+            out.form = Form::value(tidy(&term, domains).unwrap_or(term));
+            return;
+        }
         out.text.push(sentence![
             "there is no such form: near ",
             parameter,
@@ -133,7 +152,8 @@ pub(super) fn approximate(
         ]);
         return;
     }
-    let distance = &Expr::symbol(parameter) - to;
+    let order = order.unwrap_or(u32::try_from(power).unwrap_or_default());
+    let wanted = order as usize;
     let terms = series.coefficients.iter().enumerate();
     let kept = terms.clone().take(wanted + 1);
     let polynomial = Expr::sum(kept.map(|(k, c)| c * &distance.powi(k as i64)));
@@ -149,11 +169,7 @@ pub(super) fn approximate(
             series.coefficients.len()
         )),
     });
-    out.checks.push(Check::new(
-        "series",
-        "value and derivatives of the closed form there, exact (Taylor's theorem)",
-        Some(true),
-    ));
+    out.checks.push(exact());
     out.checks
         .extend(tried(of, &polynomial, parameter, Some(to), order, domains));
     out.near.push(Near {
@@ -164,6 +180,11 @@ pub(super) fn approximate(
         order,
     });
     out.form = Form::value(polynomial);
+}
+
+fn exact() -> Check {
+    let words = "value and derivatives of the closed form there, exact (Taylor's theorem)";
+    Check::new("series", words, Some(true))
 }
 
 fn open(kind: &'static str) -> Check {

@@ -6,8 +6,12 @@ use crate::algebra::{self, Element, Row};
 use crate::answer::{Answer, Form, Matrix};
 use crate::derive::count::Counting;
 use crate::expr::{Expr, Vector};
+use crate::formula::{Sentence, sentence};
 use crate::laws::{self, Affine, Direction, Kinematics, Law, Place, Unknown};
 use crate::scene::{Ask, EnergyWhen, ImpulseAt, KnownQuantity, Question, Scene};
+
+/// Most rows of a matrix whose determinant is told.
+const SQUARE: usize = 7;
 
 /// The full system of a scene, every law and every unknown, as a matrix.
 pub fn full_matrix(scene: &Scene, names: &Names) -> Result<Matrix, Stop> {
@@ -144,8 +148,12 @@ impl Work<'_> {
                 out.push(make(question.name.clone(), latex, words, form));
             }
             Asked::Matrix(rows, unknowns) => {
-                let form = Form::Matrix(self.matrix(&rows, &unknowns)?);
-                out.push(make(question.name.clone(), latex, words, form));
+                let matrix = self.matrix(&rows, &unknowns)?;
+                let determinant = self.determinant(&matrix)?;
+                let form = Form::Matrix(matrix);
+                let mut answer = make(question.name.clone(), latex, words, form);
+                answer.text.extend(determinant);
+                out.push(answer);
             }
         }
         Ok(())
@@ -473,6 +481,26 @@ impl Work<'_> {
             }
         }
         Ok(matrix)
+    }
+}
+
+impl Work<'_> {
+    /// What the determinant of a square matrix is, in words.
+    fn determinant(&mut self, matrix: &Matrix) -> Result<Option<Sentence>, Stop> {
+        let n = matrix.unknowns.len();
+        if matrix.entries.len() != n || n > SQUARE {
+            return Ok(None);
+        }
+        let mut rows = Vec::new();
+        for row in &matrix.entries {
+            let elements = row.iter().map(|e| self.field.element(e));
+            rows.push(elements.collect::<Result<Vec<_>, _>>()?);
+        }
+        let determinant = algebra::determinant(&self.field, &rows)?;
+        Ok(Some(match self.field.is_zero(&determinant) {
+            true => Sentence::words("its determinant is 0: a row follows from the others"),
+            false => sentence!["its determinant is ", &self.field.expr(&determinant)],
+        }))
     }
 }
 

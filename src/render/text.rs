@@ -114,6 +114,9 @@ fn answer(out: &mut String, scene: &Scene, d: &Derivation, answer: &Answer) {
         Form::Matrix(m) => {
             line(out, "  ", &format!("{}: {}", answer.name, answer.words));
             matrix_lines(out, scene, m);
+            for sentence in &answer.text {
+                line(out, "      ", &sentence.written(|e| unicode(scene, e)));
+            }
         }
         Form::Words => {}
         Form::Open(names) => {

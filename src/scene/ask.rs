@@ -181,8 +181,8 @@ pub enum Ask {
         parameter: Symbol,
         /// The value it is near to.
         to: Expr,
-        /// Highest power of the difference.
-        order: u32,
+        /// Highest power of the difference; `None` asks for the leading term.
+        order: Option<u32>,
     },
     /// An identity or inequality to be proved.
     Show {

@@ -89,6 +89,7 @@ pub(super) fn meant(word: &str, here: &[&str]) -> Option<&'static str> {
             "\"balance\": \"momentum\" gives an equation, `angular_momentum` with `about` a quantity"
         }
         "collisions" | "impacts" => "bodies collide at their `contacts`",
+        "determinant" | "det" => "a square `matrix` tells its determinant",
         "moment_of_inertia" => "a moment of inertia is `inertia`",
         "gravity" => {
             "gravity belongs to a motion in `stages`; in an impact weight has no impulse, and is one of `forces`"

@@ -109,9 +109,9 @@ record! {
         /// What it tends to: a formula, or "infinity".
         to: Option<Formula>,
         /// A formula, or the name of a vector, to be written as a polynomial in the small difference between the parameter that
-        /// `tends` and what it tends `to` (missing: 0), up to the power `order`.
+        /// `tends` and what it tends `to` (missing: 0), up to the power `order`; without it, by its leading term.
         approximate: Option<Formula>,
-        /// Highest power kept: 0, 1, 2, ….
+        /// Highest power kept: 0, 1, 2, …. Missing: the leading term, and its power.
         order: Option<Formula>,
         /// An equation or inequality to be proved.
         show: Option<Text>,

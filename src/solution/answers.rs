@@ -1,7 +1,7 @@
 //! Quantities that follow from what the blocks determine: velocities of points, components, energies, equations asked for.
 
 use super::words::{self, name, say};
-use super::{Claim, Detail, Line, Math, Part, Writer};
+use super::{Claim, Detail, Line, Math, Part, Writer, full_sentence};
 use crate::answer::{Answer, Form};
 use crate::expr::{Expr, Symbol, Vector};
 use crate::laws::{self, Place};
@@ -472,6 +472,9 @@ impl Writer<'_> {
                     self.step(Vec::new(), claims, "the rows of the matrix form");
                     self.say("The equations in matrix form:");
                     self.push(Part::Matrix(m.clone()));
+                    for sentence in &answer.text {
+                        self.text(full_sentence(self.scene, sentence));
+                    }
                 }
                 _ => {}
             }

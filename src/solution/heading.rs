@@ -47,7 +47,10 @@ pub(super) fn goes_on(before: &Ask, ask: &Ask) -> bool {
 /// What a further question adds to the heading, or says before its answer.
 pub(super) fn further(solution: &mut Solution, ask: &Ask, answer: &Answer) {
     if let Ask::Approximate { order, .. } = ask {
-        return solution.say(&format!("To order {order},"));
+        return solution.say(&match order {
+            Some(order) => format!("To order {order},"),
+            None => String::from("The leading term is"),
+        });
     }
     let Some(section) = solution.sections.last_mut() else {
         return;
@@ -152,8 +155,10 @@ pub(super) fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> 
                 let near = near.into_iter().chain([Math::Expr(to.clone())]);
                 out.extend([say(" for "), Inline::Math(near.collect())]);
             }
-            if *order > 0 {
-                out.push(say(format!(", to order {order}")));
+            match order {
+                Some(0) => {}
+                Some(order) => out.push(say(format!(", to order {order}"))),
+                None => out.insert(0, say("Leading term of ")),
             }
             out
         }

@@ -9,7 +9,7 @@ use crate::algebra::factor::factor;
 use crate::algebra::gcd::{Fuel, gcd};
 use crate::algebra::mono::{exponent, mono_variables};
 use crate::algebra::poly::Poly;
-use crate::algebra::{Element, Field, Row, Stop, solve};
+use crate::algebra::{Element, Field, Row, Stop, determinant, solve};
 use crate::domain::Domains;
 use crate::expr::{Expr, Int, Point, Rational, ratio};
 
@@ -75,6 +75,29 @@ fn polynomial() -> impl Strategy<Value = Poly> {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn a_determinant_is_that_of_the_transposed_and_turns_its_sign_with_two_rows(
+        entries in prop::collection::vec(-3i64..=3, 16), factor in 1i64..=3
+    ) {
+        let field = field_of(&[]);
+        let of = |entry: &dyn Fn(usize, usize) -> i64| {
+            let row = |i: usize| (0..4).map(|j| field.integer(entry(i, j))).collect();
+            determinant(&field, &(0..4).map(row).collect::<Vec<Vec<_>>>())
+                .map(|d| field.expr(&d))
+        };
+        let there = of(&|i, j| entries[4 * i + j]);
+        prop_assert_eq!(&of(&|i, j| entries[4 * j + i]), &there);
+        let turned = of(&|i, j| entries[4 * [1, 0, 2, 3][i] + j]);
+        prop_assert_eq!(turned.map(|d| -d), there.clone());
+        // A multiple of one row added to another changes nothing.
+        let sheared = of(&|i, j| entries[4 * i + j] + if i == 2 { factor * entries[j] } else { 0 });
+        prop_assert_eq!(sheared, there);
+        // Below the diagonal nothing: the product of the diagonal.
+        let diagonal: i64 = (0..4).map(|i| entries[5 * i]).product();
+        let triangle = of(&|i, j| if j < i { 0 } else { entries[4 * i + j] });
+        prop_assert_eq!(triangle, Ok(Expr::from(diagonal)));
+    }
 
     #[test]
     fn the_written_normal_form_has_the_value_of_the_original(e in expression(), at in point()) {

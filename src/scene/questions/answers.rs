@@ -245,17 +245,18 @@ fn approximate(
     q: &QuestionFile,
     of: &Formula,
 ) -> Option<Ask> {
-    let (Some(tends), Some(order)) = (&q.tends, &q.order) else {
+    let Some(tends) = &q.tends else {
         let fault = Fault::new(
             name.span,
-            "a form for a small parameter needs the parameter that `tends` and the `order`",
+            "a form for a small parameter needs the parameter that `tends`",
         );
         return fault
             .hint("\"tends\": \"theta\", \"to\": \"0\", \"order\": 1")
             .add_to(&mut base.faults);
     };
-    let power: Option<u32> = order.text.trim().parse().ok().filter(|n| *n <= ORDER);
-    if power.is_none() {
+    let whole = |order: &Formula| order.text.trim().parse().ok().filter(|n| *n <= ORDER);
+    let power = q.order.as_ref().map(whole);
+    if let (Some(None), Some(order)) = (power, &q.order) {
         base.faults.push(Fault::new(
             order.span,
             format!("the order is a whole number from 0 to {ORDER}"),
@@ -268,7 +269,7 @@ fn approximate(
             Some(to) => formula(base, symbols, to)?,
             None => Expr::zero(),
         },
-        order: power?,
+        order: power.map_or(Some(None), |power| power.map(Some))?,
     })
 }
 
