@@ -1,8 +1,9 @@
-//! Identities the normal form cannot see by itself: sums of arcs, hyperbolic functions, powers with symbols above.
+//! Identities the normal form cannot see by itself: sums of arcs or logarithms, hyperbolic functions, powers with symbols above.
 //!
 //! Arcs: where sin D = 0 and cos D = 1 hold identically, D is a whole number of turns everywhere; where in addition the
 //! ranges of its arcs and angles keep D within less than a turn of zero, D is zero. Hyperbolic functions and powers of
-//! something positive are written with the exponential function, whose laws the normal form knows.
+//! something positive are written with the exponential function, whose laws the normal form knows. Logarithms: where they all
+//! have values, k ln u + l ln v is zero if and only if uᵏ vˡ is one.
 
 use super::Ground;
 use super::proof::{Proof, compare};
@@ -18,11 +19,52 @@ pub(super) fn prove(a: &Expr, b: &Expr, domains: &Domains) -> Option<Proof> {
     if has_arc(&difference) {
         return whole_turns(&without_shared(&difference), domains);
     }
+    if let Some(proof) = one_logarithm(&without_shared(&difference), domains) {
+        return Some(proof);
+    }
     let (x, y) = (exponentials(a, domains), exponentials(b, domains));
     if x == *a && y == *b {
         return None;
     }
     Some(compare(&x, &y, domains)).filter(|proof| matches!(proof, Proof::Equal(..)))
+}
+
+/// Highest power of what stands under a logarithm.
+const HIGHEST: i64 = 12;
+
+/// Whether a sum of logarithms with fixed factors is zero because the product of what they are of is one.
+fn one_logarithm(difference: &Expr, domains: &Domains) -> Option<Proof> {
+    let Node::Sum(terms) = difference.node() else {
+        return None;
+    };
+    let log = |term: &Expr| {
+        let (k, atom) = term.split_number();
+        match atom.node() {
+            Node::Call(Function::Ln, under) => Some((k, under.clone())),
+            _ => None,
+        }
+    };
+    let logs: Vec<(Rational, Expr)> = terms.iter().map(log).collect::<Option<_>>()?;
+    let common = Rational::from(common_denominator(&logs));
+    let power = |(k, under): &(Rational, Expr)| {
+        let k = (k * &common)
+            .numer()
+            .as_i64()
+            .filter(|k| k.abs() <= HIGHEST)?;
+        Some(under.powi(k))
+    };
+    let product = Expr::product(logs.iter().map(power).collect::<Option<Vec<_>>>()?);
+    match compare(&product, &Expr::one(), domains) {
+        Proof::Equal(assumed, _) => Some(Proof::Equal(assumed, Ground::Logarithms)),
+        _ => None,
+    }
+}
+
+/// The least common multiple of the denominators of factors.
+fn common_denominator(parts: &[(Rational, Expr)]) -> crate::expr::Int {
+    parts.iter().fold(crate::expr::Int::from(1), |n, (k, _)| {
+        num_integer::lcm(n, k.denom().clone())
+    })
 }
 
 /// A sum without the factors that all its terms share: where the rest is zero the sum is.
@@ -68,10 +110,7 @@ fn whole_turns(difference: &Expr, domains: &Domains) -> Option<Proof> {
     };
     let parts: Option<Vec<(Rational, Expr)>> = terms.iter().map(coefficient).collect();
     let parts = parts?;
-    let common = parts.iter().fold(crate::expr::Int::from(1), |n, (k, _)| {
-        num_integer::lcm(n, k.denom().clone())
-    });
-    let common = Rational::from(common);
+    let common = Rational::from(common_denominator(&parts));
     let (mut low, mut high) = (0.0, 0.0);
     for (k, atom) in &parts {
         let times = to_f64(&(k * &common));

@@ -94,6 +94,8 @@ pub enum Ground {
     NormalForm,
     /// It is a whole number of turns everywhere, and less than one.
     Turns,
+    /// It is a sum of logarithms, and what stands under them makes one.
+    Logarithms,
     /// Its coefficients are algebraic numbers smaller than any of their kind that is not zero.
     Bound,
 }
@@ -104,6 +106,7 @@ impl Ground {
         match self {
             Ground::NormalForm => "the difference is zero in the normal form",
             Ground::Turns => "the difference is a whole number of turns, and less than one",
+            Ground::Logarithms => "the difference is the logarithm of one",
             Ground::Bound => {
                 "the numbers in the difference are closer to zero than any of their kind that is not zero"
             }
