@@ -12,6 +12,7 @@ use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol};
 use crate::laws::Unknown;
 use crate::scene::{Ask, EnergyWhen, ImpulseAt, Parameter};
+use crate::verify::needed_friction;
 
 /// Largest value, in nodes of its formula, that is worth a remark.
 const NOTICED: usize = 30;
@@ -29,6 +30,7 @@ impl Writer<'_> {
         let mut items: Vec<Vec<Inline>> = Vec::new();
         items.extend(self.energy_remark());
         items.extend(self.signs());
+        items.extend(self.friction_remarks());
         items.extend(self.independent());
         items.extend(self.zeros());
         items.extend(self.limits());
@@ -205,6 +207,23 @@ impl Writer<'_> {
             ]);
         }
         items
+    }
+
+    /// What friction the contacts need that are taken to stick.
+    fn friction_remarks(&self) -> Vec<Vec<Inline>> {
+        let each = self.scene.contacts.iter().enumerate();
+        let each = each.filter_map(|(i, contact)| {
+            let ratio = needed_friction(self.scene, self.d, i)?;
+            let place = words::place(&contact.name, "contact");
+            Some(vec![
+                say(format!(
+                    "To stick, {place} needs a coefficient of friction of at least "
+                )),
+                words::formula(&ratio),
+                say("."),
+            ])
+        });
+        each.collect()
     }
 
     /// Masses that cancel, and lengths that do not matter.

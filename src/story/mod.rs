@@ -26,7 +26,7 @@ pub use second::held;
 pub use sheet::{beginning, impact, impacts, is_clockwise, sheet};
 
 use crate::algebra::Sign;
-use crate::answer::calc::{at_least_zero, constant};
+use crate::answer::calc::{at_least_zero, constant, tidy};
 use crate::answer::{Answer, Check, Refused, TOO_LONG};
 use crate::derive::{Derivation, Stop};
 use crate::domain::Domain;
@@ -434,6 +434,12 @@ pub fn course(scene: &Scene) -> Result<Told, Refused> {
                 }
             }
             let mut placed = stage.placed(&known);
+            if !stage.earlier.is_empty() {
+                let domains = placed.scene.domains.clone();
+                placed
+                    .kind
+                    .formulas_mut(&mut |e| *e = tidy(e, &domains).unwrap_or_else(|_| e.clone()));
+            }
             if stage.from.is_none() && !stage.earlier.is_empty() {
                 before = start(&placed.scene, &placed.start);
             }

@@ -15,6 +15,9 @@ pub mod printed;
 pub mod rounding;
 mod row_space;
 mod slip;
+mod sticks;
+
+pub use sticks::needed_friction;
 
 use std::collections::BTreeMap;
 
@@ -23,6 +26,7 @@ use num_traits::Zero;
 use crate::answer::{self, Answer, Check, Form, Refused};
 use crate::derive::Derivation;
 use crate::expr::{Expr, Point, Rational, Scalar, Symbol};
+use crate::formula::write_plain;
 use crate::numeric::{self, Approach};
 use crate::scene::{Ask, Scene};
 
@@ -138,7 +142,7 @@ pub fn prove(scene: &Scene, derivation: &Derivation) -> Proof {
         .filter_map(|point| doubles::run(scene, point))
         .collect();
     invariants(&runs, &mut proof);
-    admissible(scene, &runs, &mut proof);
+    admissible(scene, derivation, &runs, &mut proof);
     for answer in &derivation.answers {
         let mut checks = Vec::new();
         if let Form::Value { closed, short } = &answer.form {
@@ -252,24 +256,31 @@ fn invariants(runs: &[Run<Rational>], proof: &mut Proof) {
     }
 }
 
-/// Approach, push and friction as the exact points show them.
-fn admissible(scene: &Scene, runs: &[Run<Rational>], proof: &mut Proof) {
+/// Approach, push and friction as the exact points show them; the friction that sticking needs is held against its formula.
+fn admissible(scene: &Scene, derivation: &Derivation, runs: &[Run<Rational>], proof: &mut Proof) {
     let mut separating = 0;
-    let mut friction: Option<Rational> = None;
+    let mut most: Option<Rational> = None;
+    let mut ratios: Vec<Option<Expr>> = Vec::new();
+    let mut differs = false;
     for run in runs.iter().filter(|r| r.motion.loose.is_empty()) {
         let reports = numeric::contact_reports(&run.given, &run.motion).into_iter();
-        for (contact, report) in run.given.contacts.iter().zip(reports) {
+        for (c, (contact, report)) in run.given.contacts.iter().zip(reports).enumerate() {
             let Some(report) = report else { continue };
             let is_light = |b: &usize| scene.bodies[*b].is_light_pulley();
             let parts = report.approach == Approach::Separating;
             separating += usize::from(parts && !contact.joint.bodies.iter().any(is_light));
             let sticks = matches!(contact.law, numeric::given::GivenLaw::Sticking);
-            let needed = report
-                .required_friction
-                .filter(|mu| sticks && !mu.is_zero());
-            if let Some(mu) = needed {
-                friction = Some(friction.map_or(mu.clone(), |f| if f < mu { mu } else { f }));
+            let needed = report.required_friction;
+            let Some(needed) = needed.filter(|mu| sticks && !mu.is_zero()) else {
+                continue;
+            };
+            if ratios.is_empty() {
+                let contacts = 0..scene.contacts.len();
+                ratios.extend(contacts.map(|c| needed_friction(scene, derivation, c)));
             }
+            let told = ratios[c].as_ref().and_then(|r| r.evaluate(&run.point));
+            differs |= told.is_some_and(|told| told != needed);
+            most = most.max(Some(needed));
         }
     }
     if separating > 0 {
@@ -277,15 +288,16 @@ fn admissible(scene: &Scene, runs: &[Run<Rational>], proof: &mut Proof) {
             "the bodies approach each other at the contact",
         ));
     }
-    if let Some(mu) = friction {
-        proof.scene.push(Check::new(
-            "friction",
-            format!(
-                "sticking needs friction |P_t|/P_n, at the points tried up to {:.3}",
-                crate::expr::number::to_f64(&mu)
-            ),
-            None,
-        ));
+    if let Some(most) = most {
+        let told: Vec<String> = ratios.iter().flatten().map(write_plain).collect();
+        let ratio = match told.as_slice() {
+            [only] => format!("|P_t|/P_n = {only}"),
+            _ => String::from("|P_t|/P_n"),
+        };
+        let most = crate::expr::number::to_f64(&most);
+        let words = format!("sticking needs friction {ratio}, at the points tried up to {most:.3}");
+        let holds = differs.then_some(false);
+        proof.scene.push(Check::new("friction", words, holds));
     }
 }
 
