@@ -3,8 +3,8 @@
 
 use super::{Diagnosis, Grade, Key, Proof, Verdict, read};
 use crate::dimension;
-use crate::expr::Expr;
-use crate::formula::{Content, Reading, Relation, Shape};
+use crate::expr::{Expr, Symbol};
+use crate::formula::{Content, Reading, Relation, Shape, Written};
 
 /// An answer cut before the numbers at its end.
 pub(super) struct Worked<'a> {
@@ -32,7 +32,19 @@ pub(super) fn worked<'a>(key: &Key, answer: &'a str, reading: &Reading) -> Optio
         return None;
     };
     let steps = |sign: &Relation| matches!(sign, Relation::Equal | Relation::Approximately);
-    let symbolic = sides.len() - sides.iter().rev().take_while(|side| constant(side)).count();
+    // `2 kg · 9.8 m/s² · 5 m` begins with a number, and has letters that the question does not know.
+    let strange = |name: &Symbol| !key.question.given().any(|g| g.name == *name);
+    let numbers = |(side, written): &(&Content, &Written)| {
+        let digit = answer
+            .get(written.start..)
+            .is_some_and(|t| t.starts_with(|c: char| c.is_ascii_digit()));
+        constant(side) || digit && side.symbols().iter().any(strange)
+    };
+    let last = sides.iter().zip(&reading.written).rev();
+    let symbolic = match sides.last().is_some_and(constant) {
+        true => sides.len() - last.take_while(numbers).count(),
+        false => sides.len(),
+    };
     let named = symbolic == 1 && sides[0].expr().is_some_and(|e| e.as_symbol().is_some());
     if symbolic == 0 || symbolic == sides.len() || named || !signs.iter().all(steps) {
         return None;
