@@ -10,7 +10,7 @@ use num_integer::Integer;
 use super::Check;
 pub use crate::algebra::tidy;
 use crate::algebra::{Element, Field, Powers, Sign, Stop};
-use crate::domain::{Domain, Domains, Relation, roles, samples};
+use crate::domain::{Domain, Domains, Relation, roles, samples_until};
 use crate::expr::{Expr, Function, Node, Point, Symbol};
 use crate::formula::{Sentence, sentence};
 use crate::interval::{Interval, Outcome, evaluate};
@@ -89,9 +89,11 @@ pub fn is_zero(e: &Expr, domains: &Domains) -> Option<bool> {
     }
     let roles = roles(&[e]);
     let (domains, _) = domains.completed(&roles);
-    let apart = samples(&roles, &domains, POINTS).iter().any(|sample| {
+    let mut apart = false;
+    samples_until(&roles, &domains, POINTS, |sample| {
         let value = evaluate::<Interval>(e, &sample.point(roles.radians));
-        matches!(value, Outcome::Value(v) if v.low > 0.0 || v.high < 0.0)
+        apart = matches!(value, Outcome::Value(v) if v.low > 0.0 || v.high < 0.0);
+        apart
     });
     apart.then_some(false)
 }
@@ -160,16 +162,14 @@ fn met(e: &Expr, domains: &Domains) -> (usize, usize) {
     let roles = roles(&[e]);
     let (domains, _) = domains.completed(&roles);
     let (mut above, mut below) = (0, 0);
-    for sample in samples(&roles, &domains, POINTS) {
+    samples_until(&roles, &domains, POINTS, |sample| {
         match evaluate::<Interval>(e, &sample.point(roles.radians)) {
             Outcome::Value(v) if v.low > 0.0 => above += 1,
             Outcome::Value(v) if v.high < 0.0 => below += 1,
             _ => {}
         }
-        if above > 0 && below > 0 {
-            break;
-        }
-    }
+        above > 0 && below > 0
+    });
     (above, below)
 }
 

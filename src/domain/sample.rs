@@ -22,14 +22,41 @@ pub struct Sample {
 /// different values, later ones are drawn from a fixed pseudo-random sequence. `domains` must declare every symbol of
 /// `roles`. Fewer points come out where a domain has no point that could be found.
 pub fn samples(roles: &Roles, domains: &Domains, count: usize) -> Vec<Sample> {
+    samples_until(roles, domains, count, |_| false)
+}
+
+/// The same points up to the first that is the last one wanted; the others are not made.
+pub fn samples_until(
+    roles: &Roles,
+    domains: &Domains,
+    count: usize,
+    mut is_last: impl FnMut(&Sample) -> bool,
+) -> Vec<Sample> {
     if !domains.relations.is_empty() {
-        return related(roles, domains, count);
+        return related(roles, domains, count, is_last);
     }
-    drawn(roles, domains, 4 * count, count, |_| true)
+    drawn(roles, domains, 4 * count, count, |point| {
+        match is_last(point) {
+            true => Taken::Last,
+            false => Taken::Yes,
+        }
+    })
+}
+
+/// Whether a point that was drawn is taken.
+enum Taken {
+    No,
+    Yes,
+    Last,
 }
 
 /// Points that keep to the relations: the other symbols of these are placed too, and left out again.
-fn related(some: &Roles, domains: &Domains, count: usize) -> Vec<Sample> {
+fn related(
+    some: &Roles,
+    domains: &Domains,
+    count: usize,
+    mut is_last: impl FnMut(&Sample) -> bool,
+) -> Vec<Sample> {
     let bearing = domains.relations_of(&some.symbols.keys().cloned().collect());
     let excesses: Vec<&Expr> = bearing.iter().map(|r| &r.excess).collect();
     let mut all = roles(&excesses);
@@ -41,16 +68,20 @@ fn related(some: &Roles, domains: &Domains, count: usize) -> Vec<Sample> {
     // Chains of relations leave few of the points drawn.
     drawn(&all, &domains, 200 + 60 * count, count, |point| {
         if !domains.admits(point) {
-            return false;
+            return Taken::No;
         }
         let mut own = point.clone();
         own.coordinates
             .retain(|name, _| some.symbols.contains_key(name));
-        let is_new = !out.contains(&own);
-        if is_new {
-            out.push(own);
+        if out.contains(&own) {
+            return Taken::No;
         }
-        is_new
+        let taken = match is_last(&own) {
+            true => Taken::Last,
+            false => Taken::Yes,
+        };
+        out.push(own);
+        taken
     });
     out
 }
@@ -64,7 +95,7 @@ fn drawn(
     domains: &Domains,
     most: usize,
     count: usize,
-    mut takes: impl FnMut(&Sample) -> bool,
+    mut takes: impl FnMut(&Sample) -> Taken,
 ) -> Vec<Sample> {
     let mut axes: Vec<(&Symbol, &Domain, Vec<Coordinate>)> = Vec::new();
     for (i, (name, role)) in roles.symbols.iter().enumerate() {
@@ -88,7 +119,10 @@ fn drawn(
     }
     if axes.is_empty() {
         let only = Sample::default();
-        return if takes(&only) { vec![only] } else { Vec::new() };
+        return match takes(&only) {
+            Taken::No => Vec::new(),
+            Taken::Yes | Taken::Last => vec![only],
+        };
     }
     let units = units(roles, domains);
     let mut out: Vec<Sample> = Vec::new();
@@ -115,11 +149,16 @@ fn drawn(
                 }
             }
         }
-        if place_units(&mut point, &units, k) && !out.contains(&point) && takes(&point) {
-            out.push(point);
-            if out.len() == count {
-                break;
-            }
+        if !place_units(&mut point, &units, k) || out.contains(&point) {
+            continue;
+        }
+        let taken = takes(&point);
+        if matches!(taken, Taken::No) {
+            continue;
+        }
+        out.push(point);
+        if matches!(taken, Taken::Last) || out.len() == count {
+            break;
         }
     }
     out

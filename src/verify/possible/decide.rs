@@ -9,7 +9,7 @@ use super::{Condition, Verdict};
 use crate::algebra::{Field, Sign};
 use crate::answer::calc::{constant, has_both_signs};
 use crate::derive::Derivation;
-use crate::domain::{Domains, roles, samples};
+use crate::domain::{Domains, roles, samples_until};
 use crate::expr::{Expr, Node, Point, Rational, Scalar, Symbol};
 use crate::interval::{Interval, Outcome, evaluate};
 use crate::laws::{self, Unknown};
@@ -97,18 +97,17 @@ pub(super) fn need(need: &Need, domains: &Domains) -> Decided {
 pub(super) fn signs_agree(a: &Expr, b: &Expr, domains: &Domains) -> bool {
     let roles = roles(&[a, b]);
     let (domains, _) = domains.completed(&roles);
-    let mut compared = 0;
-    for sample in samples(&roles, &domains, POINTS) {
+    let (mut compared, mut apart) = (0, false);
+    samples_until(&roles, &domains, POINTS, |sample| {
         let point = sample.point(roles.radians);
         let [x, y] = [a, b].map(|e| evaluate::<Interval>(e, &point));
         if let (Outcome::Value(x), Outcome::Value(y)) = (x, y) {
             compared += 1;
-            if x.high < 0.0 && y.low > 0.0 || x.low > 0.0 && y.high < 0.0 {
-                return false;
-            }
+            apart = x.high < 0.0 && y.low > 0.0 || x.low > 0.0 && y.high < 0.0;
         }
-    }
-    compared > 0
+        apart
+    });
+    compared > 0 && !apart
 }
 
 /// The expression without factors known to be positive, which do not change where it is not negative; what is negative
