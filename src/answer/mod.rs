@@ -24,7 +24,7 @@ pub use graph::{Curve, Graph, graphs};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Relation, Sentence, latex_name, sentence, with_subscript};
-use crate::scene::Question;
+use crate::scene::{Ask, Parameter, Question, Scene};
 
 /// The symbol whose square stands for a parameter under a root.
 const ROOT: &str = "\u{1}root";
@@ -225,6 +225,23 @@ impl Answer {
         match &self.form {
             Form::Value { closed, .. } => Some(closed),
             _ => None,
+        }
+    }
+
+    /// Its unit as a person says it; 1 for a plain number.
+    pub fn unit(&self, scene: &Scene) -> String {
+        let asked = scene.questions.iter().find(|q| q.name == self.question);
+        let is_angle = asked.is_some_and(|q| match &q.ask {
+            Ask::Angle { .. } => true,
+            Ask::Condition { parameter, .. } => {
+                let of = scene.parameters.iter().find(|p| p.name == *parameter);
+                of.is_some_and(Parameter::is_angle)
+            }
+            _ => false,
+        });
+        match is_angle {
+            true => String::from("rad"),
+            false => self.dimension.spoken(),
         }
     }
 

@@ -6,7 +6,7 @@ use super::write::Heading;
 use crate::formula::visible;
 
 /// What stands at the head of a file.
-pub(super) fn head(heading: &Heading) -> Vec<String> {
+pub(super) fn head(heading: &Heading, functions: &[Function]) -> Vec<String> {
     let mut lines = vec![match heading.source.is_empty() {
         true => heading.title.clone(),
         false => format!("{} ({})", heading.title, heading.source),
@@ -18,6 +18,19 @@ pub(super) fn head(heading: &Heading) -> Vec<String> {
     ));
     if !heading.assumptions.is_empty() {
         lines.push(format!("Assumes {}.", heading.assumptions.join(", ")));
+    }
+    if functions.iter().any(|f| f.bound.is_some()) {
+        let mut text = String::from(
+            "Errors are relative, for the arguments as given, in round-to-nearest and without contraction or fast-math",
+        );
+        if functions.iter().flat_map(|f| &f.turns).any(|t| !t.wide) {
+            text.push_str(&format!(
+                ", with cosines and sines of the library good to {} unit in the last place",
+                LIBRARY / 2.0
+            ));
+        }
+        text.push_str(". Nothing over- or underflows while every argument is zero or of a size in the range stated.");
+        lines.push(text);
     }
     lines
 }
@@ -97,7 +110,12 @@ fn wrapped(line: &str) -> Vec<String> {
 
 /// What the comment of a function says.
 pub(super) fn documentation(f: &Function, names: &[String]) -> Vec<String> {
-    let mut lines = vec![format!("{}: {}.", f.name, f.words.trim_end_matches('.'))];
+    let mut lines = vec![format!(
+        "{}: {} [{}].",
+        f.name,
+        f.words.trim_end_matches('.'),
+        f.unit
+    )];
     lines.push(String::new());
     lines.push(format!("`{}`", f.formula));
     lines.push(String::new());
@@ -134,10 +152,7 @@ fn promise(f: &Function, names: &[String]) -> Vec<String> {
     }
     let size = |v: f64| format!("{:.1e}", v * super::program::UNIT * 1.05);
     let plain = up(bound.plain);
-    let mut text = format!(
-        "Error: at most {plain} * 2^-53 of the value (relative {})",
-        size(plain)
-    );
+    let mut text = format!("Error: at most {} ({plain} * 2^-53)", size(plain));
     if bound.wide > 0.0 {
         text.push_str(&format!(
             ", plus {:.1e} times how far sums cancel: the sizes of the terms added, over the size of their sum, for \
@@ -145,20 +160,10 @@ fn promise(f: &Function, names: &[String]) -> Vec<String> {
             bound.wide * super::program::UNIT * 1.1
         ));
     }
-    text.push_str(". It holds for the arguments as given, in round-to-nearest and without contraction or fast-math");
-    if f.turns.iter().any(|t| !t.wide) {
-        text.push_str(&format!(
-            ", with cosines and sines of the library good to {} unit in the last place",
-            LIBRARY / 2.0
-        ));
-    }
     if f.turns.iter().any(|t| t.wide) {
         text.push_str(", for angles up to 100");
     }
-    text.push_str(&format!(
-        ". Nothing over- or underflows while every argument is zero or of a size within 1e-{0} to 1e{0}",
-        f.reach
-    ));
+    text.push_str(&format!(". Range: 1e-{0} to 1e{0}", f.reach));
     if let Some(units) = &f.units {
         let near = units.of.iter().map(|class| match class.as_slice() {
             [one] => names[*one].clone(),

@@ -61,8 +61,10 @@ impl Turn {
 pub struct Function {
     /// Name of the answer.
     pub name: String,
-    /// What it gives, with its unit.
+    /// What it gives.
     pub words: String,
+    /// The unit of its value.
+    pub unit: String,
     /// The closed form the program evaluates.
     pub formula: String,
     /// What it takes.
@@ -173,7 +175,8 @@ fn function(scene: &Scene, derivation: &Derivation, answer: &Answer) -> Option<F
     let arguments: Vec<Argument> = arguments.iter().map(|a| argument(scene, a)).collect();
     Some(Function {
         name: answer.name.clone(),
-        words: format!("{} [{}]", answer.words, answer.dimension.si()),
+        words: answer.words.clone(),
+        unit: answer.unit(scene),
         formula: write_plain(&form),
         units: units_of(&form, &arguments, &answer.dimension).filter(|_| reach > 0),
         arguments,
@@ -302,10 +305,9 @@ fn argument(scene: &Scene, symbol: &Symbol) -> Argument {
     Argument {
         symbol: symbol.clone(),
         dimension: parameter.map_or_else(Dimension::none, |p| p.dimension.clone()),
-        unit: parameter.map_or_else(String::new, |p| match p.dimension.is_none() {
-            true if p.unit.contains("deg") || p.unit == "rad" => "rad".into(),
-            true => "1".into(),
-            false => p.dimension.si(),
+        unit: parameter.map_or_else(String::new, |p| match p.is_angle() {
+            true => "rad".into(),
+            false => p.dimension.spoken(),
         }),
         meaning: parameter.map_or_else(String::new, |p| p.meaning.clone()),
         domain: scene

@@ -51,9 +51,7 @@ pub(super) fn record(
         .map(|(_, name, unit)| line(name, unit))
         .collect();
     let both = || outputs.iter().zip(functions);
-    let made: String = both()
-        .map(|(name, f)| line(name, unit_of(&f.words)))
-        .collect();
+    let made: String = both().map(|(name, f)| line(name, &f.unit)).collect();
     let values: String = both()
         .zip(given)
         .map(|((out, f), name)| {
@@ -131,14 +129,6 @@ pub(super) fn guarded(text: &str, prefix: &str) -> String {
         .to_ascii_uppercase();
     let name = format!("CAROM_{word}_H").replace("__", "_");
     format!("#ifndef {name}\n#define {name}\n\n{text}\n#endif\n")
-}
-
-/// The unit at the end of the words for a value.
-fn unit_of(words: &str) -> &str {
-    let unit = words
-        .rsplit_once('[')
-        .and_then(|(_, u)| u.strip_suffix(']'));
-    unit.unwrap_or("1")
 }
 
 /// The name of a type: `stick_in` becomes `StickIn`.

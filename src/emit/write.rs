@@ -83,7 +83,7 @@ pub fn file(style: &Style, heading: &Heading, functions: &[Function]) -> String 
     if language == Language::C && !style.prefix.is_empty() {
         out = helpers::prefixed(&out, &style.prefix);
     }
-    out.insert_str(0, &comment(language, &head(heading), true));
+    out.insert_str(0, &comment(language, &head(heading, functions), true));
     if style.record && language == Language::C {
         out = record::guarded(&out, &style.prefix);
     }

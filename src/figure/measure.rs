@@ -10,7 +10,7 @@ use super::place::{Room, Spot};
 use super::pose::Look;
 use super::sheet::{Ink, Line, SIZE, Sheet, arc};
 use super::stage::Stage;
-use super::values::{Pair, Values, is_angle, size};
+use super::values::{Pair, Values, size};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Node, Rational, Symbol, Vector, minus};
 use crate::scene::{BlowImpulse, KnownQuantity, Shape};
@@ -321,7 +321,7 @@ struct Ray<'a> {
 /// Angles: a symbol is shown where a direction turns by just that much when it goes from 0 to its value.
 fn angles(stage: &Stage, sheet: &mut Sheet) {
     let rays = rays(stage);
-    for parameter in stage.scene.parameters.iter().filter(|p| is_angle(p)) {
+    for parameter in stage.scene.parameters.iter().filter(|p| p.is_angle()) {
         let Some(value) = stage.values.of(&Expr::symbol(&parameter.name)) else {
             continue;
         };

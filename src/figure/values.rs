@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use crate::dimension::{self, Dimension};
+use crate::dimension::Dimension;
 use crate::domain::Domain;
 use crate::expr::{Expr, Point, Symbol, Vector};
 use crate::scene::{Body, Parameter, Scene, Shape};
@@ -120,7 +120,7 @@ impl Values {
     /// A value as a caption gives it: `35°`, `0.03 m`.
     pub fn told(&self, parameter: &Parameter) -> Option<String> {
         let value = *self.point.values.get(&parameter.name)?;
-        if is_angle(parameter) {
+        if parameter.is_angle() {
             return Some(format!("{}°", short(value * 180.0 / PI)));
         }
         let scale = parameter
@@ -148,11 +148,6 @@ pub fn short(value: f64) -> String {
     }
 }
 
-/// Whether a parameter is a plane angle.
-pub fn is_angle(parameter: &Parameter) -> bool {
-    parameter.dimension.is_none() && dimension::unit(&parameter.unit).is_ok_and(|u| u.angle)
-}
-
 /// Values to try for a parameter inside its domain, the most pleasant first.
 fn choices(scene: &Scene, parameter: &Parameter, earlier: usize) -> Vec<f64> {
     let domain = scene
@@ -163,7 +158,7 @@ fn choices(scene: &Scene, parameter: &Parameter, earlier: usize) -> Vec<f64> {
         .unwrap_or_default();
     let dimension = &parameter.dimension;
     let is = |m, l, t| *dimension == Dimension::new(m, l, t);
-    let wanted: Vec<f64> = if is_angle(parameter) {
+    let wanted: Vec<f64> = if parameter.is_angle() {
         [35.0, 55.0, 25.0, 20.0, -35.0, 125.0, 80.0, 10.0]
             .iter()
             .map(|d| d * PI / 180.0)

@@ -165,7 +165,7 @@ pub(super) fn answer(scene: &Scene, told: &Told, a: &Answer) -> Value {
     }
     out.insert("symbol".into(), json!(a.latex));
     out.insert("dimension".into(), json!(a.dimension.plain()));
-    out.insert("unit".into(), json!(a.dimension.spoken()));
+    out.insert("unit".into(), json!(a.unit(scene)));
     out.insert("assumptions".into(), json!(assumptions));
     let checks: Vec<Value> = a.checks.iter().map(check).collect();
     out.insert("checks".into(), json!(checks));

@@ -310,6 +310,11 @@ impl Parameter {
     pub fn scale(&self) -> Expr {
         dimension::unit(&self.unit).map_or_else(|_| Expr::one(), |unit| unit.value())
     }
+
+    /// Whether it is a plane angle.
+    pub fn is_angle(&self) -> bool {
+        self.dimension.is_none() && dimension::unit(&self.unit).is_ok_and(|u| u.angle)
+    }
 }
 
 /// A point with a name.
