@@ -243,7 +243,7 @@ fn a_page_answers_first_with_formula_and_code_then_usual_values_then_extremes() 
     let at = |text: &str| page.find(text).unwrap_or_else(|| panic!("no {text}"));
     let order = [
         at("class=\"verdict\""),
-        at("<pre>omega = "),
+        at("title=\"omega = "),
         at("double omega("),
         at(">Usual values<"),
         at("Largest error at usual values"),

@@ -47,7 +47,7 @@ pub(crate) use place::{Room, Spot};
 pub use png::{PngFault, png};
 pub use sheet::Ink;
 pub(crate) use sheet::{Line, Sheet};
-pub use svg::escape;
+pub use svg::{color, escape};
 
 /// Which picture.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -77,7 +77,7 @@ pub fn number(value: f64) -> String {
 }
 
 /// Middle tones that read on white and on near-black alike; what has to be read as text takes the page's own color.
-fn color(ink: Ink) -> &'static str {
+pub fn color(ink: Ink) -> &'static str {
     match ink {
         Ink::Body | Ink::Ground => "currentColor",
         Ink::Motion => "#2f81d6",

@@ -3,7 +3,7 @@
 //! The font and its licence lie in `fonts/`.
 
 /// A subset of STIX Math: letters, digits, signs, accents, stretching brackets; about 28 kB.
-const MATH: &[u8] = include_bytes!("fonts/carom-math.woff2");
+pub const MATH: &[u8] = include_bytes!("fonts/carom-math.woff2");
 
 /// The rule of a style sheet that brings the font.
 pub fn face() -> String {

@@ -4,7 +4,7 @@
 pub mod certified;
 pub mod compare;
 pub mod faults;
-mod fonts;
+pub mod fonts;
 pub mod friction;
 pub mod grade;
 pub mod html;
@@ -32,11 +32,11 @@ use std::collections::BTreeMap;
 use crate::answer::Matrix;
 use crate::derive::{Derivation, Equation};
 use crate::expr::{Expr, Point, Rational, Symbol};
-use crate::formula::{is_hidden, visible};
+use crate::formula::{Symbols, is_hidden, visible};
 use crate::numeric::{self, Answered};
 use crate::scene::Scene;
 pub use crate::solution::assumptions;
-use crate::solution::is_safe_latex;
+use crate::solution::{Detail, Solution, is_safe_latex};
 
 /// Lines, and characters of a line, that are told of what is wrong.
 const SCREEN: (usize, usize) = (100, 400);
@@ -111,6 +111,50 @@ pub fn shortened(text: &str, most: usize) -> String {
             let more = text[at..].chars().count();
             format!("{}… ({more} more characters)", &text[..at])
         }
+    }
+}
+
+/// The names a formula about a scene may hold. Answers may name what a derivation defines, so names that are not declared are
+/// read as they stand.
+pub fn symbols_of(scene: &Scene) -> Symbols {
+    let mut symbols = Symbols::open();
+    for p in &scene.parameters {
+        symbols.declare_as(
+            p.name.clone(),
+            p.latex.as_deref(),
+            Some(p.dimension.clone()),
+        );
+    }
+    for q in &scene.questions {
+        symbols.declare_as(q.name.as_str(), q.latex.as_deref(), None);
+    }
+    symbols
+}
+
+/// A solution that holds nothing but how the scene's symbols are written.
+pub fn naming(scene: &Scene) -> Solution {
+    let mut names: BTreeMap<Symbol, String> = latex_names(scene)
+        .into_iter()
+        .map(|(name, latex)| (Symbol::from(name.as_str()), latex))
+        .collect();
+    for q in &scene.questions {
+        if let Some(latex) = &q.latex {
+            names.insert(Symbol::from(q.name.as_str()), latex.clone());
+        }
+    }
+    Solution {
+        title: String::new(),
+        source: String::new(),
+        statement: String::new(),
+        detail: Detail::Normal,
+        names,
+        meanings: BTreeMap::new(),
+        sections: Vec::new(),
+        steps: Vec::new(),
+        scopes: Vec::new(),
+        needs: Vec::new(),
+        assumptions: Vec::new(),
+        mode: None,
     }
 }
 

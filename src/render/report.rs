@@ -4,9 +4,11 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::mathml::escape;
+use super::mathml::{self, escape};
 use super::report_pareto::{At, ink, plot};
-use crate::figure::{Ink, Label};
+use super::{fonts, naming, symbols_of};
+use crate::figure::{Ink, Label, color};
+use crate::formula;
 use crate::plot::{Axis, Curve, Plot, draw};
 use crate::report::measure::{Cell, Swept};
 use crate::report::verdict::{nanoseconds, short};
@@ -93,18 +95,23 @@ fn effort(report: &Report) -> String {
     )
 }
 
-/// Reports as data. Numbers that are no finite doubles become null.
+/// Reports as data, each with the plot of its errors at usual values as SVG. Numbers that are no finite doubles become null.
 pub fn json(reports: &[Report]) -> Value {
     let value =
         |v: Result<Value, serde_json::Error>| v.unwrap_or_else(|e| json!({"error": e.to_string()}));
+    let one = |r: &Report| {
+        let mut out = value(serde_json::to_value(r));
+        out["plot"] = json!(plot(r, At::Usual));
+        out
+    };
     json!({
-        "reports": reports.iter().map(|r| value(serde_json::to_value(r))).collect::<Vec<_>>(),
+        "reports": reports.iter().map(one).collect::<Vec<_>>(),
     })
 }
 
 /// One self-contained page for several reports.
 pub fn html(reports: &[Report]) -> String {
-    let mut out = String::from(HEAD);
+    let mut out = HEAD.replace("<style>\n", &format!("<style>\n{}\n", fonts::face()));
     if reports.len() > 1 {
         out.push_str("<nav><ul>");
         for (i, r) in reports.iter().enumerate() {
@@ -146,13 +153,16 @@ fn section(out: &mut String, index: usize, report: &Report) {
             "Largest stability factor over median time: the error over what rounding the data costs, wherever nothing leaves the range of doubles.",
         ),
     ] {
-        let beaten = "Routes that another one beats in both are grey.";
-        figure(out, plot(report, at), &format!("{caption} {beaten}"));
+        let best = "The line joins the routes that no other one beats in both.";
+        figure(out, plot(report, at), &format!("{caption} {best}"));
     }
     out.push_str("</div>");
     histogram(out, report);
     conditions(out, report);
-    out.push_str("<h3>Extremes</h3><div class=\"plots\">");
+    out.push_str(
+        "<h3>Extremes</h3><p class=\"small\">“+2” at a line: two routes more run along it; point at a line for all its figures. \
+         cond·u: what rounding the data alone costs.</p><div class=\"plots\">",
+    );
     for f in report.families.iter().filter(|f| !f.axis.is_empty()) {
         figure(
             out,
@@ -169,12 +179,18 @@ fn section(out: &mut String, index: usize, report: &Report) {
 
 /// The closed forms, and behind a fold the code of them.
 fn formulas(out: &mut String, report: &Report) {
-    let lines = report.formulas.iter();
-    let lines: Vec<String> = lines
-        .map(|[name, f]| escape(&format!("{name} = {f}")))
-        .collect();
-    if !lines.is_empty() {
-        let _ = write!(out, "<pre>{}</pre>", lines.join("\n"));
+    let (names, symbols) = (naming(&report.scene), symbols_of(&report.scene));
+    for [name, formula] in &report.formulas {
+        let set = |text: &str| {
+            let read = formula::read(text, &symbols).ok()?;
+            Some(mathml::expr(&names, read.content.expr()?))
+        };
+        let plain = escape(&format!("{name} = {formula}"));
+        let shown = match (set(name), set(formula)) {
+            (Some(left), Some(right)) => format!("<math>{left}<mo>=</mo>{right}</math>"),
+            _ => plain.clone(),
+        };
+        let _ = write!(out, "<p class=\"formula\" title=\"{plain}\">{shown}</p>");
     }
     if !report.code.is_empty() {
         let _ = write!(
@@ -223,7 +239,9 @@ fn routes_table(out: &mut String, report: &Report) {
             |f: &dyn Fn(&crate::report::Errors) -> f64| r.usual.values().map(f).fold(0.0, f64::max);
         let _ = write!(
             out,
-            "<tr{class}><th>{}<td>{}<td>{} – {}<td>{}<td>{}<td>{}<td>{}<td class=\"words\">{}<td>{}</tr>",
+            "<tr{class}><th title=\"{}\"><i style=\"background:{}\"></i>{}<td>{}<td>{} – {}<td>{}<td>{}<td>{}<td>{}<td class=\"words\">{}<td>{}</tr>",
+            r.route.how(),
+            color(ink(r.route)),
             r.words,
             nanoseconds(r.seconds[1]),
             nanoseconds(r.seconds[0]),
@@ -236,7 +254,11 @@ fn routes_table(out: &mut String, report: &Report) {
             short(r.stability),
         );
     }
-    out.push_str("</tbody></table>");
+    out.push_str("</tbody></table><details><summary>How each route gets its numbers</summary><dl>");
+    for r in &report.routes {
+        let _ = write!(out, "<dt>{}<dd>{}", r.words, r.route.how());
+    }
+    out.push_str("</dl></details>");
 }
 
 /// Where an error stands on a logarithmic axis that ends at 10¹⁷ for ∞.
@@ -317,9 +339,15 @@ fn family_plot(report: &Report, family: &Swept) -> Option<String> {
             ticks: Vec::new(),
         },
         y: Axis {
-            label: Label::words("log10 of error [ulp]"),
+            label: Label::words("largest error [ulp]"),
             range: Some([-1.2, 17.5]),
-            ticks: Vec::new(),
+            ticks: vec![
+                (0.0, "1".into()),
+                (4.0, "1e4".into()),
+                (8.0, "1e8".into()),
+                (12.0, "1e12".into()),
+                (16.0, "1e16".into()),
+            ],
         },
         curves,
         marks: Vec::new(),
@@ -388,14 +416,16 @@ const HEAD: &str = r#"<!DOCTYPE html>
 body{margin:0;background:var(--paper);color:var(--ink);font:15px/1.45 system-ui,sans-serif}
 main{max-width:78rem;margin:0 auto;padding:1.5rem}
 h2{margin-top:2.5rem;border-bottom:1px solid var(--line)}h2 small{color:var(--soft);font-weight:normal}
+math{font-family:'carom math',math;font-size:1.1em;math-style:normal}.formula{margin:.5rem 0;overflow-x:auto;overflow-y:hidden}
 .verdict{font-size:1.1rem;border-left:4px solid rgb(var(--tint));padding-left:.8rem}
 table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.85rem}
-section,pre{overflow-x:auto}
+pre,table{overflow-x:auto;max-width:100%}table{display:block}
+section:first-of-type h2{margin-top:.5rem}i{display:inline-block;width:.6rem;height:.6rem;border-radius:50%;margin-right:.4rem}dd{color:var(--soft);margin-left:1.2rem}
 th,td{padding:.15rem .5rem;text-align:right;border-bottom:1px solid var(--line);white-space:nowrap}
 tbody th{text-align:left;font-weight:normal}td.words{text-align:left}
 tr.dominated{color:var(--soft);opacity:.6}
 .counts td{background:color-mix(in srgb,rgb(var(--tint)) calc(var(--share)*.6),transparent)}
-.plots{display:grid;grid-template-columns:repeat(auto-fill,minmax(23rem,1fr));gap:1rem}
+.plots{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(23rem,100%),1fr));gap:1rem}
 figure{margin:.5rem 0;max-width:34rem}figure svg{width:100%;height:auto;overflow:visible;color:var(--ink)}
 figcaption,.small{color:var(--soft);font-size:.82rem}
 </style></head><body><main><h1>Error against run time</h1>

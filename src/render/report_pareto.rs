@@ -1,4 +1,4 @@
-//! Error against run time of every route, at usual values or at the extremes: the best joined by a line, the others grey, no label on another.
+//! Error against run time of every route, at usual values or at the extremes: the best joined by a line, no label on another.
 
 use super::report::level;
 use crate::figure::{Ink, Label};
@@ -51,10 +51,7 @@ pub fn plot(report: &Report, at: At) -> Option<String> {
             ),
             at,
             label: Label::words(route.route.short()),
-            ink: match beaten {
-                true => Ink::Dimension,
-                false => ink(route.route),
-            },
+            ink: ink(route.route),
         });
     }
     front.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -89,7 +86,7 @@ pub fn plot(report: &Report, at: At) -> Option<String> {
             note: String::new(),
             label: Label::default(),
             points: front,
-            ink: Ink::Grid,
+            ink: Ink::Dimension,
         }],
         marks,
     };

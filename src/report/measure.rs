@@ -122,6 +122,9 @@ pub struct Report {
     pub verdict: String,
     /// Name and closed form of each quantity that has one.
     pub formulas: Vec<[String; 2]>,
+    /// What was measured.
+    #[serde(skip)]
+    pub scene: Scene,
     /// What `carom emit` writes of them in C.
     #[serde(skip)]
     pub code: String,
@@ -272,6 +275,7 @@ pub fn measure(
             .iter()
             .map(|f| [f.name.clone(), f.formula.clone()])
             .collect(),
+        scene: scene.clone(),
         code: match functions.is_empty() {
             true => String::new(),
             false => emit::file(&Style::of(Language::C), &heading, &functions),

@@ -68,6 +68,28 @@ impl Route {
         }
     }
 
+    /// How it gets its numbers.
+    pub fn how(self) -> &'static str {
+        match self {
+            Route::ClosedForm => "the formulas above, every operation in doubles as it stands",
+            Route::Arranged => {
+                "the same formulas with sums that cancel in double-doubles: the code above, which carom emit writes in every language"
+            }
+            Route::AboutJoints => {
+                "angular momentum about every joint: a small system for the spins alone, solved at every point"
+            }
+            Route::EffectiveMass => {
+                "impulses from the effective masses at joints and contacts, then velocities"
+            }
+            Route::LuRaw => {
+                "all laws of all bodies as one linear system, solved by LU at every point"
+            }
+            Route::LuScaled => "the same, rows and columns scaled by powers of two first",
+            Route::LuRefined => "the same with three steps of refinement, residuals in doubles",
+            Route::Exact => "the same system in fractions, rounded once: carom solve --exact",
+        }
+    }
+
     /// In one or two words, for legends.
     pub fn short(self) -> &'static str {
         match self {

@@ -1,18 +1,16 @@
 //! What a page needs to know of a scene: parameters with ranges for sliders, stages, plots, and how formulas about it are
 //! understood. Where the scene cannot be read: what is wrong, and where in its text.
 
-use std::collections::BTreeMap;
-
 use serde_json::{Map, Value, json};
 
 use crate::domain::{Domain, Limit};
 use crate::expr::{Expr, Point, Symbol};
 use crate::figure;
-use crate::formula::{self, Content, Symbols, latex_name};
+use crate::formula::{self, Content, latex_name};
 use crate::grade;
-use crate::render::{self, mathml};
+use crate::render::{self, mathml, naming, symbols_of};
 use crate::scene::{self, Parameter, Scene, StageKind};
-use crate::solution::{self, Detail, Math, Solution};
+use crate::solution::{self, Math, Solution};
 
 /// What is asked about a scene.
 #[derive(Clone, Debug, Default)]
@@ -58,7 +56,7 @@ pub fn describe(text: &str, asked: &Asked) -> Result<Value, Wrong> {
     let symbols = asked.symbols.iter();
     let outlines = figure::outlines(&scene).unwrap_or_default();
     let outlines = scene.bodies.iter().zip(outlines);
-    let names = written(&scene);
+    let names = naming(&scene);
     let film = asked.film.as_ref().map(|f| film(&scene, &shown, f));
     Ok(json!({
         "title": scene.title,
@@ -80,7 +78,7 @@ pub fn describe(text: &str, asked: &Asked) -> Result<Value, Wrong> {
 /// How the bodies come to the first impact and go on after the last, with the right motion and with what somebody claims.
 fn film(scene: &Scene, shown: &Point<f64>, filmed: &Filmed) -> Value {
     let value = |[name, answer]: &[String; 2]| {
-        let read = formula::read(answer, &names_of(scene)).ok()?;
+        let read = formula::read(answer, &symbols_of(scene)).ok()?;
         let of = |e: &Expr| e.evaluate(shown).filter(|v| v.is_finite());
         let value = match read.content.answer() {
             Content::Vector([x, y, _]) => [of(x)?, of(y)?],
@@ -176,26 +174,9 @@ fn range(domain: Option<&Domain>, value: f64, scale: f64, unit: &str) -> [f64; 3
     [first * step, last * step, step]
 }
 
-/// The names a formula about a scene may hold. Answers may name what a derivation defines, so names that are not declared are
-/// read as they stand.
-fn names_of(scene: &Scene) -> Symbols {
-    let mut symbols = Symbols::open();
-    for p in &scene.parameters {
-        symbols.declare_as(
-            p.name.clone(),
-            p.latex.as_deref(),
-            Some(p.dimension.clone()),
-        );
-    }
-    for q in &scene.questions {
-        symbols.declare_as(q.name.as_str(), q.latex.as_deref(), None);
-    }
-    symbols
-}
-
 /// How a formula is understood.
 fn reading(scene: &Scene, text: &str) -> Value {
-    let symbols = names_of(scene);
+    let symbols = symbols_of(scene);
     let read = match formula::read(text, &symbols) {
         Ok(read) => read,
         Err(fault) => return json!({"error": render::grade::error(&fault, text)}),
@@ -205,7 +186,7 @@ fn reading(scene: &Scene, text: &str) -> Value {
     let notes = read.notes.iter().map(|n| n.message(text));
     json!({
         "plain": grade::show(&read.content),
-        "mathml": math(&content(&written(scene), &read.content)),
+        "mathml": math(&content(&naming(scene), &read.content)),
         "unknown": unknown.map(|s| s.to_string()).collect::<Vec<_>>(),
         "notes": notes.collect::<Vec<_>>(),
     })
@@ -261,33 +242,6 @@ fn content(names: &Solution, content: &Content) -> String {
             }
             out
         }
-    }
-}
-
-/// A solution that holds nothing but how the scene's symbols are written.
-fn written(scene: &Scene) -> Solution {
-    let mut names: BTreeMap<Symbol, String> = render::latex_names(scene)
-        .into_iter()
-        .map(|(name, latex)| (Symbol::from(name.as_str()), latex))
-        .collect();
-    for q in &scene.questions {
-        if let Some(latex) = &q.latex {
-            names.insert(Symbol::from(q.name.as_str()), latex.clone());
-        }
-    }
-    Solution {
-        title: String::new(),
-        source: String::new(),
-        statement: String::new(),
-        detail: Detail::Normal,
-        names,
-        meanings: BTreeMap::new(),
-        sections: Vec::new(),
-        steps: Vec::new(),
-        scopes: Vec::new(),
-        needs: Vec::new(),
-        assumptions: Vec::new(),
-        mode: None,
     }
 }
 
