@@ -28,7 +28,7 @@ ASKED = [
     ("draw", {"name": STICK, "which": "before", "set": SET}, 200),
     ("describe", {"name": STICK, "formulas": ["v/l"]}, 200),
     ("solve", {"name": STICK, "set": {"m": -1}}, 422),
-    ("solve", {"name": "no-such-scene.json"}, 400),
+    ("solve", {"name": "no-such-scene.json"}, 404),
 ]
 CLIENTS = 4
 

@@ -125,6 +125,7 @@ fn responses(media: &str) -> Value {
     }});
     for (status, description) in [
         ("400", "no request: unknown fields, wrong types, no JSON"),
+        ("404", "the folder has no scene of this name"),
         ("413", "more than a mebibyte"),
         ("422", "a scene, a value or a formula that cannot be used"),
         (

@@ -16,6 +16,8 @@ pub(super) const MANY: usize = 256;
 pub(super) struct Bad {
     pub pointer: String,
     pub message: String,
+    /// Whether it names a scene that the folder does not have.
+    pub is_absent: bool,
 }
 
 impl Bad {
@@ -23,6 +25,14 @@ impl Bad {
         Bad {
             pointer: pointer.into(),
             message: message.into(),
+            is_absent: false,
+        }
+    }
+
+    fn absent(pointer: &str, message: impl Into<String>) -> Bad {
+        Bad {
+            is_absent: true,
+            ..Bad::new(pointer, message)
         }
     }
 }
@@ -57,7 +67,7 @@ pub(super) fn scene(fields: &Map<String, Value>, folder: &Folder) -> Result<Opti
         (Some(_), None) => Err(Bad::new("/scene", "expected an object or a text")),
         (None, Some(Value::String(name))) => match folder.text(name) {
             Some(text) => Ok(Some(text)),
-            None => Err(Bad::new(
+            None => Err(Bad::absent(
                 "/name",
                 "the folder has no such scene; GET /v1/scenes lists them",
             )),
@@ -191,7 +201,7 @@ pub(super) fn named_scenes_exist(lines: &str, folder: &Folder) -> Result<(), Bad
         };
         if last.as_ref() != Some(&name) && folder.find(&name).is_none() {
             let message = format!("line {}: the folder has no scene {name}", i + 1);
-            return Err(Bad::new("", message));
+            return Err(Bad::absent("", message));
         }
         last = Some(name);
     }

@@ -18,6 +18,7 @@ use super::commands::{COMMANDS, Command, Gives};
 use super::request::{self, Bad};
 use super::work::{Done, Job, NoEnd};
 use super::{Shared, describe, openapi};
+use crate::render;
 
 /// Version of the JSON that comes back; it grows when a field changes its meaning or goes.
 const VERSION: u32 = 1;
@@ -68,7 +69,7 @@ const FILES: &[(&str, &str, &str)] = &[
 ];
 
 /// Nothing but what the server itself holds; styles may stand in pictures and worked solutions, scripts may not.
-const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; font-src data:; \
+const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; font-src 'self' data:; \
      connect-src 'self'; img-src 'self' data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 /// All addresses.
@@ -82,6 +83,10 @@ pub(super) fn routes(shared: Arc<Shared>) -> Router {
         .route(
             "/openapi.json",
             get(async || json_text(openapi::document())),
+        )
+        .route(
+            "/carom-math.woff2",
+            get(async || typed("font/woff2", render::fonts::MATH)),
         )
         .route("/v1/scenes", get(scenes))
         .route("/v1/scenes/{*name}", get(scene_text))
@@ -197,7 +202,11 @@ async fn command(
     };
     answered.unwrap_or_else(|bad| {
         let pointer = Map::from_iter([("pointer".to_string(), json!(bad.pointer))]);
-        error(StatusCode::BAD_REQUEST, bad.message, pointer)
+        let status = match bad.is_absent {
+            true => StatusCode::NOT_FOUND,
+            false => StatusCode::BAD_REQUEST,
+        };
+        error(status, bad.message, pointer)
     })
 }
 
@@ -311,7 +320,7 @@ fn no_end(why: &NoEnd) -> Response {
 
 /// What should not happen; the particulars are for who runs the server.
 fn fault_of_carom(said: String) -> Response {
-    let said = crate::render::screen(&said);
+    let said = render::screen(&said);
     // That nobody may be there to read it changes nothing.
     let _ = writeln!(std::io::stderr(), "a command failed: {said}");
     let message = "a fault of carom; it told more where the server runs";
