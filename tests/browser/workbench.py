@@ -125,7 +125,7 @@ def grade_and_edit(browser, base):
     browser.wait("location.hash.includes('v.theta=acos')", "its values")
     browser.wait("document.querySelector('#film-picture .claimed')", "both motions, played")
     browser.run("document.getElementById('tab-accuracy').click()")
-    browser.wait("document.querySelector('#accuracy .scatter .route title') && document.querySelector('#accuracy pre').textContent", "routes and code")
+    browser.wait("document.querySelector('#accuracy .scatter svg circle') && document.querySelector('#accuracy pre').textContent", "routes and code")
     browser.run("document.getElementById('tab-scene').click()")
     browser.wait("document.getElementById('text')", "the text of the scene")
     browser.run(type_in.format("text", "box.value.replace('\"sticking\"', '\"stickng\"')"))

@@ -8,6 +8,8 @@ const solved = latest();
 const valued = latest();
 // Where the number of an answer stands, by the answer's name.
 let places = new Map();
+// Names of the answers.
+let answerNames = [];
 // What was derived last, for the panels that build on it.
 let last = Promise.resolve(null);
 
@@ -15,6 +17,49 @@ export const derived = () => last;
 
 // Words without the marks around names in them.
 const plain = (words) => words.replaceAll("`", "");
+
+const TOKEN = /`[^`]*`|[\p{L}_][\p{L}\p{N}_]*|\d+(?:\.\d+)?|<=|>=|\s+|./gu;
+const SIGN = /^(?:[-+*/^()=<>≤≥]|<=|>=|\d.*|\s+)$/;
+const FUNCTIONS = new Set(["sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "ln", "exp", "abs", "min", "max", "pi"]);
+const GREEK = /^(?:alpha|beta|gamma|delta|epsilon|zeta|eta|theta|kappa|lambda|mu|nu|xi|rho|sigma|tau|phi|chi|psi|omega)$/i;
+// Words of the language that could be names too.
+const LITTLE = /^(?:a|i|an|as|at|be|by|if|in|is|it|no|of|on|or|so|to|up|we)$/i;
+
+// A sentence as pieces in order: words, and formulas in names of the scene.
+export function pieces(text) {
+  const names = new Set([...bench.about.parameters.map((p) => p.name), ...answerNames]
+    .filter((name) => name.length < 3 || /[\d_]/.test(name) || GREEK.test(name)));
+  const out = [];
+  let run = [];
+  const end = () => {
+    // Blanks, signs and brackets at the ends belong to the sentence.
+    let [first, last] = [0, run.length];
+    const count = (sign) => run.slice(first, last).filter((t) => t === sign).length;
+    while (first < last && /^(?:[+*/^)=<>≤≥]|<=|>=|\s+)$/.test(run[first])) first += 1;
+    while (first < last && /^(?:[-+*/^(=<>≤≥]|<=|>=|\s+)$/.test(run[last - 1])) last -= 1;
+    while (run[last - 1] === ")" && count(")") > count("(")) last -= 1;
+    const inner = run.slice(first, last);
+    const isFormula = inner.some((t) => names.has(t)) && !(inner.length === 1 && LITTLE.test(inner[0]));
+    out.push({ words: run.slice(0, first).join("") }, { [isFormula ? "formula" : "words"]: inner.join("") },
+      { words: run.slice(last).join("") });
+    run = [];
+  };
+  for (const [token] of text.matchAll(TOKEN)) {
+    if (names.has(token) || FUNCTIONS.has(token) || SIGN.test(token)) run.push(token);
+    else {
+      end();
+      out.push({ words: plain(token) });
+    }
+  }
+  end();
+  return out.filter((piece) => piece.words !== "");
+}
+
+// The formulas in sentences.
+export const formulasIn = (sentences) => sentences.flatMap((s) => pieces(s).flatMap((p) => p.formula ?? []));
+
+// A sentence with its formulas typeset.
+export const prose = (set, sentence) => pieces(sentence).map((p) => (p.formula ? written(set, p.formula) : p.words));
 
 export function showAnswers() {
   places = new Map();
@@ -35,13 +80,16 @@ export function cases(found) {
 
 async function draw(found) {
   const all = cases(found);
+  answerNames = all.flatMap((one) => one.answers.map((a) => a.name));
   const formulas = [];
   const symbols = [];
   for (const one of all) {
     for (const a of one.answers) {
       formulas.push(a.formula ?? "", ...(a.range ?? []));
       symbols.push(a.symbol ?? a.name);
+      formulas.push(...formulasIn([a.words, ...(a.text ?? []), ...(a.assumptions ?? []), ...a.checks.map((c) => c.words)]));
     }
+    formulas.push(...formulasIn((one.checks ?? []).map((c) => c.words)));
     for (const w of one.where ?? []) formulas.push(`${w.name} = ${w.formula}`);
     for (const c of one.conditions ?? []) formulas.push(`${c.left.formula} ${c.relation} ${c.right.formula}`);
   }
@@ -53,7 +101,7 @@ async function draw(found) {
     parts.push(...one.answers.map((a) => answer(a, set, !one.mode)));
     const defined = (one.where ?? []).filter((w) => !one.answers.some((a) => a.name === w.name));
     if (defined.length) parts.push(make("h3", {}, "where"), ...defined.map((w) => definition(w, set)));
-    parts.push(known(one));
+    parts.push(known(one, set));
   }
   if (found.cases) parts.unshift(make("section", { id: "numbers" }), laws());
   $("answers").replaceChildren(...parts.filter(Boolean));
@@ -90,8 +138,8 @@ function answer(a, set, numbered) {
   // A formula that is a number needs none beside it.
   if (numbered && !/^-?\d+$/.test(a.formula ?? "")) places.set(a.name, number);
   const doubts = a.checks.filter((c) => c.holds !== true);
-  return make("article", { class: "answer" }, make("div", { class: "meaning" }, plain(a.words)), line,
-    ...(a.text ?? []).map((t) => make("p", {}, plain(t))), number, ...doubts.map(check));
+  return make("article", { class: "answer" }, make("div", { class: "meaning" }, ...prose(set, a.words)), line,
+    ...(a.text ?? []).map((t) => make("p", {}, ...prose(set, t))), number, ...doubts.map((c) => check(c, set)));
 }
 
 function definition(w, set) {
@@ -104,21 +152,21 @@ function conditions(one, set) {
   return each.length ? make("ul", {}, ...each.map((c) => make("li", {}, make("div", { class: "formula", tabindex: "0" }, c)))) : null;
 }
 
-export function check(c) {
+function check(c, set) {
   const [mark, kind, word] = { true: ["✓", "held", "holds"], false: ["✗", "failed", "fails"] }[c.holds] ?? ["?", "unsure", "open"];
-  return make("div", { class: `checks ${kind}` }, make("span", { "aria-label": word }, mark), ` ${plain(c.words)}`);
+  return make("div", { class: `checks ${kind}` }, make("span", { "aria-label": word }, mark), ` `, ...prose(set, c.words));
 }
 
 // How everything is known, folded away.
-function known(one) {
+function known(one, set) {
   const checks = [...(one.checks ?? []), ...one.answers.flatMap((a) => a.checks)];
   const seen = new Set();
   const each = checks.filter((c) => !seen.has(c.words) && seen.add(c.words));
   const rests = [...new Set(one.answers.flatMap((a) => a.assumptions ?? []))];
   const refuted = each.some((c) => c.holds === false) || one.verified === false;
   const title = refuted ? "✗ A check failed" : one.verified ? "How this is known" : "Not everything is proved";
-  return make("details", refuted ? { open: true } : {}, make("summary", {}, title), ...each.map(check),
-    rests.length ? make("p", { class: "note" }, `Given that ${rests.join(", ")}.`) : null);
+  return make("details", refuted ? { open: true } : {}, make("summary", {}, title), ...each.map((c) => check(c, set)),
+    rests.length ? make("p", { class: "note" }, "Given that ", ...rests.flatMap((r, i) => [i ? ", " : "", ...prose(set, r)]), ".") : null);
 }
 
 const number = (n) => (n.value === null ? (n.reason ?? "open") : `≈ ${digits(n.value).replaceAll("-", "−")} ${n.unit === "1" ? "" : n.unit}`);

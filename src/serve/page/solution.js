@@ -67,12 +67,10 @@ function exact(values) {
   return out;
 }
 
-// The solution's own style; its font counts for the whole document only.
+// The solution's own style, without the font: the page has it.
 function style(written) {
   const text = [...written.querySelectorAll("head style")].map((s) => s.textContent).join("\n");
-  const [face] = text.match(/@font-face\s*\{[^}]*\}/) ?? [];
-  if (face && !$("formula-font")) document.head.append(make("style", { id: "formula-font" }, face));
-  return make("style", {}, text.replace(face ?? "", ""));
+  return make("style", {}, text.replace(/@font-face\s*\{[^}]*\}/, ""));
 }
 
 // What to think about first: how much it takes, then which laws.

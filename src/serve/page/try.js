@@ -3,7 +3,7 @@
 
 import { $, ask, latest, make, markup, quietly, told } from "/ask.js";
 import { bench, scene } from "/main.js";
-import { cases, derived, typeset } from "/answers.js";
+import { cases, derived, formulasIn, prose, typeset } from "/answers.js";
 import { beside } from "/film.js";
 import { putValues } from "/values.js";
 
@@ -23,10 +23,11 @@ export async function showTry() {
     about.symbols.push(a.symbol ?? a.name);
     asked.set(a.question, about);
   }
-  const set = await typeset([], [...asked.values()].flatMap((a) => a.symbols));
+  const all = [...asked.values()];
+  const set = await typeset(formulasIn(all.map((a) => a.words)), all.flatMap((a) => a.symbols));
   panel.replaceChildren(
     make("p", { class: "note" }, "Type formulas as you like: 3v cos(theta)/(2l), \\frac{1}{2} m v^2; vectors as (a, b). Enter judges."),
-    ...[...asked.values()].map((a) => question(a, set)), steps());
+    ...all.map((a) => question(a, set)), steps());
 }
 
 function question(about, set) {
@@ -53,13 +54,13 @@ function question(about, set) {
     beside(null);
     try {
       const grade = await judging((signal) => ask("grade", { ...scene(), quantity: about.name, answer: box.value }, signal));
-      if (grade) verdict.replaceChildren(shown(grade, about.name, box.value));
+      if (grade) verdict.replaceChildren(await shown(grade, about.name, box.value));
     } catch (error) {
       verdict.replaceChildren(make("p", { class: "wrong" }, told(error)));
     }
   };
   const form = make("form", { onsubmit: judge }, make("label", { for: id }, ...symbols, " ="), box, make("button", {}, "Judge"));
-  return make("section", { class: "try" }, make("h3", {}, about.words), form, echo, verdict);
+  return make("section", { class: "try" }, make("h3", {}, ...prose(set, about.words)), form, echo, verdict);
 }
 
 // How a formula reads.
@@ -69,18 +70,21 @@ function understood(reading) {
   return ["reads ", markup(reading.mathml), unknown, ...reading.notes.map((n) => make("div", {}, n))];
 }
 
-function shown(grade, quantity, answer) {
+async function shown(grade, quantity, answer) {
+  const c = grade.counterexample;
+  const at = c?.at ? `With ${c.at}: yours` : "Yours";
+  const differ = c ? `${at} ${c.yours}, expected ${c.expected}.` : "";
+  const hints = grade.diagnosis ?? [];
+  const set = await typeset(formulasIn([differ, ...hints.flatMap((d) => [d.hint, d.message])]), []);
   const [words, kind] = WORDS[grade.verdict] ?? [grade.verdict, "unsure"];
   const parts = [make("strong", {}, words), make("p", { class: "note" }, grade.proof.words)];
   if (grade.error) parts.push(make("p", {}, grade.error.message), grade.error.hint ? make("p", {}, grade.error.hint) : null);
-  for (const d of grade.diagnosis ?? []) {
-    parts.push(make("p", {}, d.hint));
-    if (d.message !== d.hint) parts.push(make("details", {}, make("summary", {}, "What it seems to be"), d.message));
+  for (const d of hints) {
+    parts.push(make("p", {}, ...prose(set, d.hint)));
+    if (d.message !== d.hint) parts.push(make("details", {}, make("summary", {}, "What it seems to be"), ...prose(set, d.message)));
   }
-  const c = grade.counterexample;
   if (c) {
-    const at = c.at ? `With ${c.at}: yours` : "Yours";
-    parts.push(make("p", {}, `${at} ${c.yours}, expected ${c.expected}.`));
+    parts.push(make("p", {}, ...prose(set, differ)));
     const values = point(c.at);
     const known = Object.keys(values).some((name) => bench.about.parameters.some((p) => p.name === name));
     const play = () => {

@@ -47,9 +47,17 @@ function row(p) {
   const slider = make("input", { type: "range", min: p.min, max: p.max, step: p.step, id: `${id}-slider` });
   slider.setAttribute("aria-label", `${p.name}, slider`);
   const box = make("input", { type: "text", id, inputmode: "text", autocomplete: "off", spellcheck: "false", "aria-describedby": `${id}-meaning` });
+  const unit = make("span", { class: "unit" });
+  // An angle in radians is told in degrees as well.
+  const measure = () => {
+    const inDegrees = p.unit === "rad" && box.value.trim() && Number.isFinite(Number(box.value));
+    const words = p.unit === "1" ? "" : p.unit.replaceAll("^2", "²").replaceAll("^3", "³");
+    unit.textContent = inDegrees ? `rad ≈ ${Math.round((Number(box.value) * 1800) / Math.PI) / 10}°` : words;
+  };
   const show = (value) => {
     box.value = value;
     if (Number.isFinite(Number(value)) && value !== "") slider.value = Number(value);
+    measure();
   };
   rows[p.name] = show;
   show(bench.values[p.name] ?? digits(p.value));
@@ -57,6 +65,7 @@ function row(p) {
     // The step of a slider leaves digits of no meaning behind.
     box.value = bench.values[p.name] = String(Number(Number(slider.value).toPrecision(10)));
     slider.setAttribute("aria-valuetext", `${box.value} ${p.unit}`);
+    measure();
     valuesChanged();
   });
   box.addEventListener("input", () => {
@@ -64,11 +73,11 @@ function row(p) {
     if (text) bench.values[p.name] = text;
     else delete bench.values[p.name];
     if (text && Number.isFinite(Number(text))) slider.value = Number(text);
+    measure();
     valuesChanged();
   });
   const label = make("label", { for: id, class: "label" }, markup(p.mathml));
-  const unit = p.unit === "1" ? "" : p.unit.replaceAll("^2", "²").replaceAll("^3", "³");
-  return make("div", { class: "value" }, label, slider, box, make("span", { class: "unit" }, unit),
+  return make("div", { class: "value" }, label, slider, box, unit,
     make("span", { class: "meaning", id: `${id}-meaning` }, markup(p.about_html)));
 }
 
