@@ -30,10 +30,12 @@ fn every_link_of_the_site_leads_to_a_page_of_it() {
     let folder = folder("links");
     for (from, to) in [
         ("book/falling-stick", "stick"),
+        ("book/tipping-box", "book/tipping-box"),
         ("book/billiard-ball", "deep/ball"),
         ("friction/superball", "deep/cases"),
     ] {
         let to = folder.join(format!("in/{to}.json"));
+        fs::create_dir_all(to.parent().expect("a folder")).expect("a folder");
         fs::copy(format!("derivations/{from}.json"), to).expect("copied");
     }
     let run = site(&folder);
@@ -59,6 +61,9 @@ fn every_link_of_the_site_leads_to_a_page_of_it() {
             assert!(at.is_file(), "{page}: {link}");
         }
     }
+    // The guide leads to the pages of shipped scenes that the site has.
+    let guide = fs::read_to_string(out.join("guide.html")).expect("the guide");
+    assert!(links(&guide).contains(&"book/tipping-box.html"));
     assert_eq!(
         fs::read(out.join("stick.json")).expect("a copy"),
         fs::read("derivations/book/falling-stick.json").expect("the scene")

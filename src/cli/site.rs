@@ -69,7 +69,13 @@ pub fn run(args: &SiteArgs) -> Result<u8, Failure> {
             Err(other) => return Err(other),
         }
     }
-    let known: Vec<(&str, &str)> = DOCUMENTS.iter().map(|d| (d.0, d.2)).collect();
+    // The documents speak of the shipped scenes, which may be those of this site.
+    let shipped = listed.iter().filter_map(|scene| {
+        let name = scene.page.strip_suffix(".html")?;
+        Some((format!("derivations/{name}.json"), scene.page.clone()))
+    });
+    let documents = DOCUMENTS.iter().map(|d| (d.0.into(), d.2.into()));
+    let known: Vec<(String, String)> = documents.chain(shipped).collect();
     for (_, title, page, text) in DOCUMENTS {
         save(
             &args.output.join(page),

@@ -1,6 +1,6 @@
 //! Pages of a site: the list of scenes with its search, documents, and what every page has above its title.
 
-use pulldown_cmark::{Event, Options, Parser, Tag, html as markdown};
+use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd, html as markdown};
 
 use super::html::shell;
 use crate::figure::escape;
@@ -99,8 +99,9 @@ pub fn index(scenes: &[Listed]) -> String {
     shell("carom", &above(""), &body, Some(SEARCH))
 }
 
-/// A document in Markdown as a page. Links to other documents lead to their pages.
-pub fn document(title: &str, text: &str, pages: &[(&str, &str)]) -> String {
+/// A document in Markdown as a page. Links to documents and scenes lead to their pages; to files without one there are none.
+pub fn document(title: &str, text: &str, pages: &[(String, String)]) -> String {
+    let mut is_dropped = false;
     let linked = Parser::new_ext(text, Options::ENABLE_TABLES).map(|event| match event {
         Event::Start(Tag::Link {
             link_type,
@@ -108,8 +109,12 @@ pub fn document(title: &str, text: &str, pages: &[(&str, &str)]) -> String {
             title,
             id,
         }) => {
-            let page = pages.iter().find(|(file, _)| *file == &*dest_url);
-            let dest_url = page.map_or(dest_url, |(_, page)| (*page).into());
+            let page = pages.iter().find(|(file, _)| **file == *dest_url);
+            is_dropped = page.is_none() && !dest_url.contains(':') && !dest_url.starts_with('#');
+            if is_dropped {
+                return Event::Text("".into());
+            }
+            let dest_url = page.map_or(dest_url, |(_, page)| page.clone().into());
             Event::Start(Tag::Link {
                 link_type,
                 dest_url,
@@ -117,6 +122,7 @@ pub fn document(title: &str, text: &str, pages: &[(&str, &str)]) -> String {
                 id,
             })
         }
+        Event::End(TagEnd::Link) if std::mem::take(&mut is_dropped) => Event::Text("".into()),
         // A document of ours holds no markup; a comment in it is for its authors.
         Event::Html(_) | Event::InlineHtml(_) => Event::Text("".into()),
         other => other,
