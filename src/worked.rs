@@ -56,6 +56,17 @@ pub fn to_draw(scene: &Scene, last: Option<&str>) -> Result<Worked, String> {
     Ok(Worked { scene, told })
 }
 
+/// The first case of an impact whose friction no values settle, to be drawn where that case holds.
+pub fn first_case(scene: &Scene) -> Option<Scene> {
+    let scene = scene.staged(IMPACT);
+    let told = story::course(&scene).ok()?;
+    let mut chapters = Worked { scene, told }.chapters().into_iter();
+    chapters.find_map(|(_, chapter)| match chapter {
+        Chapter::Impact(impact) => Some(impact),
+        _ => None,
+    })
+}
+
 impl Worked {
     /// Whether no check failed, no laws contradict each other, and what is told can happen.
     pub fn holds(&self) -> bool {

@@ -507,6 +507,29 @@ fn every_picture_shows_what_its_stage_does() {
     }
 }
 
+#[test]
+fn an_impact_that_friction_leaves_open_is_drawn_in_its_first_case() {
+    let mut drawn = 0;
+    for case in cases() {
+        let scene = scene::read(&case.text).expect("a scene");
+        let unsettled =
+            scene.friction().is_some() && carom::verify::friction::settled(&scene).is_err();
+        if scene.has_stages() || !unsettled {
+            continue;
+        }
+        let first = worked::first_case(&scene).expect("a case");
+        let more = first.domains.relations.len() > scene.domains.relations.len();
+        let words = figure::draw(&first, figure::Which::All).alternative;
+        assert!(
+            more && !words.contains("leave part of the motion open"),
+            "{}: {words}",
+            case.path.display()
+        );
+        drawn += 1;
+    }
+    assert!(drawn > 2, "{drawn} scenes");
+}
+
 fn held(drawing: figure::Drawing) -> render::html::Picture {
     render::html::Picture {
         slot: solution::Slot::Before,
@@ -779,6 +802,45 @@ fn what_is_given_is_told_before_it_is_used() {
         }
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn a_brief_solution_tells_what_a_stage_hands_on() {
+    let mut seen = 0;
+    for case in cases() {
+        let solution = case.solution(Detail::Brief);
+        // What is asked for stands by its name already.
+        let is_asked = |name: &str| case.scene.questions.iter().any(|q| q.name == name);
+        let handed = solution.scopes.iter().flat_map(|scope| scope.handed.keys());
+        for name in handed.filter(|name| !is_asked(name)) {
+            let mut told: Vec<String> = Vec::new();
+            for part in solution.sections.iter().flat_map(|s| &s.parts) {
+                match part {
+                    solution::Part::Text(text) => {
+                        for piece in text {
+                            if let solution::Inline::Math(math) = piece {
+                                formulas(math, &mut told);
+                            }
+                        }
+                    }
+                    solution::Part::Display(lines) | solution::Part::Result(lines) => {
+                        for line in lines {
+                            let mut used = Vec::new();
+                            formulas(&line.math, &mut used);
+                            let first = used.first().is_some_and(|n| **n == **name);
+                            let is_used = used.iter().any(|n| **n == **name);
+                            let stands = first || told.iter().any(|n| **n == **name);
+                            assert!(!is_used || stands, "{}: {name}", case.path.display());
+                            told.extend(used);
+                            seen += usize::from(is_used);
+                        }
+                    }
+                    _ => {}
+                }
+            }
+        }
+    }
+    assert!(seen > 10, "{seen} lines");
 }
 
 #[test]

@@ -67,14 +67,14 @@ pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
         [(_, Chapter::Impact(impact))] => scene = impact.clone(),
         all => return write(args, &figure::chapters(&scene, all)),
     }
-    // What comes after is drawn in the case that the values pick; without one the pictures before and during stand.
+    // What comes after is drawn in the case that the values pick; without one all pictures are those of the first case.
     if matches!(args.which, Picture::After | Picture::All) {
         match settled(&scene) {
             Ok(settled) => scene = settled,
             Err(why) if matches!(args.which, Picture::After) => {
                 return Err(refused(&args.scene, why));
             }
-            Err(_) => {}
+            Err(_) => scene = worked::first_case(&scene).unwrap_or(scene),
         }
     }
     let subject = match &args.body {

@@ -104,6 +104,19 @@ pub(super) fn centers(stage: &Stage, sheet: &mut Sheet, bodies: &[usize]) {
     }
 }
 
+/// Whether a place is far from all particles it belongs to: the other end of their string.
+fn is_far(stage: &Stage, pair: &[usize; 2], shown: &[usize], at: &Vector) -> bool {
+    let mut mine = pair.iter().filter(|b| shown.contains(b));
+    let far = |b: &usize| {
+        let center = stage.px(stage.poses[*b].center);
+        stage.scene.bodies[*b].is_particle()
+            && stage
+                .spot(at)
+                .is_some_and(|p| size([p[0] - center[0], p[1] - center[1]]) > 3.0 * DOT)
+    };
+    mine.all(far)
+}
+
 /// Names of points, contacts and hinges, each place once.
 pub(super) fn names(stage: &Stage, sheet: &mut Sheet, bodies: &[usize], free: bool) {
     let scene = stage.scene;
@@ -111,7 +124,7 @@ pub(super) fn names(stage: &Stage, sheet: &mut Sheet, bodies: &[usize], free: bo
     let joints = scene
         .contacts
         .iter()
-        .filter(|c| touches(&c.bodies))
+        .filter(|c| touches(&c.bodies) && (free || !is_far(stage, &c.bodies, bodies, &c.at)))
         .map(|c| (&c.name, &c.at))
         .chain(
             scene
@@ -186,11 +199,20 @@ pub(super) fn masses(stage: &Stage, sheet: &mut Sheet, asides: &[Pair]) {
             continue;
         }
         let label = if same(body) || body.mass.size() > 4 || body.mass.is_zero() {
-            Label::words(&body.name.replace('_', " "))
+            Label::words(&short_name(body))
         } else {
             Label::formula(&body.mass, scene)
         };
         mass(stage, sheet, &stage.poses[*i], asides[*i], label);
+    }
+}
+
+/// A body's name beside it: `ball 1` as in the text, `upper` for the upper body.
+fn short_name(body: &Body) -> String {
+    let name = body.name.replace('_', " ");
+    match name.ends_with(|c: char| c.is_ascii_digit()) && name.chars().count() > 2 {
+        true => body.called(),
+        false => name,
     }
 }
 

@@ -72,7 +72,7 @@ pub fn motion(scene: &Scene, values: &Values, course: &Course) -> Option<Sheet> 
         stage.guides(sheet, &driven.chain([[from, end]]).collect::<Vec<_>>());
     }
     for (i, pose) in begin.iter().enumerate() {
-        if !gone.moves(i) {
+        if !gone.moves(i) && !is_rolled_over(pose, end) {
             stage.body(sheet, pose, [0.0, 0.0]);
         }
     }
@@ -119,6 +119,17 @@ pub fn motion(scene: &Scene, values: &Values, course: &Course) -> Option<Sheet> 
     }
     sheet.settle();
     Some(std::mem::take(sheet))
+}
+
+/// Whether something round is where a round body comes to: it has gone on by then, as another stage tells.
+fn is_rolled_over(pose: &Pose, end: &Pose) -> bool {
+    match (&pose.look, &end.look) {
+        (Look::Round { radius: a, .. }, Look::Round { radius: b, .. }) => {
+            let apart = [0, 1].map(|k| pose.center[k] - end.center[k]);
+            size(apart) < 0.98 * (a + b)
+        }
+        _ => false,
+    }
 }
 
 /// What a motion goes along: fixed bodies, the surface under a slide, a string that is slack during a fall.
@@ -351,7 +362,10 @@ fn level(stage: &Stage, sheet: &mut Sheet, [from, to]: [Pair; 2], is_apart: bool
     if is_apart {
         sheet.segment(from, to, Line::thin(Ink::Dimension), 1.0);
     }
-    beside(sheet, from, to, Label::formula(e, stage.scene));
+    // A rise is a fall through less than nothing; its length is what is marked.
+    let rises = stage.values.of(e).is_some_and(|value| value < 0.0);
+    let length = if rises { -e } else { e.clone() };
+    beside(sheet, from, to, Label::formula(&length, stage.scene));
 }
 
 fn beside(sheet: &mut Sheet, from: Pair, to: Pair, label: Label) {

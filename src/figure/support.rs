@@ -155,12 +155,31 @@ impl Stage<'_> {
         };
         let ends = [(from, -40.0), (end, 40.0)].map(|(pose, more)| {
             let foot = lowest(pose);
+            let more = self.clear(from, foot, along, more);
             [foot[0] + more * along[0], foot[1] + more * along[1]]
         });
         match way > 0.0 {
             true => hatched(sheet, ends[0], ends[1], down),
             false => hatched(sheet, ends[1], ends[0], down),
         }
+    }
+
+    /// How far a surface goes on from a foot of a body, in pixels: it ends before a wheel in its way.
+    fn clear(&self, body: &Pose, foot: Pair, along: Pair, more: f64) -> f64 {
+        let ahead = along.map(|c| c * more.signum());
+        let mut far = more.abs();
+        for pose in self.poses.iter().filter(|p| p.center != body.center) {
+            if let Look::Round { radius, .. } = &pose.look {
+                let (center, r) = (self.px(pose.center), self.long(*radius));
+                let to = [0, 1].map(|k| center[k] - foot[k]);
+                let off = to[0] * ahead[1] - to[1] * ahead[0];
+                let reach = to[0] * ahead[0] + to[1] * ahead[1];
+                if off.abs() < r && reach > 0.0 {
+                    far = far.min((reach - (r * r - off * off).sqrt() - 3.0).max(0.0));
+                }
+            }
+        }
+        far * more.signum()
     }
 
     /// Floors and walls that the free ends of rods keep to: an end that moves along x or along y. Each rod is given at its

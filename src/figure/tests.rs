@@ -203,6 +203,66 @@ fn a_pulley_of_a_string_stands_on_a_support_where_no_hinge_tells_of_it() {
 }
 
 #[test]
+fn a_scene_is_drawn_at_values_that_keep_to_its_relations() {
+    let (mut seen, mut faults) = (0, Vec::new());
+    for (name, scene) in scenes() {
+        let values = values::representative(&scene);
+        for relation in &scene.domains.relations {
+            let excess = values.of(&relation.excess);
+            if excess.is_none_or(|e| e <= 0.0) {
+                faults.push(format!("{name}: {excess:?} by {}", relation.words));
+            }
+            seen += 1;
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    assert!(seen > 10, "{seen} relations");
+}
+
+#[test]
+fn a_rise_is_marked_by_its_height_and_what_has_rolled_on_is_in_nobodys_way() {
+    for (name, scene) in scenes() {
+        for stage in &scene.stages {
+            let chapter = Chapter::Motion(Course {
+                begin: stage.scene.clone(),
+                end: Vec::new(),
+                kind: stage.kind.clone(),
+                clockwise: false,
+                asked: Vec::new(),
+            });
+            if !matches!(stage.kind, StageKind::Fall(_)) {
+                continue;
+            }
+            for (drawing, _) in super::chapter(&stage.name, &chapter) {
+                let words = drawing.alternative;
+                let marked = words.split("Marked: ").skip(1).flat_map(|w| w.split(", "));
+                assert!(
+                    !marked.clone().any(|l| l.starts_with('−')),
+                    "{name}: {words}"
+                );
+            }
+        }
+        for sheet in sheets(&scene) {
+            let round = |item: &Item| match item {
+                Item::Circle {
+                    center,
+                    radius,
+                    line,
+                } if line.filled && *radius > 12.0 => Some((*center, *radius)),
+                _ => None,
+            };
+            let disks: Vec<(Pair, f64)> = sheet.items.iter().filter_map(round).collect();
+            for (i, (p, r)) in disks.iter().enumerate() {
+                for (q, s) in &disks[..i] {
+                    let apart = values::size([p[0] - q[0], p[1] - q[1]]);
+                    assert!(apart > 0.97 * (r + s), "{name}: {apart} of {}", r + s);
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn bodies_that_nothing_acts_on_get_no_diagram() {
     for (name, scene) in impacts() {
         for which in kinds(&scene) {

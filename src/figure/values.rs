@@ -177,7 +177,7 @@ fn choices(scene: &Scene, parameter: &Parameter, earlier: usize) -> Vec<f64> {
         vec![0.5, 0.25, 1.5, -0.5]
     } else {
         let size = [1.0, 0.6, 0.8, 0.5][earlier % 4];
-        vec![size, -size]
+        vec![size, -size, 3.0 * size, 0.2 * size]
     };
     let fitting: Vec<f64> = wanted
         .into_iter()
@@ -223,11 +223,11 @@ fn penalty(scene: &Scene, point: &Point<f64>) -> f64 {
     };
     let mut cost = 0.0;
     for relation in &scene.domains.relations {
-        let excess = values.of(&relation.excess);
-        cost += if excess.is_some_and(|v| v > 0.0) {
-            0.0
-        } else {
-            1e3
+        // The less is missing the better, so that values found one after the other lead there.
+        cost += match values.of(&relation.excess) {
+            Some(excess) if excess > 0.0 => 0.0,
+            Some(excess) => 1e3 + (-excess).min(1e2),
+            None => 1.1e3,
         };
     }
     let bodies: Option<Vec<Pair>> = scene

@@ -1,7 +1,7 @@
 //! A worked solution as one page: native MathML, pictures inline, no script, nothing loaded from anywhere.
 
 use super::fonts;
-use super::math::{Cells, pieces, rows, rows_within, width};
+use super::math::{Cells, apart, pieces, rows, rows_within, width};
 use super::mathml::{escape, expr, formula, from_latex};
 use crate::answer::Matrix;
 use crate::expr::Expr;
@@ -150,7 +150,10 @@ fn part(s: &Solution, part: &Part, pictures: &[Picture]) -> String {
                 .collect();
             format!("<ul>\n{items}</ul>\n")
         }
-        Part::Display(lines) => display(s, lines, ""),
+        Part::Display(lines) => {
+            let parts = apart(s, lines).into_iter();
+            parts.map(|lines| display(s, lines, "")).collect()
+        }
         Part::Result(lines) => display(s, lines, " result"),
         Part::Matrix(m) => matrix(s, m),
         Part::Figure(slot) => {

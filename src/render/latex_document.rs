@@ -2,7 +2,7 @@
 
 use super::html::Picture;
 use super::markdown::{aligned, matrix};
-use super::math::{latex, rows, width};
+use super::math::{apart, latex, rows, width};
 use crate::figure::{self, Piece};
 use crate::solution::{Inline, Line, Part, Solution};
 
@@ -93,18 +93,9 @@ fn body(s: &Solution, pictures: &[Picture]) -> String {
                     }
                     out.push_str("\\end{itemize}\n\n");
                 }
-                Part::Display(lines) if is_wide(s, lines) => {
-                    out.push_str(&format!("\\[\n\\fitted{{{}}}\n\\]\n", aligned(s, lines)));
-                }
                 Part::Display(lines) => {
-                    let rows: Vec<String> = rows(s, lines)
-                        .iter()
-                        .map(|[l, r]| format!("{} & {}", latex(s, l), latex(s, r)))
-                        .collect();
-                    out.push_str(&format!(
-                        "\\begin{{align*}}\n{}\n\\end{{align*}}\n",
-                        rows.join(" \\\\\n")
-                    ));
+                    let parts = apart(s, lines).into_iter();
+                    out.extend(parts.map(|lines| display(s, lines)));
                 }
                 Part::Result(lines) => {
                     let boxed = match rows(s, lines).as_slice() {
@@ -129,6 +120,21 @@ fn body(s: &Solution, pictures: &[Picture]) -> String {
     }
     // Older LaTeX knows no \lt outside MathJax.
     out.replace("\\lt", "<")
+}
+
+/// Equations below each other, in smaller print where they are wider than the page.
+fn display(s: &Solution, lines: &[Line]) -> String {
+    if is_wide(s, lines) {
+        return format!("\\[\n\\fitted{{{}}}\n\\]\n", aligned(s, lines));
+    }
+    let rows: Vec<String> = rows(s, lines)
+        .iter()
+        .map(|[l, r]| format!("{} & {}", latex(s, l), latex(s, r)))
+        .collect();
+    format!(
+        "\\begin{{align*}}\n{}\n\\end{{align*}}\n",
+        rows.join(" \\\\\n")
+    )
 }
 
 /// Pictures beside each other; a page may end between their lines.

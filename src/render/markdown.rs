@@ -1,7 +1,7 @@
 //! A worked solution as Markdown with LaTeX mathematics, as GitHub, Jupyter and Quarto set it.
 
 use super::html::Picture;
-use super::math::{latex, rows};
+use super::math::{apart, latex, rows};
 use crate::answer::Matrix;
 use crate::figure::plain;
 use crate::formula::visible;
@@ -34,7 +34,10 @@ pub fn solution(s: &Solution, pictures: &[(Picture, String)]) -> String {
                         .collect();
                     blocks.push(items.join("\n"));
                 }
-                Part::Display(lines) => blocks.push(format!("$$\n{}\n$$", aligned(s, lines))),
+                Part::Display(lines) => {
+                    let parts = apart(s, lines).into_iter();
+                    blocks.extend(parts.map(|lines| format!("$$\n{}\n$$", aligned(s, lines))));
+                }
                 Part::Result(lines) => {
                     blocks.push(format!("$$\n\\boxed{{{}}}\n$$", aligned(s, lines)));
                 }

@@ -52,6 +52,27 @@ fn at_relations(math: &[Math]) -> Vec<Vec<Math>> {
     pieces
 }
 
+/// A display in the parts it is set in: a left side that fills its own row begins a new one, since below other rows it would
+/// read as what goes on in them.
+pub fn apart<'l>(solution: &Solution, lines: &'l [Line]) -> Vec<&'l [Line]> {
+    let mut out = Vec::new();
+    let mut from = 0;
+    for (i, line) in lines.iter().enumerate().skip(1) {
+        let left = line.math.iter().position(is_relation).unwrap_or(0);
+        if fills_row(solution, &line.math, left, WIDE) {
+            out.push(&lines[from..i]);
+            from = i;
+        }
+    }
+    out.push(&lines[from..]);
+    out
+}
+
+/// Whether what stands left of a relation is set in rows of its own.
+fn fills_row(solution: &Solution, math: &[Math], left: usize, wide: usize) -> bool {
+    width(solution, math) > wide && width(solution, &math[..left]) > wide / 2
+}
+
 fn broken(solution: &Solution, math: &[Math], wide: usize) -> Vec<Cells> {
     let Some(first) = math.iter().position(is_relation) else {
         return filled(solution, math, wide)
@@ -66,7 +87,7 @@ fn broken(solution: &Solution, math: &[Math], wide: usize) -> Vec<Cells> {
     let mut out: Vec<Cells> = Vec::new();
     let mut left = left.to_vec();
     let beside = width(solution, &left);
-    if beside > wide / 2 {
+    if fills_row(solution, math, first, wide) {
         for piece in filled(solution, &left, wide) {
             out.push([Vec::new(), piece]);
         }

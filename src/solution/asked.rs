@@ -3,6 +3,7 @@
 
 use super::heading::{because, further, goes_on, heading};
 use super::known::{known, number, worth_telling};
+use super::near::near;
 use super::neat::tidied;
 use super::opening::NUMBERS;
 use super::sentence::{called, full_sentence, sentence};
@@ -20,6 +21,8 @@ const READABLE: usize = 120;
 /// Adds what is asked beyond the motion, a section for each question.
 pub(super) fn beyond_motion(solution: &mut Solution, scene: &Scene, answers: &[Answer]) {
     let mut before: Option<&Ask> = None;
+    // Questions about one form, told together.
+    let mut forms: Vec<&str> = Vec::new();
     for question in &scene.questions {
         // What happens in a stage stands where the stage is told.
         let in_stage = matches!(
@@ -40,7 +43,17 @@ pub(super) fn beyond_motion(solution: &mut Solution, scene: &Scene, answers: &[A
             continue;
         };
         let ask = &question.ask;
-        match before.is_some_and(|before| goes_on(before, ask)) {
+        let told = before.is_some_and(|before| goes_on(before, ask));
+        if let Ask::Approximate { .. } = ask {
+            if !told {
+                forms = near(solution, scene, question, answers);
+            }
+            if forms.contains(&question.name.as_str()) {
+                before = Some(ask);
+                continue;
+            }
+        }
+        match told {
             true => further(solution, ask, first),
             false => solution.section(0, heading(scene, ask, first)),
         }
@@ -116,24 +129,10 @@ fn answered(solution: &mut Solution, scene: &Scene, ask: &Ask, answers: &[Answer
 /// One answer; `told` where its checks stand with the one before.
 fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told: bool) {
     let symbol = Expr::symbol(&answer.name);
-    let name = crate::expr::Symbol::from(answer.name.as_str());
     let parameter = scene.parameters.iter().any(|p| *p.name == *answer.name);
-    let fresh = !parameter && !solution.meanings.contains_key(&name);
-    if fresh && words::is_safe_latex(&answer.latex) {
-        solution.names.insert(name.clone(), answer.latex.clone());
-    }
+    let fresh = !parameter && is_fresh(solution, answer);
     let brief = solution.detail == Detail::Brief;
-    // What the whole solution rests on is told at its end.
-    let stages = scene.has_stages();
-    let given = answer.assumptions.iter();
-    let given = given.filter(|a| stages || !solution.assumptions.contains(&a.to_string()));
-    let given: Vec<Sentence> = given.cloned().collect();
-    if !given.is_empty() {
-        let mut text = vec![say("Given that ")];
-        text.extend(sentence(scene, &Sentence::join(by_reason(given), "; ")));
-        text.push(say(","));
-        solution.text(text);
-    }
+    given_that(solution, scene, answer);
     let mut lines: Vec<Line> = Vec::new();
     let plain = |e: &Expr| e.as_number().is_some();
     let stated = answer.stated.iter();
@@ -150,18 +149,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     // The name of the answer comes first, so that what shows the answer is a claim about it. A parameter that is asked for keeps
     // its name.
     let named = answer.formula().filter(|_| !parameter);
-    let defined = named.map(|formula| {
-        let claim = Claim::new(symbol.clone(), formula.clone());
-        let id = solution.step(Vec::new(), vec![claim], &answer.words);
-        if fresh {
-            solution.meanings.insert(name.clone(), Meaning::Defined);
-        }
-        if let Some(step) = solution.steps.last_mut() {
-            step.defines = fresh.then(|| name.clone());
-            step.near = answer.near.clone();
-        }
-        id
-    });
+    let defined = named.map(|formula| defined(solution, answer, formula, fresh));
     let shown = claims(ask, answer, named.map(|f| (&symbol, f)));
     let reason = answer.put_in.first().map_or("what is asked", |p| p.2);
     let shown = (!shown.is_empty()).then(|| solution.step(Vec::new(), shown, reason));
@@ -217,6 +205,50 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     }
 }
 
+/// What an answer rests on beyond what the whole solution does, which is told at its end.
+pub(super) fn given_that(solution: &mut Solution, scene: &Scene, answer: &Answer) {
+    let stages = scene.has_stages();
+    let given = answer.assumptions.iter();
+    let given = given.filter(|a| stages || !solution.assumptions.contains(&a.to_string()));
+    let given: Vec<Sentence> = given.cloned().collect();
+    if !given.is_empty() {
+        let mut text = vec![say("Given that ")];
+        text.extend(sentence(scene, &Sentence::join(by_reason(given), "; ")));
+        text.push(say(","));
+        solution.text(text);
+    }
+}
+
+/// Whether the name of an answer is new; its symbol is noted then.
+pub(super) fn is_fresh(solution: &mut Solution, answer: &Answer) -> bool {
+    let name = Symbol::from(answer.name.as_str());
+    let fresh = !solution.meanings.contains_key(&name);
+    if fresh && words::is_safe_latex(&answer.latex) {
+        solution.names.insert(name, answer.latex.clone());
+    }
+    fresh
+}
+
+/// Records the step that names an answer, and gives its id.
+pub(super) fn defined(
+    solution: &mut Solution,
+    answer: &Answer,
+    formula: &Expr,
+    fresh: bool,
+) -> String {
+    let name = Symbol::from(answer.name.as_str());
+    let claim = Claim::new(Expr::symbol(&answer.name), formula.clone());
+    let id = solution.step(Vec::new(), vec![claim], &answer.words);
+    if fresh {
+        solution.meanings.insert(name.clone(), Meaning::Defined);
+    }
+    if let Some(step) = solution.steps.last_mut() {
+        step.defines = fresh.then_some(name);
+        step.near = answer.near.clone();
+    }
+    id
+}
+
 /// The lines on the way to an identity that was to be shown; where it holds, also the claim that it does.
 fn identity(
     solution: &mut Solution,
@@ -252,6 +284,7 @@ fn identity(
             lines.push(Line { math, step });
         }
     }
+    one_chain(&mut lines, *relation, right);
     if !with.is_empty() {
         let mut text = vec![say("With ")];
         for (i, (name, value)) in with.iter().enumerate() {
@@ -276,6 +309,20 @@ fn identity(
         solution.step(Vec::new(), vec![claim], "what was to be shown");
     }
     lines
+}
+
+/// Two sides that come to the same, the second in one step, stand in one chain: left = … = value = right.
+fn one_chain(lines: &mut Vec<Line>, relation: Relation, right: &Expr) {
+    let [.., last, other] = lines.as_mut_slice() else {
+        return;
+    };
+    if let [Math::Expr(begins), Math::Op("="), Math::Expr(value)] = other.math.as_slice()
+        && relation == Relation::Equal
+        && begins == right
+        && last.math.last() == Some(&Math::Expr(value.clone()))
+    {
+        other.math = vec![Math::Op("="), Math::Expr(right.clone())];
+    }
 }
 
 /// Whether every check of an answer holds.
@@ -428,7 +475,7 @@ fn claims(ask: &Ask, answer: &Answer, named: Option<(&Expr, &Expr)>) -> Vec<Clai
 }
 
 /// What an answer stands for near a value of a parameter, and how: the formula asked about, or its component.
-fn stands_for(ask: &Ask, answer: &Answer) -> Option<(Expr, &'static str)> {
+pub(super) fn stands_for(ask: &Ask, answer: &Answer) -> Option<(Expr, &'static str)> {
     let (of, op) = match ask {
         Ask::Approximate { of, .. } => (of, "≈"),
         Ask::Limit { of, .. } => (of, "→"),

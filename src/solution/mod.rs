@@ -13,6 +13,7 @@ mod contact;
 mod eliminate;
 mod heading;
 mod known;
+mod near;
 mod neat;
 mod notice;
 mod opening;

@@ -89,15 +89,6 @@ impl Writer<'_> {
         let before = Expr::sum(before);
         let tidy_before = self.field.element(&before).ok()?;
         let tidy_before = self.field.expr(&tidy_before);
-        let is_lost = |ask: &Ask| {
-            matches!(
-                ask,
-                Ask::Energy {
-                    when: EnergyWhen::Lost,
-                    of: None
-                }
-            )
-        };
         let asked = self.scene.asked_of_impact().find(|q| is_lost(&q.ask));
         let answered = self
             .closed()
@@ -129,7 +120,10 @@ impl Writer<'_> {
             return None;
         }
         if lost.is_zero() {
-            return Some(vec![say("No kinetic energy is lost.")]);
+            // Where the loss is asked for, its box says so.
+            let mut asked = self.scene.asked_of_impact();
+            let is_asked = asked.any(|q| is_lost(&q.ask));
+            return (!is_asked).then(|| vec![say("No kinetic energy is lost.")]);
         }
         let contacts = self.scene.contacts.iter();
         let places: Vec<String> = contacts.map(|c| words::place(&c.name, "contact")).collect();
@@ -497,4 +491,15 @@ enum To {
     Value,
     /// It grows beyond all bounds.
     Infinity,
+}
+
+/// Whether the kinetic energy that is lost is asked for.
+fn is_lost(ask: &Ask) -> bool {
+    matches!(
+        ask,
+        Ask::Energy {
+            when: EnergyWhen::Lost,
+            of: None
+        }
+    )
 }

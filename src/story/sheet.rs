@@ -10,13 +10,19 @@ use crate::derive::{self, Derivation, Stop};
 use crate::expr::{Expr, cross, minus};
 use crate::scene::{ContactLaw, Question, Scene, StageKind};
 
-/// The scene of an impact, by name of its stage; the first one for `None`. `None` where there is no such impact.
+/// The scene of an impact, by name of its stage; the first one for `None`. `None` where there is no such impact. Of several
+/// cases it is the first, kept to where that holds.
 pub fn impact(scene: &Scene, told: &Told, stage: Option<&str>) -> Option<Scene> {
     let found = told
         .stages
         .iter()
         .find(|s| stage.map_or(!s.cases.is_empty(), |name| s.placed.name == name))?;
-    Some(put_together(scene, found.cases.first()?))
+    let case = found.cases.first()?;
+    let mut out = put_together(scene, case);
+    for (_, least) in &case.conditions {
+        out.domains = out.domains.given(least, false);
+    }
+    Some(out)
 }
 
 /// The scenes of all impacts with their own questions: name of the stage, and the scene with the motion handed on put in.

@@ -338,9 +338,6 @@ impl Page<'_> {
 
     /// What an earlier stage hands on, where it got a symbol of its own, and the law of a rough contact.
     fn handed(&mut self, case: &Case) {
-        if self.solution.detail == Detail::Brief {
-            return;
-        }
         // What was asked for stands above by its name.
         let stands = |name: &Symbol| self.solution.meanings.contains_key(name);
         let all = case.handed.iter();
@@ -359,7 +356,9 @@ impl Page<'_> {
             text.push(say("."));
             self.solution.text(text);
         }
-        if let Some(law) = rough::law(&case.scene) {
+        if self.solution.detail != Detail::Brief
+            && let Some(law) = rough::law(&case.scene)
+        {
             self.solution.text(law);
         }
     }
