@@ -17,8 +17,9 @@ mod pinned;
 mod proof;
 mod refute;
 
+use crate::algebra::Stop;
 use crate::domain::{Domain, Domains, Roles, Sample, at_ends, roles, samples};
-use crate::expr::{Expr, Node, Rational};
+use crate::expr::{Expr, Node, Rational, effort};
 use crate::interval::Enclosure;
 pub(crate) use line::zero_apart;
 use measure::Size;
@@ -198,14 +199,18 @@ pub enum Reason {
 ///
 /// Same result on every machine: limits count points, nodes and bits.
 pub fn decide(a: &Expr, b: &Expr, domains: &Domains) -> Decision {
+    let open = |reason| Decision {
+        equality: Equality::Undecided {
+            reason,
+            evidence: Evidence::default(),
+        },
+        assumed: Vec::new(),
+    };
+    if effort::spent() {
+        return open(Reason::Limit(Stop::TooLarge("steps").to_string()));
+    }
     let Some((size, roles)) = within_limits(a, b) else {
-        return Decision {
-            equality: Equality::Undecided {
-                reason: Reason::TooLarge,
-                evidence: Evidence::default(),
-            },
-            assumed: Vec::new(),
-        };
+        return open(Reason::TooLarge);
     };
     let (domains, assumed) = domains.completed(&roles);
     Decision {

@@ -5,11 +5,13 @@ use num_traits::{One, Signed, Zero};
 
 use super::angle::{Angle, angle};
 use super::number::{self, Int};
-use super::{Expr, Function, Node, Rational, Table};
+use super::{Expr, Function, Node, Rational, Table, effort};
 
 /// A number type expressions can be evaluated in. A partial operation returns `None` where it has no value *in this type*:
 /// √2 is no fraction, and an interval around 0 has no reciprocal.
 pub trait Scalar: Clone {
+    /// Steps that an operation takes, about ten nanoseconds each.
+    const STEPS: u64 = 1;
     /// The nearest value, or an enclosure.
     fn from_rational(value: &Rational) -> Self;
     /// The circle constant, where the type can represent it.
@@ -52,8 +54,11 @@ impl<T> Default for Point<T> {
 }
 
 impl Expr {
-    /// The value at a point; `None` where the expression has none in `T`, or a symbol has no value.
+    /// The value at a point; `None` where the expression has none in `T`, a symbol has no value, or no steps are left.
     pub fn evaluate<T: Scalar>(&self, at: &Point<T>) -> Option<T> {
+        if !effort::take(T::STEPS) {
+            return None;
+        }
         match self.node() {
             Node::Number(value) => Some(T::from_rational(value)),
             Node::Symbol(name) if &**name == "pi" => T::pi(),

@@ -7,6 +7,7 @@
 pub mod angle;
 mod build;
 mod derivative;
+pub(crate) mod effort;
 pub mod eval;
 mod function;
 pub mod number;

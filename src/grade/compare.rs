@@ -50,6 +50,23 @@ impl Finding {
         Finding::new(Verdict::Different, note, Proof::of(kind, words))
     }
 
+    /// No steps are left: what no proof and no point settled before is undecided for that reason.
+    pub(super) fn stopped(&mut self) {
+        let settled = match self.verdict {
+            Verdict::Different => self.counterexample.is_some(),
+            Verdict::Equivalent | Verdict::Invalid => true,
+            Verdict::Undecided => false,
+        };
+        if !settled {
+            let words = "the two were not settled within the limit of work";
+            *self = Finding::new(
+                Verdict::Undecided,
+                "UNDECIDED_LIMIT",
+                Proof::of("none", words),
+            );
+        }
+    }
+
     pub(crate) fn with(mut self, diagnosis: Diagnosis) -> Finding {
         self.diagnosis.push(diagnosis);
         self

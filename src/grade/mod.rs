@@ -25,7 +25,7 @@ mod worked;
 
 use crate::dimension::Dimension;
 use crate::domain::{Domain, Domains};
-use crate::expr::Symbol;
+use crate::expr::{Symbol, effort};
 use crate::formula::{self, Content, Fault, Reading, Symbols};
 pub(crate) use crate::verify::rounding::fraction;
 
@@ -258,8 +258,15 @@ pub fn unreadable_key(fault: Fault) -> Grade {
     }
 }
 
+/// Most steps that one judgement takes in all its stages: readings, points, proof, solutions, what is wrong.
+const MOST_STEPS: u64 = 5_000_000;
+
 /// Judges an answer against an expected formula that was read before.
 pub fn judge_against(key: &Key, answer: &str, options: &Options) -> Grade {
+    effort::within(MOST_STEPS, || judge_within(key, answer, options))
+}
+
+fn judge_within(key: &Key, answer: &str, options: &Options) -> Grade {
     if options.strict_slash
         && let Some(fault) = &key.unclear
     {
@@ -337,6 +344,9 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
     doubt::euler(key, &reading, options, &mut finding);
     if open_to_doubt {
         doubt::ambiguity(key, answer, options, &reading, &mut finding);
+    }
+    if effort::spent() {
+        finding.stopped();
     }
     if finding.verdict == Verdict::Equivalent
         && let Some((note, diagnosis)) = form::unmet(&options.forms, key, &reading)

@@ -24,3 +24,10 @@ fn a_word_behind_a_number_is_called_a_unit_as_a_whole() {
     let name = "`apples` is no name of the question";
     assert_eq!(message("a + apples").as_deref(), Some(name));
 }
+
+#[test]
+fn what_takes_too_much_work_is_undecided_for_that_reason() {
+    let open = grade("cos(99*q) = acos(w/4) + atan(9/12)", "q = cos(99*q)");
+    assert_eq!(open.note, "UNDECIDED_LIMIT");
+    assert!(open.proof.words.contains("limit of work"));
+}

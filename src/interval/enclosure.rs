@@ -299,6 +299,8 @@ fn known<const BITS: u32>(e: Enclosure) -> Outcome<Big<BITS>> {
 }
 
 impl<const BITS: u32> Certified for Big<BITS> {
+    const STEPS: u64 = BITS as u64 / 8;
+
     fn from_rational(value: &Rational) -> Self {
         Big(Enclosure::of(value, BITS))
     }

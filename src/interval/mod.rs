@@ -27,6 +27,8 @@ pub enum Outcome<T> {
 
 /// A number type with three-valued operations; [`Outcome`] of it can evaluate expressions.
 pub trait Certified: Clone {
+    /// Steps that an operation takes, about ten nanoseconds each.
+    const STEPS: u64 = 4;
     /// The value, or an enclosure.
     fn from_rational(value: &Rational) -> Self;
     /// The circle constant.
@@ -75,6 +77,8 @@ impl<T> Outcome<T> {
 
 /// Operations that answer "undefined" or "unknown" inside the type, so that `Expr::evaluate` carries the difference out.
 impl<T: Certified> Scalar for Outcome<T> {
+    const STEPS: u64 = T::STEPS;
+
     fn from_rational(value: &Rational) -> Self {
         Outcome::Value(T::from_rational(value))
     }

@@ -12,11 +12,14 @@ use num_traits::{One, ToPrimitive, Zero};
 use super::dyadic::{Dyadic, Round};
 use super::enclosure::unit;
 use super::{Enclosure, Outcome};
-use crate::expr::Function;
+use crate::expr::{Function, effort};
 use Outcome::{Undefined, Unknown, Value};
 
 /// Bits to which the constants are kept; working precisions beyond it get no more accurate.
 const CONSTANT_BITS: u32 = 4096 + 256;
+
+/// Steps of a function beside those of its digits.
+const SERIES: u64 = 500;
 
 /// Arguments of sin, cos and exp beyond 2^`LARGEST` are not reduced.
 const LARGEST: i64 = 128;
@@ -87,6 +90,9 @@ fn rounded(e: &Enclosure, bits: u32) -> Enclosure {
 /// A function of an enclosure.
 pub(super) fn call(x: &Enclosure, function: Function, bits: u32) -> Outcome<Enclosure> {
     let w = bits + 32;
+    if !effort::take(SERIES + 8 * u64::from(bits)) {
+        return Unknown;
+    }
     match function {
         Function::Abs => Value(x.abs()),
         Function::Sin => Value(sin_cos(x, bits)[0].clone()),

@@ -11,7 +11,7 @@ use crate::algebra::image;
 use crate::algebra::mono::{
     Mono, cmp_mono, mono_add, mono_div, mono_divides, mono_is_one, word_min,
 };
-use crate::expr::Int;
+use crate::expr::{Int, effort};
 
 impl Poly {
     /// Greatest common divisor of the coefficients, non-negative.
@@ -123,6 +123,7 @@ impl Poly {
                 || !mono_divides(divisor.mono(0), &mono)
                 || out.len() > MOST_TERMS
                 || taken > MOST_TAKEN
+                || !effort::take(10 * divisor.len() as u64)
             {
                 return None;
             }

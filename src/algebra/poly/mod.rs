@@ -14,7 +14,7 @@ use smallvec::{SmallVec, smallvec};
 
 use crate::algebra::Stop;
 use crate::algebra::mono::{GUARD, Mono, cmp_mono, mono_of};
-use crate::expr::Int;
+use crate::expr::{Int, effort};
 
 /// Most term products formed by one multiplication.
 const MOST_PRODUCTS: usize = 400_000;
@@ -199,6 +199,8 @@ impl Poly {
         if self.is_zero() {
             return if minus { other.neg() } else { other.clone() };
         }
+        // A sum is always given; what comes after it may find no steps left.
+        effort::take(2 * (self.len() + other.len()) as u64);
         let (stride, a, b) = Poly::aligned(self, other);
         let mut out = Poly {
             stride,
@@ -281,6 +283,7 @@ impl Poly {
         if self.is_zero() || coeff.is_zero() {
             return Ok(Poly::zero());
         }
+        self.take_products(self.len(), coeff.bits())?;
         let stride = self.stride.max(mono.len());
         let mut out = self.widened(stride).into_owned();
         for i in 0..out.len() {
@@ -296,6 +299,21 @@ impl Poly {
             out.coeffs.iter_mut().for_each(|c| *c *= coeff);
         }
         Ok(out)
+    }
+
+    /// Bits of the largest coefficient.
+    fn widest(&self) -> u64 {
+        self.coeffs.iter().map(Int::bits).max().unwrap_or(0)
+    }
+
+    /// Takes the steps of that many products of a coefficient with a number of so many bits.
+    fn take_products(&self, count: usize, bits: u64) -> Result<(), Stop> {
+        let (mine, other) = (self.widest() / 64, bits / 64);
+        let each = 4 + 2 * (mine + other) + mine * other / 100;
+        match effort::take(count as u64 * each) {
+            true => Ok(()),
+            false => Err(Stop::TooLarge("steps")),
+        }
     }
 
     pub fn mul(&self, other: &Poly) -> Result<Poly, Stop> {
@@ -319,6 +337,7 @@ impl Poly {
         if small.len().saturating_mul(large.len()) > MOST_PRODUCTS {
             return Err(Stop::TooLarge("terms"));
         }
+        large.take_products(small.len() * large.len(), small.widest())?;
         let (stride, a, b) = Poly::aligned(small, large);
         match stride {
             0 | 1 => mul_sorting::<1>(&a, &b),
@@ -368,15 +387,7 @@ impl Poly {
         if self.len() > 1 && exponent > 127 {
             return Err(Stop::TooLarge("degree"));
         }
-        if self
-            .coeffs
-            .iter()
-            .map(Int::bits)
-            .max()
-            .unwrap_or(0)
-            .saturating_mul(u64::from(exponent))
-            > MOST_BITS
-        {
+        if self.widest().saturating_mul(u64::from(exponent)) > MOST_BITS {
             return Err(Stop::TooLarge("digits"));
         }
         let mut result = self.clone();
