@@ -6,7 +6,7 @@
 use crate::answer::{self, Answer, Graph, Known, Refused};
 use crate::derive::Derivation;
 use crate::figure::{Chapter, Course};
-use crate::scene::{Question, Scene};
+use crate::scene::{Ask, Question, Scene};
 use crate::solution::{self, Detail, Solution};
 use crate::story::{self, StageTold, Told};
 use crate::verify::{self, Trust};
@@ -73,9 +73,17 @@ impl Worked {
         self.told.holds()
     }
 
-    /// The checks that failed, and where laws contradict each other, in words.
+    /// The checks of what was derived that failed, and where laws contradict each other, in words. A claim to be shown that
+    /// does not hold refutes nothing but itself.
     pub fn failed(&self) -> Vec<String> {
-        let failed = self.told.checks().filter(|c| c.holds == Some(false));
+        let is_claim = |a: &&Answer| {
+            let mut asked = self.scene.questions.iter();
+            asked.any(|q| q.name == a.question && matches!(q.ask, Ask::Show { .. }))
+        };
+        let derived = self.answers().iter().filter(|a| !is_claim(a));
+        let checks = self.told.checks_of_stages();
+        let checks = checks.chain(derived.flat_map(|a| &a.checks));
+        let failed = checks.filter(|c| c.holds == Some(false));
         let mut all: Vec<String> = Vec::new();
         for words in failed.map(|c| c.words.clone()).chain(self.contradictions()) {
             if !all.contains(&words) {
@@ -165,6 +173,11 @@ impl Worked {
         let asked = self.scene.questions.iter();
         let asked = asked.filter(|q| q.stage.is_some() && q.stage == index && !q.hidden);
         asked.cloned().collect()
+    }
+
+    /// Each way the scene can go, as one scene with one derivation; at least one.
+    pub fn ways(&self) -> Result<Vec<story::Way>, String> {
+        story::ways(&self.scene, &self.told).map_err(|stop| stop.to_string())
     }
 
     /// All answers as those of one scene with one derivation.

@@ -362,6 +362,26 @@ pub fn solve(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unso
     Ok(out)
 }
 
+/// The end that a relation sets to a symbol that stands in it to the first power, and whether it is the upper one.
+pub(super) fn end_of(
+    symbol: &Symbol,
+    relation: &Relation,
+    domains: &Domains,
+) -> Option<(Expr, bool)> {
+    let [small, large] = &relation.sides;
+    let difference = large - small;
+    let slope = tidy(&difference.derivative(symbol), domains).ok()?;
+    let toward = sign(&slope, domains);
+    if slope.symbols().contains(symbol) || !toward.is_proved() {
+        return None;
+    }
+    if !toward.is_positive() && !toward.is_negative() {
+        return None;
+    }
+    let end = &Expr::symbol(symbol) - &(&difference / &slope);
+    Some((tidy(&end, domains).ok()?, toward.is_negative()))
+}
+
 fn stated(relation: &Relation) -> Sentence {
     let [small, large] = &relation.sides;
     let than = if relation.closed { " ≤ " } else { " < " };

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use super::calc::{Seen, Unsolved, by_signs, essential, is_zero, sign, solve, tidy};
+use super::calc::{Seen, Unsolved, by_signs, end_of, essential, is_zero, sign, solve, tidy};
 use super::{Answer, Check, Form, ROOT, Refused};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, Limit};
@@ -263,7 +263,7 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
             Some(place) => place,
             None => return Ok(vec![at_the_rim(out, &search.slope, p, domains)]),
         },
-        several => search.compared(several, &ends, &mut out)?,
+        several => search.compared(several, &mut out)?,
     };
     let value = search.at(&place, f)?;
     out.dimension = super::formulas::dimension_of(scene, &value, &name)?;
@@ -333,13 +333,7 @@ impl Search<'_> {
         } else {
             return Err(self.refused(format!("whether it grows with {p} could not be decided")));
         };
-        let limit = if grows {
-            &self.domain.high
-        } else {
-            &self.domain.low
-        };
-        let related = related_end(p, grows, self.domains).map_err(|why| self.refused(why))?;
-        let end = related.or_else(|| limit.as_ref().map(|end| (end.expr(), end.open)));
+        let end = self.end(grows)?;
         let Some((value, open)) = end else {
             return Ok(None);
         };
@@ -350,24 +344,73 @@ impl Search<'_> {
             "the derivative by ",
             p,
             " does not vanish inside: the largest value is ",
-            if open {
-                "approached at, and not reached, as the domain excludes"
-            } else {
-                "at"
-            },
-            " the bound ",
-            p,
-            " = ",
-            &value
+            self.bound(&value, open)
         ]);
         Ok(Some(value))
     }
 
+    /// That a value is reached or approached at an end of the interval, in words.
+    fn bound(&self, end: &Expr, open: bool) -> Sentence {
+        let how = match open {
+            true => "approached at, and not reached, as the domain excludes",
+            false => "at",
+        };
+        sentence![how, " the bound ", self.p, " = ", end]
+    }
+
+    /// The upper or lower end of the interval, by its domain and the relations, and whether it is excluded; `None` where there
+    /// is none.
+    fn end(&self, upper: bool) -> Result<Option<(Expr, bool)>, Refused> {
+        let (p, domains) = (self.p, self.domains);
+        let limit = match upper {
+            true => &self.domain.high,
+            false => &self.domain.low,
+        };
+        let mut tightest = limit.as_ref().map(|end| (end.expr(), end.open));
+        let bearing = domains.relations.iter();
+        for r in bearing.filter(|r| r.excess.symbols().contains(p)) {
+            let Some((end, is_upper)) = end_of(p, r, domains) else {
+                return Err(self.refused(format!(
+                    "it is largest at an end of the range of {p}, which {} does not give alone",
+                    r.words
+                )));
+            };
+            if is_upper != upper {
+                continue;
+            }
+            let is_tighter = match &tightest {
+                None => true,
+                Some((so_far, _)) => {
+                    let room = if upper { so_far - &end } else { &end - so_far };
+                    match sign(&room, domains) {
+                        Seen::Proved(s) if s.is_not_negative() => true,
+                        s if s.is_positive() => true,
+                        s if s.is_negative() || s == Seen::Proved(Sign::NotPositive) => false,
+                        _ => {
+                            return Err(
+                                self.refused(format!("several relations end the range of {p}"))
+                            );
+                        }
+                    }
+                }
+            };
+            if is_tighter {
+                tightest = Some((end, !r.closed));
+            }
+        }
+        Ok(tightest)
+    }
+
     /// The best of the places where the derivative vanishes and of the two ends.
-    fn compared(&self, flat: &[Expr], ends: &[Expr], out: &mut Answer) -> Result<Expr, Refused> {
+    fn compared(&self, flat: &[Expr], out: &mut Answer) -> Result<Expr, Refused> {
         let p = self.p;
-        let closed = |end: &Option<Limit>| end.as_ref().is_some_and(|e| !e.open);
-        if !closed(&self.domain.low) || !closed(&self.domain.high) {
+        let ends = [self.end(false)?, self.end(true)?];
+        let is_pole = |(x, open): &(Expr, bool)| {
+            let there = BTreeMap::from([(p.clone(), x.clone())]);
+            let mut divisors = self.f.parts().filter_map(|part| divisor(part, p));
+            *open && divisors.any(|d| !sign(&d.substitute(&there), self.domains).is_proved())
+        };
+        let [Some(low), Some(high)] = ends.map(|end| end.filter(|end| !is_pole(end))) else {
             return Err(Refused {
                 hint: format!(
                     "give {p} a \"domain\" with `min` and `max`: the ends are then compared too"
@@ -376,23 +419,26 @@ impl Search<'_> {
                     "the derivative by {p} vanishes where the value is not largest, and the interval does not end"
                 ))
             });
-        }
-        let mut found: Vec<(&Expr, Expr)> = Vec::new();
-        for x in flat.iter().chain(ends) {
-            found.push((x, self.at(x, self.f)?));
+        };
+        let flat = flat.iter().map(|x| (x.clone(), None));
+        let places = flat.chain([low, high].map(|(x, open)| (x, Some(open))));
+        let mut found: Vec<(Expr, Option<bool>, Expr)> = Vec::new();
+        for (x, end) in places {
+            let value = self.at(&x, self.f)?;
+            found.push((x, end, value));
         }
         // How each value stands to the others.
         let above = |i: usize| -> Vec<Seen> {
             let others = found.iter().enumerate().filter(|(j, _)| *j != i);
-            let over = |other: &Expr| sign(&(&found[i].1 - other), self.domains);
-            others.map(|(_, (_, other))| over(other)).collect()
+            let over = |other: &Expr| sign(&(&found[i].2 - other), self.domains);
+            others.map(|(_, (.., other))| over(other)).collect()
         };
         let is_above =
             |s: &Seen| s.is_positive() || matches!(s, Seen::Proved(s) if s.is_not_negative());
         let best = (0..found.len())
-            .map(|i| (found[i].0, above(i)))
+            .map(|i| (&found[i], above(i)))
             .find(|(_, above)| above.iter().all(is_above));
-        let Some((place, above)) = best else {
+        let Some(((place, end, _), above)) = best else {
             return Err(self.refused(format!(
                 "which of the values where the derivative by {p} vanishes and at the ends is largest hangs on the other parameters"
             )));
@@ -400,54 +446,31 @@ impl Search<'_> {
         let words = "of the places where the derivative vanishes and the two ends it is largest there ({how})";
         let is_proved = above.iter().all(|s| s.is_proved());
         out.checks.push(by_signs("maximum", words, is_proved));
+        if *end == Some(true) {
+            let bound = self.bound(place, true);
+            out.text.push(sentence!["the largest value is ", bound]);
+        }
         Ok(place.clone())
     }
 }
 
-/// The end that a relation sets to a parameter on the side to which a value grows, and whether it is excluded; an error where
-/// there are several or the relation does not give the parameter itself.
-fn related_end(p: &Symbol, grows: bool, domains: &Domains) -> Result<Option<(Expr, bool)>, String> {
-    let bearing = domains.relations.iter();
-    let bearing = bearing.filter(|r| r.excess.symbols().contains(p));
-    let mut ends = Vec::new();
-    for r in bearing {
-        match &r.sides {
-            [small, large] if small.as_symbol() == Some(p) && !large.symbols().contains(p) => {
-                if grows {
-                    ends.push((large.clone(), !r.closed));
-                }
-            }
-            [small, large] if large.as_symbol() == Some(p) && !small.symbols().contains(p) => {
-                if !grows {
-                    ends.push((small.clone(), !r.closed));
-                }
-            }
-            _ => {
-                return Err(format!(
-                    "it is largest at an end of the range of {p}, which {} does not give alone",
-                    r.words
-                ));
-            }
-        }
-    }
-    if ends.len() > 1 {
-        return Err(format!("several relations end the range of {p}"));
-    }
-    Ok(ends.pop())
-}
-
 /// A divisor with the parameter in it that is not known to keep one sign.
 fn pole(f: &Expr, p: &Symbol, domains: &Domains) -> Option<Expr> {
-    let negative = |k: &Expr| k.as_number().is_some_and(num_traits::Signed::is_negative);
-    let mut divisors = f.parts().filter_map(|part| match part.node() {
-        Node::Power(base, k) if negative(k) && base.symbols().contains(p) => Some(base),
-        _ => None,
-    });
+    let mut divisors = f.parts().filter_map(|part| divisor(part, p));
     let changes = |base: &&Expr| {
         let seen = sign(base, domains);
         !seen.is_positive() && !seen.is_negative()
     };
     divisors.find(changes).cloned()
+}
+
+/// What a power with a negative exponent divides by, where the parameter stands in it.
+fn divisor<'e>(part: &'e Expr, p: &Symbol) -> Option<&'e Expr> {
+    let negative = |k: &Expr| k.as_number().is_some_and(num_traits::Signed::is_negative);
+    match part.node() {
+        Node::Power(base, k) if negative(k) && base.symbols().contains(p) => Some(base),
+        _ => None,
+    }
 }
 
 /// The exponent k for which the formula depends on p·qᵏ alone.

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use num_traits::Signed;
 
 use super::Check;
-use super::calc::{Roots, Seen, Unsolved, by_signs, essential, is_zero, sign, solve, tidy};
+use super::calc::{Roots, Seen, Unsolved, by_signs, end_of, essential, is_zero, sign, solve, tidy};
 use super::inequality::{everywhere, sign_words};
 use super::{Answer, Form, intervals, limit};
 use crate::algebra::Sign;
@@ -361,19 +361,9 @@ pub(super) fn beside(
 
 /// The one end that relations put to a parameter on one side.
 fn stated(parameter: &Symbol, way: i64, domains: &Domains) -> Option<Expr> {
-    let p = Expr::symbol(parameter);
     let ends = domains.relations.iter().filter_map(|relation| {
-        let slope = tidy(&relation.excess.derivative(parameter), domains).ok()?;
-        let toward = sign(&slope, domains);
-        let is_end = if way < 0 {
-            toward.is_positive()
-        } else {
-            toward.is_negative()
-        };
-        if slope.symbols().contains(parameter) || !toward.is_proved() || !is_end {
-            return None;
-        }
-        tidy(&(&p - &(&relation.excess / &slope)), domains).ok()
+        let (end, is_upper) = end_of(parameter, relation, domains)?;
+        (is_upper == (way > 0)).then_some(end)
     });
     let ends: Vec<Expr> = ends.collect();
     match ends.as_slice() {

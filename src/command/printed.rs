@@ -1,5 +1,6 @@
 //! What is printed about a scene, judged by answers that were proved first.
 
+use crate::grade::sheet::Sheet;
 use crate::scene::Scene;
 use crate::verify::friction::outcomes;
 use crate::verify::printed::{Finding, check, in_cases};
@@ -32,7 +33,15 @@ pub fn printed(scene: Scene) -> Result<(Vec<Finding>, Vec<String>), String> {
 /// The same of a scene that goes one way, or tells its cases in stages.
 fn one(scene: Scene) -> Result<(Vec<Finding>, Vec<String>), String> {
     let (sheet, notes) = super::sheet(scene)?;
-    let mut findings = check(&sheet.scene, &sheet.derivation, &sheet.all);
-    sheet.explain(&mut findings);
-    Ok((findings, notes))
+    let judged = |way: &Sheet| {
+        let mut findings = check(&way.scene, &way.derivation, &way.all);
+        way.explain(&mut findings);
+        findings
+    };
+    if sheet.otherwise.is_empty() {
+        return Ok((judged(&sheet), notes));
+    }
+    let ways = std::iter::once(&sheet).chain(&sheet.otherwise);
+    let each = ways.map(|way| (way.given.join(", "), judged(way)));
+    Ok((in_cases(each.collect()), notes))
 }

@@ -2,6 +2,7 @@
 
 use crate::answer::Answer;
 use crate::derive::friction::table;
+use crate::formula::Sentence;
 use crate::grade::believed::Story;
 use crate::grade::sheet::Sheet;
 use crate::scene::Scene;
@@ -26,16 +27,23 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
     let all = worked.answers().to_vec();
     let impacts = story::impacts(&worked.scene, &worked.told);
     let laws = story::lent(&worked.scene, &worked.told);
-    let told = worked.scene.has_stages().then(|| worked.scene.clone());
-    let (scene, derivation) = worked.sheet()?;
-    let sheet = Sheet {
-        scene,
-        derivation,
-        all,
-        impacts: impacts.into_iter().map(|(_, impact)| impact).collect(),
-        laws,
-        story: told.map(|scene| Story::new(scene, answers)),
-    };
+    let impacts: Vec<Scene> = impacts.into_iter().map(|(_, impact)| impact).collect();
+    let story = worked.scene.has_stages().then(|| worked.scene.clone());
+    let ways = worked.ways()?.into_iter().map(|way| Sheet {
+        given: (way.given.iter().map(Sentence::not_negative))
+            .map(|given| given.to_string())
+            .collect(),
+        scene: way.scene,
+        derivation: way.derivation,
+        all: all.clone(),
+        impacts: impacts.clone(),
+        laws: laws.clone(),
+        story: (story.clone()).map(|scene| Story::new(scene, answers)),
+        otherwise: Vec::new(),
+    });
+    let mut ways: Vec<Sheet> = ways.collect();
+    let mut sheet = ways.remove(0);
+    sheet.otherwise = ways;
     Ok((sheet, notes))
 }
 

@@ -27,6 +27,10 @@ pub struct Sheet {
     pub laws: Vec<Expr>,
     /// Its story, where it has stages.
     pub story: Option<Story>,
+    /// What must hold for these answers, in words; empty where they hold on the whole domain.
+    pub given: Vec<String>,
+    /// The same scene as it goes otherwise, where supports, strings or friction leave several ways.
+    pub otherwise: Vec<Sheet>,
 }
 
 /// An answer such as d ≤ 4ℓ/3.
@@ -67,6 +71,8 @@ pub fn sheet(scene: Scene) -> Result<Sheet, derive::Stop> {
         impacts: Vec::new(),
         laws: Vec::new(),
         story: None,
+        given: Vec::new(),
+        otherwise: Vec::new(),
     })
 }
 

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::unicode;
 use crate::answer::{Answer, Check, Form};
 use crate::formula::{Relation, Sentence, write_plain};
-use crate::scene::Scene;
+use crate::scene::{Ask, Question, Scene};
 use crate::story::{Case, StageTold, Told};
 
 /// What was told as data: one impact with its equations, or answers with the stages beside them.
@@ -154,12 +154,20 @@ pub fn answers(scene: &Scene, answers: &[Answer]) -> String {
         out.push_str(text.trim_end());
         out.push('\n');
     };
-    for a in answers {
+    for (i, a) in answers.iter().enumerate() {
+        if answers[..i].iter().any(|before| is_alike(before, a)) {
+            continue;
+        }
         line(String::new());
+        let is_largest =
+            |q: &Question| q.name == a.question && matches!(q.ask, Ask::Maximum { .. });
+        let is_largest = scene.questions.iter().any(is_largest);
         let value = a.formula().map(|e| unicode(scene, e));
         match (&value, a.range.as_slice()) {
             // A largest value, and where it is.
-            (Some(value), [(s, Relation::Equal, e)]) if *value != unicode(scene, e) => {
+            (Some(value), [(s, Relation::Equal, e)])
+                if is_largest || *value != unicode(scene, e) =>
+            {
                 let s = unicode(scene, s);
                 line(format!(
                     "   {} = {value}, at {s} = {}",
@@ -211,19 +219,67 @@ pub fn answers(scene: &Scene, answers: &[Answer]) -> String {
                 .lines()
                 .for_each(|l| line(format!("      {l}")));
         }
-        line(format!("      {}", a.words));
+        let alike: Vec<&Answer> = answers[i + 1..].iter().filter(|b| is_alike(a, b)).collect();
+        line(format!("      {}", shared_words(a, &alike)));
         for words in &a.text {
             line(format!("      {}", written(words)));
         }
         for words in &a.discarded {
             line(format!("      discarded: {}", written(words)));
         }
-        for words in &a.assumptions {
-            line(format!("      given that {}", written(words)));
+        for words in given(a, &alike, written) {
+            line(format!("      given that {words}"));
         }
         for c in &a.checks {
             line(format!("      {} {}", mark(c), c.words));
         }
+    }
+    out
+}
+
+/// Whether two cases of an answer say the same, and all that was checked of the second holds: they are told as one.
+fn is_alike(a: &Answer, b: &Answer) -> bool {
+    let plain = |a: &Answer| a.name.split("_case").next().map(str::to_string);
+    let says = |a: &Answer| (a.form.clone(), a.range.clone(), a.text.clone());
+    a.told.is_some()
+        && a.question == b.question
+        && plain(a) == plain(b)
+        && says(a) == says(b)
+        && a.formula().is_some()
+        && b.checks.iter().all(|c| c.holds == Some(true))
+}
+
+/// What an answer is, as far as those alike are the same.
+fn shared_words<'a>(a: &'a Answer, alike: &[&Answer]) -> &'a str {
+    let mut words = a.words.as_str();
+    while let Some((shorter, _)) = words.rsplit_once(", ")
+        && !alike
+            .iter()
+            .all(|b| b.words == words || b.words.starts_with(&format!("{words}, ")))
+    {
+        words = shorter;
+    }
+    words
+}
+
+/// What an answer and those alike rest on: what all of them do, and then what each of them does besides.
+fn given(a: &Answer, alike: &[&Answer], written: impl Fn(&Sentence) -> String) -> Vec<String> {
+    let everywhere = |s: &&Sentence| alike.iter().all(|b| b.assumptions.contains(s));
+    let (common, own): (Vec<&Sentence>, Vec<&Sentence>) =
+        a.assumptions.iter().partition(everywhere);
+    let mut out: Vec<String> = common.iter().map(|s| written(s)).collect();
+    let besides = |b: &&Answer| -> Vec<String> {
+        let more = b.assumptions.iter().filter(|s| !common.contains(s));
+        more.map(&written).collect()
+    };
+    if alike.is_empty() {
+        return out;
+    }
+    let mut each: Vec<Vec<String>> = vec![own.into_iter().map(&written).collect()];
+    each.extend(alike.iter().map(besides));
+    if each.iter().all(|words| !words.is_empty()) {
+        let each: Vec<String> = each.iter().map(|words| words.join(" and ")).collect();
+        out.push(each.join(", or that "));
     }
     out
 }

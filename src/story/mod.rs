@@ -23,7 +23,7 @@ use std::iter::successors;
 
 pub use lent::lent;
 pub use second::held;
-pub use sheet::{beginning, impact, impacts, is_clockwise, sheet};
+pub use sheet::{Way, beginning, impact, impacts, is_clockwise, sheet, ways};
 
 use crate::algebra::Sign;
 use crate::answer::calc::{at_least_zero, constant, tidy};
@@ -375,11 +375,15 @@ impl Told {
 
     /// The checks of the stages and of the answers.
     pub fn checks(&self) -> impl Iterator<Item = &Check> {
+        let answers = self.answers.iter().flat_map(|a| &a.checks);
+        self.checks_of_stages().chain(answers)
+    }
+
+    /// The checks of the stages.
+    pub fn checks_of_stages(&self) -> impl Iterator<Item = &Check> {
         let cases = self.stages.iter().flat_map(|s| &s.cases);
         let proofs = cases.flat_map(|c| c.proof.checks());
-        let stages = self.stages.iter().flat_map(|s| &s.checks);
-        let answers = self.answers.iter().flat_map(|a| &a.checks);
-        proofs.chain(stages).chain(answers)
+        proofs.chain(self.stages.iter().flat_map(|s| &s.checks))
     }
 }
 

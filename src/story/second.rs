@@ -385,35 +385,33 @@ impl Second<'_> {
             if body.is_fixed() {
                 continue;
             }
-            let mut put = |what: &str, told: &Expr, found: &Component, size: f64| {
+            let mut put = |what: &str, told: &Expr, found: &Component, size: f64, moved: f64| {
                 if state.why_open([told]).is_some() {
                     return;
                 }
                 if let (Some(value), Ok(found)) = (told.evaluate(&seen.point), found) {
                     let what = format!("{what} of `{}` {when}", body.name);
-                    let shaken = || shaken(Some(told), &seen.point);
+                    let shaken = || shaken(Some(told), &seen.point) + moved;
                     compared.put(&what, [value, *found], size, shaken);
                 }
             };
             for (k, axis) in ["x", "y"].into_iter().enumerate() {
-                put(axis, &state.center[b][k], &found.center[k], units.length);
-                let what = format!("v_{axis}");
-                put(
-                    &what,
-                    &state.velocity[b][k],
-                    &found.velocity[k],
-                    units.speed,
-                );
+                let center = &state.center[b][k];
+                put(axis, center, &found.center[k], units.length, 0.0);
+                let (what, v) = (format!("v_{axis}"), &state.velocity[b][k]);
+                put(&what, v, &found.velocity[k], units.speed, 0.0);
             }
             if body.is_particle() {
                 continue;
             }
-            put(
-                "spin",
-                &state.spin[b],
-                &found.spin,
-                units.speed / units.length,
-            );
+            // Where it is, and so the arm of what acts on it, is known to so many parts of the way; a small body far away feels it.
+            let solid = &seen.followed.solids[b];
+            let moved = match solid.inertia > 0.0 {
+                true => BACKWARD * units.length * units.speed * solid.mass / solid.inertia,
+                false => 0.0,
+            };
+            let size = units.speed / units.length;
+            put("spin", &state.spin[b], &found.spin, size, moved);
             if let Ok(angle) = &found.angle {
                 // A body that has turned round is where it was.
                 let turned = &(&state.angle[b] - &Expr::symbol("angle found"));
@@ -425,7 +423,13 @@ impl Second<'_> {
                     let what = format!("angle of `{}` {when}", body.name);
                     // After many turns an angle is known to so many parts of itself.
                     let size = angle.abs().max(1.0);
-                    let shaken = || shaken(Some(&state.angle[b]), &seen.point);
+                    let turning = found.spin.as_ref().map_or(0.0, |w| w.abs());
+                    let turned = if turning > 0.0 {
+                        angle.abs() / turning
+                    } else {
+                        0.0
+                    };
+                    let shaken = || shaken(Some(&state.angle[b]), &seen.point) + moved * turned;
                     compared.put(&what, [2.0 * (gap / 2.0).sin(), 0.0], size, shaken);
                 }
             }

@@ -3,7 +3,7 @@
 //! In: a scene as it was told. Out: the scene of an impact with the motion handed on put in, and its derivation with
 //! the answers of the whole story in place of its own. Nothing is derived here.
 
-use super::{Case, StageTold, Told};
+use super::{Case, StageTold, Told, worlds};
 use crate::answer::calc::sign;
 use crate::answer::{Answer, Form};
 use crate::derive::{self, Derivation, Stop};
@@ -72,12 +72,50 @@ pub fn is_clockwise(told: &StageTold) -> bool {
     }
 }
 
-/// What was told as one scene and one derivation.
+/// One of the ways a told scene can go, as one scene and one derivation.
+pub struct Way {
+    /// What must be ≥ 0 for it; empty where there is no other way.
+    pub given: Vec<Expr>,
+    /// The scene of its first impact, on the part of the domain where it goes this way.
+    pub scene: Scene,
+    /// The derivation of that impact with the answers of this way.
+    pub derivation: Derivation,
+}
+
+/// What was told as one scene and one derivation, for each way the scene can go.
+pub fn ways(scene: &Scene, told: &Told) -> Result<Vec<Way>, Stop> {
+    let worlds = worlds::of(&told.stages);
+    let mut out = Vec::new();
+    for (w, world) in worlds.iter().enumerate() {
+        let mut impacts = world.outcome.iter().map(|(i, k)| (&told.stages[*i], *k));
+        let first = impacts.find_map(|(stage, k)| Some((stage, stage.cases.get(k)?)));
+        let answers = worlds::answers(&worlds, w, &told.answers);
+        let (flat, derivation) = flat(scene, told, first, &answers)?;
+        out.push(Way {
+            given: world.given.iter().map(|(_, e)| e.clone()).collect(),
+            scene: world.part_of(&flat),
+            derivation,
+        });
+    }
+    Ok(out)
+}
+
+/// What was told as one scene and one derivation; where the scene can go several ways, the one told first.
 pub fn sheet(scene: &Scene, told: &Told) -> Result<(Scene, Derivation), Stop> {
     let first = told.stages.iter().find(|s| !s.cases.is_empty());
-    let case = first.and_then(|s| s.cases.first());
-    let (mut flat, mut derivation) = match case {
-        Some(case) => (put_together(scene, case), case.derivation.clone()),
+    let first = first.and_then(|stage| Some((stage, stage.cases.first()?)));
+    flat(scene, told, first, &told.answers)
+}
+
+/// One scene and one derivation, with the outcome of the first impact and the answers that go with it.
+fn flat(
+    scene: &Scene,
+    told: &Told,
+    first: Option<(&StageTold, &Case)>,
+    answers: &[Answer],
+) -> Result<(Scene, Derivation), Stop> {
+    let (mut flat, mut derivation) = match first {
+        Some((_, case)) => (put_together(scene, case), case.derivation.clone()),
         None => {
             let mut bare = scene.clone();
             bare.stages.clear();
@@ -85,13 +123,13 @@ pub fn sheet(scene: &Scene, told: &Told) -> Result<(Scene, Derivation), Stop> {
             (bare, derivation)
         }
     };
-    if let Some(case) = case {
+    if let Some((_, case)) = first {
         for value in derivation.motion.values_mut() {
             *value = case.put_in(value);
         }
     }
     let own = |q: &Question| {
-        let mut all = first?.placed.scene.questions.iter();
+        let mut all = first?.0.placed.scene.questions.iter();
         all.find(|own| own.name == q.name).cloned()
     };
     let asked = scene.questions.iter();
@@ -99,7 +137,7 @@ pub fn sheet(scene: &Scene, told: &Told) -> Result<(Scene, Derivation), Stop> {
     if told.alone().is_none() {
         derivation.definitions.clear();
     }
-    derivation.answers = told.answers.iter().filter(is_flat).cloned().collect();
+    derivation.answers = answers.iter().filter(is_flat).cloned().collect();
     Ok((flat, derivation))
 }
 

@@ -7,20 +7,38 @@ use std::collections::BTreeMap;
 
 use super::StageTold;
 use super::answer::number_case;
+use crate::answer::calc::{Seen, sign};
 use crate::answer::{Answer, Known, Refused};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, sentence};
-use crate::scene::Scene;
+use crate::scene::{Question, Scene};
+
+/// What must be ≥ 0, in words and as expressions.
+type Given = Vec<(String, Expr)>;
 
 /// One way a scene can go.
 #[derive(Clone, Default)]
 pub(super) struct World {
     /// The outcome of each stage told that happens here.
     pub outcome: BTreeMap<usize, usize>,
-    /// What must hold for it.
-    given: Vec<Sentence>,
+    /// What must be ≥ 0 for it, in words and as expressions.
+    pub given: Given,
     /// What answers stand for.
-    known: Known,
+    pub known: Known,
+}
+
+impl World {
+    /// The scene on the part of the domain where it goes this way.
+    pub fn part_of(&self, scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        for (_, e) in &self.given {
+            scene.domains = scene.domains.given(e, true);
+            if let Some(relation) = scene.domains.relations.last_mut() {
+                relation.words = Sentence::not_negative(e).to_string();
+            }
+        }
+        scene
+    }
 }
 
 /// All ways.
@@ -44,9 +62,7 @@ pub(super) fn of(stages: &[StageTold]) -> Vec<World> {
                     // What an impact before needs is not said again.
                     let known = |e: &Expr| told.given.iter().any(|(_, given)| given == e);
                     let given = case.conditions.iter().filter(|(_, e)| !known(e));
-                    one.given.extend(
-                        given.map(|(why, e)| sentence![Sentence::not_negative(e), " (", why, ")"]),
-                    );
+                    one.given.extend(given.cloned());
                     next.push(one);
                 }
             }
@@ -59,12 +75,17 @@ pub(super) fn of(stages: &[StageTold]) -> Vec<World> {
 /// Answers in every way; where they differ each is told with what it needs, and remembered where it holds.
 pub(super) fn each(
     scene: &Scene,
+    question: &Question,
     worlds: &mut [World],
-    answer: impl Fn(&Known) -> Result<Vec<Answer>, Refused>,
+    answer: impl Fn(&World) -> Result<Vec<Answer>, Refused>,
 ) -> Result<Vec<Answer>, Refused> {
     let mut found: Vec<(Vec<Answer>, Vec<usize>)> = Vec::new();
+    let put_in = put_in(scene, question, worlds);
     for (w, world) in worlds.iter_mut().enumerate() {
-        let answers = answer(&world.known)?;
+        if !put_in.contains_key(&w) {
+            continue;
+        }
+        let answers = answer(world)?;
         // The name of a parameter stands for the parameter.
         let is_given = |a: &&Answer| scene.parameters.iter().any(|p| *p.name == *a.name);
         for a in answers.iter().filter(|a| !is_given(a)) {
@@ -87,7 +108,7 @@ pub(super) fn each(
     }
     let several = found.len() > 1;
     let each = found.into_iter().flat_map(|(answers, holds)| {
-        let told = alike(worlds, holds).into_iter();
+        let told = alike(&put_in, holds).into_iter();
         told.map(move |(given, holds)| (answers.clone(), given, holds))
     });
     let mut out = Vec::new();
@@ -96,7 +117,9 @@ pub(super) fn each(
             if k > 0 {
                 number_case(a, k + 1);
             }
-            a.assumptions.extend(given.iter().cloned());
+            let given =
+                (given.iter()).map(|(why, e)| sentence![Sentence::not_negative(e), " (", why, ")"]);
+            a.assumptions.extend(given);
             a.worlds = holds.clone();
         }
         out.extend(answers);
@@ -104,25 +127,47 @@ pub(super) fn each(
     Ok(out)
 }
 
+/// The ways that are left where a question puts in values for parameters, by index, with what must then hold.
+fn put_in(scene: &Scene, question: &Question, worlds: &[World]) -> BTreeMap<usize, World> {
+    let with: Known = question.ask.with().iter().cloned().collect();
+    let mut out = BTreeMap::new();
+    for (w, world) in worlds.iter().enumerate() {
+        let mut world = world.clone();
+        if !with.is_empty() {
+            for (_, e) in &mut world.given {
+                *e = e.substitute(&with).substitute(&world.known);
+            }
+            let seen = |e: &Expr| sign(e, &scene.domains);
+            if world.given.iter().any(|(_, e)| seen(e).is_negative()) {
+                continue;
+            }
+            let is_sure = |e: &Expr| matches!(seen(e), Seen::Proved(s) if s.is_not_negative());
+            world.given.retain(|(_, e)| !is_sure(e));
+        }
+        out.insert(w, world);
+    }
+    out
+}
+
 /// Ways put together as far as one set of conditions tells them from all others, each with these conditions.
-fn alike(worlds: &[World], ways: Vec<usize>) -> Vec<(Vec<Sentence>, Vec<usize>)> {
-    let first = &worlds[ways[0]];
-    let needed = |world: &World, given: &[Sentence]| given.iter().all(|g| world.given.contains(g));
+fn alike(worlds: &BTreeMap<usize, World>, ways: Vec<usize>) -> Vec<(Given, Vec<usize>)> {
+    let first = &worlds[&ways[0]];
+    let needed = |world: &World, given: &Given| given.iter().all(|g| world.given.contains(g));
     let mut given = first.given.clone();
-    given.retain(|g| ways.iter().all(|w| worlds[*w].given.contains(g)));
-    let mut met = (0..worlds.len()).filter(|w| needed(&worlds[*w], &given));
-    if ways.len() == 1 || met.all(|w| ways.contains(&w)) {
+    given.retain(|g| ways.iter().all(|w| worlds[w].given.contains(g)));
+    let met = worlds.iter().filter(|(_, world)| needed(world, &given));
+    let mut met = met.map(|(w, _)| w);
+    if ways.len() == 1 || met.all(|w| ways.contains(w)) {
         return vec![(given, ways)];
     }
     let differs = |stage: &&usize| {
         let outcome = first.outcome.get(stage);
-        ways.iter()
-            .any(|w| worlds[*w].outcome.get(stage) != outcome)
+        ways.iter().any(|w| worlds[w].outcome.get(stage) != outcome)
     };
     let split = first.outcome.keys().find(differs);
     let (here, there): (Vec<usize>, Vec<usize>) = ways.iter().partition(|w| {
         split.map_or(**w == ways[0], |stage| {
-            worlds[**w].outcome.get(stage) == first.outcome.get(stage)
+            worlds[*w].outcome.get(stage) == first.outcome.get(stage)
         })
     });
     [here, there]
@@ -135,20 +180,9 @@ fn alike(worlds: &[World], ways: Vec<usize>) -> Vec<(Vec<Sentence>, Vec<usize>)>
 pub(super) fn remember(worlds: &mut [World], answers: &[Answer]) {
     for a in answers {
         let Some(formula) = a.formula() else { continue };
-        let numbered = a.name.rsplit_once("_case");
-        let numbered = numbered.filter(|(_, k)| k.bytes().all(|c| c.is_ascii_digit()));
-        let plain = numbered.map_or(a.name.as_str(), |(plain, _)| plain);
-        // Where bodies are at an impact is told once for all its outcomes.
-        let splits = |stage: usize, case: usize| {
-            let mut told = answers.iter().filter_map(|b| b.told);
-            case > 0 || told.any(|(s, c)| s == stage && c != case)
-        };
+        let plain = without_case(&a.name);
         for world in worlds.iter_mut() {
-            let holds = a.told.is_none_or(|(stage, case)| {
-                let outcome = world.outcome.get(&stage);
-                outcome.is_some_and(|k| *k == case || !splits(stage, case))
-            });
-            if holds {
+            if happens(world, a, answers) {
                 let name = Symbol::from(plain);
                 world.known.insert(name, formula.clone());
             }
@@ -158,6 +192,50 @@ pub(super) fn remember(worlds: &mut [World], answers: &[Answer]) {
             }
         }
     }
+}
+
+/// The name of an answer without the number of its case.
+pub(super) fn without_case(name: &str) -> &str {
+    let numbered = name.rsplit_once("_case");
+    let numbered = numbered.filter(|(_, k)| k.bytes().all(|c| c.is_ascii_digit()));
+    numbered.map_or(name, |(plain, _)| plain)
+}
+
+/// Whether an answer about a stage, one of several to a question, is the one of this way.
+fn happens(world: &World, a: &Answer, answers: &[Answer]) -> bool {
+    // Where bodies are at an impact is told once for all its outcomes.
+    let splits = |stage: usize, case: usize| {
+        let mut told = answers.iter().filter_map(|b| b.told);
+        case > 0 || told.any(|(s, c)| s == stage && c != case)
+    };
+    a.told.is_none_or(|(stage, case)| {
+        let outcome = world.outcome.get(&stage);
+        outcome.is_some_and(|k| *k == case || !splits(stage, case))
+    })
+}
+
+/// The answers as they are in one of the ways, by its index, under the names of their questions.
+pub(super) fn answers(worlds: &[World], way: usize, all: &[Answer]) -> Vec<Answer> {
+    let mut out: Vec<Answer> = Vec::new();
+    for mine in all.chunk_by(|a, b| a.question == b.question) {
+        let here = |a: &&Answer| {
+            let is_so = a.worlds.is_empty() || a.worlds.contains(&way);
+            is_so && happens(&worlds[way], a, mine)
+        };
+        for a in mine.iter().filter(here) {
+            let is_question = a.name == a.question;
+            let name = if is_question {
+                &a.name
+            } else {
+                without_case(&a.name)
+            };
+            out.push(Answer {
+                name: name.into(),
+                ..a.clone()
+            });
+        }
+    }
+    out
 }
 
 /// The same of an answer that all ways share.

@@ -15,7 +15,34 @@ use crate::scene::Ask;
 impl Sheet {
     /// Judges an answer for a quantity of the scene; a wrong one is held against the beliefs students have. Names of earlier
     /// answers stand for the right ones, which is told.
+    /// Where the scene can go several ways an answer that is right in one of them is right given that it goes this way.
     pub fn judge(&self, entry: &Entry, answer: &str, options: &Options) -> Grade {
+        let mut grade = self.judge_one_way(entry, answer, options);
+        let others = self.otherwise.iter();
+        let mut others = others.filter_map(|way| Some((way, way.entry(&entry.name).ok()?)));
+        match grade.verdict {
+            Verdict::Equivalent => {
+                let same =
+                    |(_, other): (_, Entry)| other.key.reading.content == entry.key.reading.content;
+                if !others.all(same) {
+                    grade.assumed.extend(self.given.iter().cloned());
+                }
+            }
+            Verdict::Different => {
+                for (way, other) in others {
+                    let mut right = way.judge_one_way(&other, answer, options);
+                    if right.verdict == Verdict::Equivalent {
+                        right.assumed.extend(way.given.iter().cloned());
+                        return right;
+                    }
+                }
+            }
+            Verdict::Invalid | Verdict::Undecided => {}
+        }
+        grade
+    }
+
+    fn judge_one_way(&self, entry: &Entry, answer: &str, options: &Options) -> Grade {
         let grade = self.judge_with_earlier(entry, answer, options);
         if grade.verdict != Verdict::Different {
             return grade;

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use super::super::given::{Freedom, Undefined};
 use super::{finite, finite_pair};
-use crate::expr::{Expr, Point};
+use crate::expr::{Expr, Point, Vector, minus};
 use crate::scene::{Body, Shape};
 
 /// What a body is, as far as motion goes.
@@ -63,38 +63,54 @@ pub(super) fn solid(body: &Body, at: &Point<f64>) -> Result<Solid, Undefined> {
         return Ok(out);
     }
     let mut all = Vec::new();
-    pieces(body, at, &mut all)?;
+    // From the center of the first part, so that a body far from the origin loses nothing.
+    let from = &first(body).center;
+    pieces(body, from, at, &mut all)?;
     out.mass = all.iter().map(|p| p.mass).sum();
     if out.mass == 0.0 {
         out.center = finite_pair(&body.center, at, || format!("center of {}", body.name))?;
         return Ok(out);
     }
-    // From the first piece, so that a body far from the origin loses nothing.
-    let from = all.first().map_or([0.0; 2], |p| p.at);
+    let from = finite_pair(from, at, || format!("center of {}", body.name))?;
     let offset = [0, 1].map(|k| {
-        let moment: f64 = all.iter().map(|p| p.mass * (p.at[k] - from[k])).sum();
+        let moment: f64 = all.iter().map(|p| p.mass * p.at[k]).sum();
         moment / out.mass
     });
     out.center = [from[0] + offset[0], from[1] + offset[1]];
     out.inertia = all
         .iter()
         .map(|p| {
-            let arm = [0, 1].map(|k| p.at[k] - from[k] - offset[k]);
+            let arm = [0, 1].map(|k| p.at[k] - offset[k]);
             p.inertia + p.mass * (arm[0] * arm[0] + arm[1] * arm[1])
         })
         .sum();
     Ok(out)
 }
 
-/// Cuts a body into pieces where the file puts it.
-fn pieces(body: &Body, at: &Point<f64>, into: &mut Vec<Piece>) -> Result<(), Undefined> {
+/// The first part of a composite that is none itself, or the body.
+fn first(body: &Body) -> &Body {
+    match &body.shape {
+        Shape::Composite { parts } => parts.first().map_or(body, first),
+        _ => body,
+    }
+}
+
+/// Cuts a body into pieces where the file puts it, seen from a place.
+fn pieces(
+    body: &Body,
+    from: &Vector,
+    at: &Point<f64>,
+    into: &mut Vec<Piece>,
+) -> Result<(), Undefined> {
     if let Shape::Composite { parts } = &body.shape {
-        return parts.iter().try_for_each(|part| pieces(part, at, into));
+        let mut parts = parts.iter();
+        return parts.try_for_each(|part| pieces(part, from, at, into));
     }
     let name = &body.name;
     let number = |e: &Expr, what: &str| finite(e, at, || format!("{what} of {name}"));
     let mass = number(&body.mass, "mass")?;
-    let center = finite_pair(&body.center, at, || format!("center of {name}"))?;
+    let center = minus(&body.center, from);
+    let center = finite_pair(&center, at, || format!("center of {name}"))?;
     if body.inertia_given || matches!(body.shape, Shape::Other) {
         into.push(Piece {
             mass,

@@ -26,10 +26,10 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
     let mut answers: Vec<Answer> = Vec::new();
     for question in &scene.questions {
         let new = if !question.ask.formulas().is_empty() {
-            let mut new = worlds::each(scene, &mut worlds, |known| {
-                match needs_open(&question.ask, known, &answers) {
+            let mut new = worlds::each(scene, question, &mut worlds, |world| {
+                match needs_open(&question.ask, &world.known, &answers) {
                     Some(why) => Ok(vec![unanswered(question, &why)]),
-                    None => formula(scene, question, known),
+                    None => formula(&world.part_of(scene), question, &world.known),
                 }
             })?;
             for a in &mut new {

@@ -200,7 +200,11 @@ pub(super) fn angle(
         StageKind::Turn(turn) if turn.bodies().contains(&body) => match &told.turned {
             Some(by) => by.clone(),
             None => {
-                return Ok(out.leave_open("the sign of the angle between its ends is not decided"));
+                let begins = told.before.why_open(&told.before.center[body]);
+                let why = begins.unwrap_or_else(|| {
+                    "the sign of the angle between its ends is not decided".into()
+                });
+                return Ok(out.leave_open(why));
             }
         },
         _ => tidy(&(ends[1] - ends[0]), &scene.domains)

@@ -3,6 +3,7 @@
 //! In: questions with their answers in closed form, and the points at which the scene was followed. Out: checks. A threshold is
 //! looked at on both sides, a largest value beside its place and far from it, a limit and an approximation closer and closer.
 
+use super::super::worlds::without_case;
 use super::values::moved;
 use super::{CLOSE, Compared, Second, Seen, World, points_of, shaken};
 use crate::answer::{Answer, Check};
@@ -172,6 +173,10 @@ impl Asked<'_> {
                 out = out.or(Some(Held::Unseen));
                 continue;
             };
+            if !self.stays(seen, answer, parameter, at) {
+                out = out.or(Some(Held::Unseen));
+                continue;
+            }
             let gap = left - right;
             let sides = [-ASIDE, 0.0, ASIDE].map(|step| {
                 let there = (
@@ -192,6 +197,16 @@ impl Asked<'_> {
             }
         }
         out
+    }
+
+    /// Whether the scene still goes the way of an answer where a parameter has another value.
+    fn stays(&self, seen: &Seen, answer: &Answer, parameter: &Symbol, value: f64) -> bool {
+        let there = moved(&seen.point, &[(parameter.clone(), value)]);
+        let is_so = |w: &usize| {
+            let mut given = self.worlds[*w].given.iter();
+            given.all(|(_, e)| e.evaluate(&there).is_none_or(|v| v >= 0.0))
+        };
+        answer.worlds.is_empty() || answer.worlds.iter().any(is_so)
     }
 
     /// Whether what a contact with friction does changes at a value of its coefficient as told; `None` where it was not seen.
@@ -272,13 +287,13 @@ impl Asked<'_> {
         };
         let scale = self.scale(seen, symbol, at);
         let mut others = vec![at - ASIDE * scale, at + ASIDE * scale];
-        // Far away the scene may go another way through its cases, where something else is largest.
-        if self.worlds.len() == 1 {
-            let names = [symbol.clone()].into_iter().collect();
-            let far = points_of(names, &self.scene.domains, OTHERS);
-            others.extend(far.iter().filter_map(|p| p.values.get(symbol)));
-        }
-        others.retain(|value| self.admits(seen, symbol, *value));
+        let names = [symbol.clone()].into_iter().collect();
+        let far = points_of(names, &self.scene.domains, OTHERS);
+        others.extend(far.iter().filter_map(|p| p.values.get(symbol)));
+        // Elsewhere the scene may go another way through its cases, where something else is largest.
+        others.retain(|value| {
+            self.admits(seen, symbol, *value) && self.stays(seen, answer, symbol, *value)
+        });
         for value in others {
             let other = of_at(&[(symbol.clone(), value)]);
             if let Some(other) = other.filter(|o| o - best > NOISE * best.abs()) {
@@ -288,7 +303,7 @@ impl Asked<'_> {
                 return Some(Held::So(false, how));
             }
         }
-        if answer.name != answer.question {
+        if without_case(&answer.name) != answer.question {
             return Some(Held::So(true, String::new()));
         }
         let told = told.evaluate(&moved(&seen.point, &[(symbol.clone(), at)]));
