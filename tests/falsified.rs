@@ -345,20 +345,22 @@ fn a_falsified_step_threshold_limit_or_motion_handed_on_is_refused() {
                     format!("{path}, impact {i}, {mode}")
                 });
             }
-            let symbols = impact["handed"].as_object().into_iter().flatten();
-            for (symbol, value) in symbols {
-                let mut tampered = json.clone();
-                let value = value.as_str().expect("a formula");
-                tampered["impacts"][i]["handed"][symbol] = format!("1 + 2*({value})").into();
-                tried.note(caught(&tampered), "handed on", || {
-                    format!("{path}, {symbol} handed on")
-                });
+            for (list, kind) in [("handed", "handed on"), ("earlier", "earlier answer")] {
+                let symbols = impact[list].as_object().into_iter().flatten();
+                for (symbol, value) in symbols {
+                    let mut tampered = json.clone();
+                    let value = value.as_str().expect("a formula");
+                    tampered["impacts"][i][list][symbol] = format!("1 + 2*({value})").into();
+                    tried.note(caught(&tampered), kind, || {
+                        format!("{path}, {symbol} {kind}")
+                    });
+                }
             }
         }
     });
     assert!(passed.is_empty(), "accepted:\n{}", passed.join("\n"));
     assert!(refused.values().sum::<usize>() > 150, "{refused:?}");
-    for kind in ["handed on", "mode of friction"] {
+    for kind in ["handed on", "earlier answer", "mode of friction"] {
         assert!(refused.contains_key(kind), "{refused:?}");
     }
 }

@@ -42,6 +42,8 @@ pub(super) struct Impact {
     pub meanings: BTreeMap<Symbol, Meaning>,
     /// Symbols for what is handed on, with their values in parameters.
     handed: BTreeMap<Symbol, Expr>,
+    /// Answers to earlier stages in its formulas, with their values in parameters.
+    earlier: BTreeMap<Symbol, Expr>,
     /// What must be ≥ 0 for it, and for the motions before it.
     pub needs: Vec<Expr>,
 }
@@ -96,6 +98,11 @@ fn impact(scene: &Scene, value: &Value) -> Result<Impact, Unusable> {
             }
         }
     }
+    let mut earlier = BTreeMap::new();
+    for name in stage.earlier.iter().filter(|name| !open.contains(name)) {
+        earlier.insert(name.clone(), read(&value["earlier"][&**name], &symbols)?);
+    }
+    places.extend(earlier.clone());
     let placed = stage.placed(&places);
     let mut out = placed.scene;
     out.domains = scene.domains.clone();
@@ -135,6 +142,7 @@ fn impact(scene: &Scene, value: &Value) -> Result<Impact, Unusable> {
         scene: out,
         meanings,
         handed,
+        earlier,
         needs: needs(scene, &value["needs"])?,
     })
 }
@@ -249,12 +257,11 @@ pub(super) fn replay(
                 .filter(|passed| goes_so(impact, passed) && holds(&impact.needs, &doubles));
             compared[i] |= found.is_some();
             if let (None, Some(found)) = (&apart, found) {
-                *apart = differs(
-                    impact,
-                    &doubles,
-                    &found.before.bodies,
-                    &Sizes::of(&followed),
-                );
+                let here = |name: &Symbol| follow::named(scene, &followed, name, &doubles);
+                *apart = earlier_differs(impact, &doubles, here).or_else(|| {
+                    let sizes = Sizes::of(&followed);
+                    differs(impact, &doubles, &found.before.bodies, &sizes)
+                });
             }
         }
         // Symbols of answers mean the first of several outcomes.
@@ -353,6 +360,19 @@ impl Sizes {
             spin: spin.max(speed / length),
         }
     }
+}
+
+/// Where the solution takes another value of an answer to an earlier stage than is found.
+fn earlier_differs(
+    impact: &Impact,
+    at: &Point<f64>,
+    found: impl Fn(&Symbol) -> Option<f64>,
+) -> Option<String> {
+    impact.earlier.iter().find_map(|(name, told)| {
+        let (value, found) = (told.evaluate(at)?, found(name)?);
+        let apart = (value - found).abs() > CLOSE * value.abs().max(found.abs());
+        apart.then(|| format!("`{name}` is {value} in the solution, {found} when followed"))
+    })
 }
 
 /// Where the solution lets bodies be elsewhere or move otherwise than is found.

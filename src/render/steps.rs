@@ -67,16 +67,17 @@ fn scope(x: &Scope) -> Value {
             (b.body.clone(), motion)
         })
         .collect();
-    let handed: Map<String, Value> = x
-        .handed
-        .iter()
-        .map(|(name, value)| (name.to_string(), json!(write_plain(value))))
-        .collect();
+    let values = |all: &BTreeMap<Symbol, Expr>| -> Map<String, Value> {
+        let each = all.iter();
+        each.map(|(name, value)| (name.to_string(), json!(write_plain(value))))
+            .collect()
+    };
     let mut out = json!({
         "name": x.name,
         "stage": x.stage,
         "active": x.active,
-        "handed": handed,
+        "handed": values(&x.handed),
+        "earlier": values(&x.earlier),
         "open": x.open.iter().map(ToString::to_string).collect::<Vec<_>>(),
         "before": before,
         "needs": needs(&x.needs),

@@ -97,6 +97,14 @@ impl Symbols {
         out
     }
 
+    /// Takes in a name of this dimension, where it is known.
+    pub fn add_as(&mut self, name: &str, dimension: Option<Dimension>) {
+        let symbol = Symbol::from(name);
+        self.names
+            .declare_as(symbol.clone(), None, dimension.clone());
+        self.dimensions.insert(symbol, dimension);
+    }
+
     /// Takes over what other symbols have used and what is to be told of them.
     pub fn absorb(&mut self, other: &Symbols) {
         self.used.borrow_mut().extend(other.used());

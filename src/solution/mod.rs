@@ -121,6 +121,8 @@ pub struct Scope {
     pub mode: Option<Mode>,
     /// Symbols for what an earlier stage hands on, and what they are.
     pub handed: BTreeMap<Symbol, Expr>,
+    /// Answers to earlier stages that its formulas hold, and what they are.
+    pub earlier: BTreeMap<Symbol, Expr>,
     /// Symbols that stand for what is not determined.
     pub open: Vec<Symbol>,
     /// The bodies just before.

@@ -232,6 +232,8 @@ pub struct StageTold {
     pub name: String,
     /// The stage, with the places of the bodies put in.
     pub placed: Stage,
+    /// Answers to earlier stages that its formulas hold, and what they stand for.
+    pub earlier: BTreeMap<Symbol, Expr>,
     /// What it goes on from: index of the stage told before it, and of the outcome there.
     pub branch: Option<(usize, usize)>,
     /// What must be ≥ 0 for the outcomes it goes on from, in words and as expressions.
@@ -280,6 +282,7 @@ impl StageTold {
         StageTold {
             name: stage.name.clone(),
             placed: stage.clone(),
+            earlier: BTreeMap::new(),
             branch: None,
             given: Vec::new(),
             needs: Vec::new(),
@@ -430,13 +433,15 @@ pub fn course(scene: &Scene) -> Result<Told, Refused> {
     for stage in &scene.stages {
         let mut mine = Vec::new();
         for (branch, mut before, given) in beginnings(stage, &stages, &told_as) {
-            let mut known = before.places(stage);
+            let mut earlier = BTreeMap::new();
             for name in &stage.earlier {
                 match answer::earlier(scene, &stages, branch, name)? {
-                    Ok(value) => _ = known.insert(name.clone(), value),
+                    Ok(value) => _ = earlier.insert(name.clone(), value),
                     Err(why) => _ = before.open.insert(name.clone(), why),
                 }
             }
+            let mut known = before.places(stage);
+            known.extend(earlier.clone());
             let mut placed = stage.placed(&known);
             if !stage.earlier.is_empty() {
                 let domains = placed.scene.domains.clone();
@@ -469,6 +474,7 @@ pub fn course(scene: &Scene) -> Result<Told, Refused> {
                 Err(why) => return Err(why),
             };
             told.checks.extend(at_values(scene, &told));
+            told.earlier = earlier;
             told.branch = branch;
             told.given = given;
             if let Some((parent, case)) = branch

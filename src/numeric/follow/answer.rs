@@ -49,7 +49,7 @@ impl From<Open> for Unanswered {
 
 /// The number that the name of an answer stands for in a formula: of a question about a stage that was followed, of a
 /// component of its vector, or of a formula of such answers.
-pub(super) fn named(
+pub fn named(
     scene: &Scene,
     followed: &Followed,
     name: &Symbol,

@@ -50,7 +50,7 @@ use super::points::{self, Needed, needed, with_angles};
 use crate::expr::{Expr, Point, Symbol, Vector};
 use crate::scene::{Scene, Stage, StageKind};
 
-pub use answer::{Unanswered, answer};
+pub use answer::{Unanswered, answer, named};
 pub use impact::{Breach, Impact, Impulse, Opening};
 pub use lost::{Loss, Lost};
 pub(in crate::numeric) use mechanism::integrated;

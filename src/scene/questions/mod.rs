@@ -18,6 +18,7 @@ use super::record::{Formula, Map, Text, is_sound};
 use super::resolve::{Resolver, entries};
 use super::stage_file::EndName;
 use super::{Ask, Question, Scene};
+use crate::dimension::Dimension;
 use crate::formula::{latex_name, with_subscript};
 
 /// What a kind of question is about.
@@ -107,6 +108,25 @@ fn kinds(q: &QuestionFile) -> impl Iterator<Item = &'static Kind> {
 /// Whether a question asks something of this sort.
 pub(super) fn asks(q: &QuestionFile, about: About) -> bool {
     kinds(q).any(|kind| kind.about == about)
+}
+
+/// The dimension of the number, or of the components, that a question about motion asks for; `None` where only the answer
+/// tells.
+pub(super) fn dimension(q: &QuestionFile) -> Option<Dimension> {
+    let [mass, length, time] = match kinds(q).next()?.name {
+        "velocity" | "speed" => [0, 1, -1],
+        "spin" => [0, 0, -1],
+        "impulse" => [1, 1, -1],
+        "energy" => [1, 2, -2],
+        "time" => [0, 0, 1],
+        "distance" | "position" => [0, 1, 0],
+        "acceleration" => [0, 1, -2],
+        "angular_acceleration" => [0, 0, -2],
+        "tension" => [1, 1, -2],
+        "angle" => [0, 0, 0],
+        _ => return None,
+    };
+    Some(Dimension::new(mass, length, time))
 }
 
 /// Fields that belong to some kinds of question only, and whether they are given.

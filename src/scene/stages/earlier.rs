@@ -9,12 +9,13 @@ use super::super::fault::Fault;
 use super::super::file::SceneFile;
 use super::super::resolve::{Resolver, entries};
 use super::super::stage_file::StageFile;
-use super::super::{Ask, Question, Scene};
+use super::super::{Ask, Question, Scene, questions};
+use crate::dimension::Dimension;
 use crate::domain::{Domain, Domains};
 use crate::expr::Symbol;
 
-/// Names that answers may have in formulas; a question that bears the name of a parameter gives none.
-pub(super) fn names(file: &SceneFile) -> Vec<String> {
+/// Names that answers may have in formulas, with their dimensions; a question that bears the name of a parameter gives none.
+pub(super) fn names(file: &SceneFile) -> Vec<(String, Option<Dimension>)> {
     let parameters = entries(file.parameters.as_ref());
     let parameters: BTreeSet<&str> = parameters.map(|(name, _)| name.text.as_str()).collect();
     let asked = entries(file.questions.as_ref());
@@ -25,9 +26,11 @@ pub(super) fn names(file: &SceneFile) -> Vec<String> {
             true => &["_x", "_y"],
             false => &[""],
         };
-        axes.iter().map(|axis| format!("{}{axis}", name.text))
+        let dimension = questions::dimension(q);
+        axes.iter()
+            .map(move |axis| (format!("{}{axis}", name.text), dimension.clone()))
     });
-    each.filter(|name| !parameters.contains(name.as_str()))
+    each.filter(|(name, _)| !parameters.contains(name.as_str()))
         .collect()
 }
 
@@ -51,14 +54,14 @@ pub(super) fn take(
     base: &mut Resolver<'_>,
     scene: &mut Scene,
     stages: &[StageFile],
-    names: &[String],
+    names: &[(String, Option<Dimension>)],
 ) {
     for (i, file) in stages.iter().enumerate() {
         let mut used = BTreeSet::new();
         scene.stages[i].formulas_mut(&mut |e| used.extend(e.symbols()));
         let (earlier, other): (Vec<Symbol>, Vec<Symbol>) = used
             .into_iter()
-            .filter(|s| names.iter().any(|name| **name == **s))
+            .filter(|s| names.iter().any(|(name, _)| **name == **s))
             .partition(|s| is_known(scene, s, i));
         for name in other {
             let message = format!("`{name}` is no answer to a stage before this one");
@@ -70,7 +73,7 @@ pub(super) fn take(
         // Answers that it does not use are nothing to it.
         let stage = &mut scene.stages[i];
         stage.scene.domains.symbols.retain(|name, _| {
-            earlier.contains(name) || !names.iter().any(|other| **other == **name)
+            earlier.contains(name) || !names.iter().any(|(other, _)| **other == **name)
         });
         stage.earlier = earlier;
     }

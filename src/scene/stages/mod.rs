@@ -110,7 +110,10 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
         .map(|i| composed(file, &stages[i], i, &homes))
         .collect();
     let names = earlier::names(file);
-    let with_names = base.symbols.extended(&names);
+    let mut with_names = base.symbols.extended(&[]);
+    for (name, dimension) in &names {
+        with_names.add_as(name, dimension.clone());
+    }
     let plain = std::mem::replace(&mut base.symbols, with_names);
     let domains = scene.domains.clone();
     earlier::live(file, &mut scene.domains);

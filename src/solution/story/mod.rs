@@ -21,6 +21,7 @@ use super::rough;
 use super::sentence::{self, full_sentence};
 use super::words::{self, say};
 use super::{Before, Detail, Inline, Math, Part, Scope, Slot, Solution, Writer};
+use crate::answer::Answer;
 use crate::expr::{Expr, Symbol};
 use crate::formula::Sentence;
 use crate::scene::{Ask, Scene, Stage};
@@ -36,11 +37,17 @@ pub(super) fn tell(scene: &Scene, told: &Told, detail: Detail) -> Solution {
         letters: Vec::new(),
     };
     page.opening();
-    for i in 0..told.stages.len() {
+    let mut answers = told.answers.clone();
+    for (i, stage) in told.stages.iter().enumerate() {
+        // A value that a stage takes stands before it.
+        let takes = |a: &Answer| stage.earlier.contains_key(a.name.as_str()) && a.told.is_none();
+        let (values, later) = answers.into_iter().partition::<Vec<_>, _>(takes);
+        answers = later;
+        asked::beyond_motion(&mut page.solution, scene, &values);
         page.stage(i);
         page.pivot(i);
     }
-    asked::beyond_motion(&mut page.solution, scene, &told.answers);
+    asked::beyond_motion(&mut page.solution, scene, &answers);
     page.rests_on();
     page.solution
 }
@@ -329,6 +336,7 @@ impl Page<'_> {
             active: case.active.clone(),
             mode: super::decided(&scene),
             handed: case.handed.clone(),
+            earlier: told.earlier.clone(),
             open: told.before.open.keys().cloned().collect(),
             before,
             needs,
