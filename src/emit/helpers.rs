@@ -4,6 +4,7 @@
 use std::collections::BTreeSet;
 
 use super::dialect::{Language, filled};
+use Helper::*;
 
 /// A helper, in an order in which each needs only earlier ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -36,63 +37,73 @@ pub enum Helper {
     Sin,
 }
 
+/// The helpers as they are called, each with its steps, which all languages share: names for values, and the result last. What
+/// begins with `wide_` takes double-doubles, `wide_of` aside. `pair` makes one, `root` is the square root of a double. Without
+/// steps a helper is written out for each language.
+const ROWS: [&str; 13] = [
+    "wide_pair()",
+    "wide_of(a) pair(a, 0.0)",
+    "two_sum(a, b) high = a + b; part = high - a; pair(high, (a - (high - part)) + (b - part))",
+    "quick_two_sum(a, b) high = a + b; pair(high, b - (high - a))",
+    "two_product(a, b) c = 134217729.0 * a; d = 134217729.0 * b; a1 = c - (c - a); a2 = a - a1; b1 = d - (d - b); b2 = b - b1; \
+     high = a * b; pair(high, ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2)",
+    "wide_add(a, b) s = two_sum(a.high, b.high); t = two_sum(a.low, b.low); v = quick_two_sum(s.high, s.low + t.high); \
+     quick_two_sum(v.high, t.low + v.low)",
+    "wide_neg(a) pair(-a.high, -a.low)",
+    "wide_mul(a, b) p = two_product(a.high, b.high); quick_two_sum(p.high, p.low + (a.high * b.low + a.low * b.high))",
+    "wide_div(a, b) first = 1.0 / b.high; rest = wide_add(pair(1.0, 0.0), wide_neg(wide_mul(b, pair(first, 0.0)))); \
+     wide_mul(a, quick_two_sum(first, rest.high * first))",
+    "wide_sqrt(a) if a.high <= 0.0: pair(0.0, 0.0); first = root(a.high); rest = wide_add(a, wide_neg(two_product(first, first))); \
+     quick_two_sum(first, rest.high / (2.0 * first))",
+    "wide_turn()",
+    "wide_cos(angle) wide_turn(angle, 0)",
+    "wide_sin(angle) wide_turn(angle, 1)",
+];
+
 impl Helper {
     const ALL: [Helper; 13] = [
-        Helper::Pair,
-        Helper::Widen,
-        Helper::TwoSum,
-        Helper::QuickTwoSum,
-        Helper::TwoProduct,
-        Helper::Add,
-        Helper::Negate,
-        Helper::Multiply,
-        Helper::Divide,
-        Helper::Root,
-        Helper::Turn,
-        Helper::Cos,
-        Helper::Sin,
+        Pair,
+        Widen,
+        TwoSum,
+        QuickTwoSum,
+        TwoProduct,
+        Add,
+        Negate,
+        Multiply,
+        Divide,
+        Root,
+        Turn,
+        Cos,
+        Sin,
     ];
+
+    /// Its name, its parameters and its steps.
+    fn row(self) -> [&'static str; 3] {
+        let row = ROWS[self as usize];
+        let (name, rest) = row.split_once('(').unwrap_or((row, ""));
+        let (parameters, steps) = rest.split_once(')').unwrap_or((rest, ""));
+        [name, parameters, steps.trim_start()]
+    }
 
     /// Its name in code.
     pub fn name(self) -> &'static str {
-        match self {
-            Helper::Pair => "wide_pair",
-            Helper::Widen => "wide_of",
-            Helper::TwoSum => "two_sum",
-            Helper::QuickTwoSum => "quick_two_sum",
-            Helper::TwoProduct => "two_product",
-            Helper::Add => "wide_add",
-            Helper::Negate => "wide_neg",
-            Helper::Multiply => "wide_mul",
-            Helper::Divide => "wide_div",
-            Helper::Root => "wide_sqrt",
-            Helper::Turn => "wide_turn",
-            Helper::Cos => "wide_cos",
-            Helper::Sin => "wide_sin",
-        }
+        self.row()[0]
     }
 
-    fn needs(self) -> &'static [Helper] {
-        match self {
-            Helper::Pair => &[],
-            Helper::Widen | Helper::TwoSum | Helper::QuickTwoSum | Helper::TwoProduct => {
-                &[Helper::Pair]
-            }
-            Helper::Add => &[Helper::TwoSum, Helper::QuickTwoSum],
-            Helper::Negate => &[Helper::Pair],
-            Helper::Multiply => &[Helper::QuickTwoSum, Helper::TwoProduct],
-            Helper::Divide | Helper::Root => {
-                &[Helper::Add, Helper::Negate, Helper::Multiply, Helper::Widen]
-            }
-            Helper::Turn => &[Helper::Divide],
-            Helper::Cos | Helper::Sin => &[Helper::Turn],
+    /// Adds the helper and all that its code in a language calls.
+    pub fn with_needs(self, language: Language, used: &mut BTreeSet<Helper>) {
+        if !used.insert(self) {
+            return;
         }
-    }
-
-    /// Adds the helper and all it calls.
-    pub fn with_needs(self, used: &mut BTreeSet<Helper>) {
-        if used.insert(self) {
-            self.needs().iter().for_each(|h| h.with_needs(used));
+        let code = source(language, self);
+        let words = code.split(|c: char| !c.is_alphanumeric() && c != '_');
+        for other in Helper::ALL {
+            // Whoever names the type needs it.
+            let is_named =
+                |w: &str| w == other.name() || other == Pair && w.eq_ignore_ascii_case("wide");
+            if words.clone().any(is_named) {
+                other.with_needs(language, used);
+            }
         }
     }
 }
@@ -144,67 +155,27 @@ pub fn prefixed(code: &str, prefix: &str) -> String {
 /// A helper in one language; empty where the language has it already.
 fn source(language: Language, helper: Helper) -> String {
     match (language, helper) {
-        (_, Helper::Pair) if language.is_rust() => "type Wide = (f64, f64);\n".into(),
-        (Language::C, Helper::Pair) => C_PAIR.into(),
-        (_, Helper::Widen | Helper::Pair) if language != Language::C => String::new(),
-        (Language::Rust, Helper::Turn) => RUST_TURN.into(),
-        (Language::NoStd, Helper::Turn) => RUST_TURN
+        (_, Pair) if language.is_rust() => "type Wide = (f64, f64);\n".into(),
+        (Language::C, Pair) => C_PAIR.into(),
+        (_, Widen | Pair) if language != Language::C => String::new(),
+        (Language::Rust, Turn) => RUST_TURN.into(),
+        (Language::NoStd, Turn) => RUST_TURN
             .replace("f64::round(", "libm::round(")
             .replace("f64::abs(", "libm::fabs("),
-        (Language::C, Helper::Turn) => C_TURN.into(),
-        (Language::Python, Helper::Turn) => PYTHON_TURN.into(),
-        (Language::NumPy, Helper::Turn) => NUMPY_TURN.into(),
-        (Language::NumPy, Helper::Root) => NUMPY_ROOT.into(),
+        (Language::C, Turn) => C_TURN.into(),
+        (Language::Python, Turn) => PYTHON_TURN.into(),
+        (Language::NumPy, Turn) => NUMPY_TURN.into(),
+        (Language::NumPy, Root) => NUMPY_ROOT.into(),
         _ => straight(language, helper),
-    }
-}
-
-/// What a helper does, in steps that all languages share: names for values, and the result last. `pair` makes a
-/// double-double, `root` is the square root of a double.
-fn steps(helper: Helper) -> &'static str {
-    match helper {
-        Helper::Widen => "pair(a, 0.0)",
-        Helper::TwoSum => {
-            "high = a + b; part = high - a; pair(high, (a - (high - part)) + (b - part))"
-        }
-        Helper::QuickTwoSum => "high = a + b; pair(high, b - (high - a))",
-        Helper::TwoProduct => {
-            "c = 134217729.0 * a; d = 134217729.0 * b; a1 = c - (c - a); a2 = a - a1; b1 = d - (d - b); b2 = b - b1; \
-             high = a * b; pair(high, ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2)"
-        }
-        Helper::Add => {
-            "s = two_sum(a.high, b.high); t = two_sum(a.low, b.low); v = quick_two_sum(s.high, s.low + t.high); \
-             quick_two_sum(v.high, t.low + v.low)"
-        }
-        Helper::Negate => "pair(-a.high, -a.low)",
-        Helper::Multiply => {
-            "p = two_product(a.high, b.high); quick_two_sum(p.high, p.low + (a.high * b.low + a.low * b.high))"
-        }
-        Helper::Divide => {
-            "first = 1.0 / b.high; rest = wide_add(pair(1.0, 0.0), wide_neg(wide_mul(b, pair(first, 0.0)))); \
-             wide_mul(a, quick_two_sum(first, rest.high * first))"
-        }
-        Helper::Root => {
-            "if a.high <= 0.0: pair(0.0, 0.0); first = root(a.high); rest = wide_add(a, wide_neg(two_product(first, first))); \
-             quick_two_sum(first, rest.high / (2.0 * first))"
-        }
-        Helper::Cos => "wide_turn(angle, 0)",
-        Helper::Sin => "wide_turn(angle, 1)",
-        Helper::Pair | Helper::Turn => "",
     }
 }
 
 /// A helper without loops, written from its steps.
 fn straight(language: Language, helper: Helper) -> String {
-    let name = helper.name();
-    let parameters: &[&str] = match helper {
-        Helper::Cos | Helper::Sin => &["angle"],
-        Helper::Widen | Helper::Negate | Helper::Root => &["a"],
-        _ => &["a", "b"],
-    };
-    let takes_wide = name.starts_with("wide_") && helper != Helper::Widen;
+    let [name, parameters, steps] = helper.row();
+    let takes_wide = name.starts_with("wide_") && helper != Widen;
     let list = |of: &str| {
-        let each = parameters.iter().map(|p| of.replace('#', p));
+        let each = parameters.split(", ").map(|p| of.replace('#', p));
         each.collect::<Vec<_>>().join(", ")
     };
     let kind = match (language, takes_wide) {
@@ -229,7 +200,7 @@ fn straight(language: Language, helper: Helper) -> String {
             .replace(".high", &filled(dialect.high, "", ""))
             .replace(".low", &filled(dialect.high, "", "").replace('0', "1")),
     };
-    for step in steps(helper).split("; ") {
+    for step in steps.split("; ") {
         let step = own(step);
         let condition = step.strip_prefix("if ").and_then(|s| s.split_once(": "));
         let line = match (condition, step.split_once(" = ")) {

@@ -269,7 +269,7 @@ impl<'a> Writer<'a> {
     }
 
     fn call(&mut self, helper: Helper, arguments: &[&str]) -> String {
-        helper.with_needs(self.used);
+        helper.with_needs(self.language, self.used);
         format!("{}({})", helper.name(), arguments.join(", "))
     }
 
