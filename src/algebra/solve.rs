@@ -37,8 +37,6 @@ pub struct Solution {
     pub rank: usize,
     /// An equation the others contradict, by index.
     pub contradiction: Option<usize>,
-    /// Equations that follow from the others, by index.
-    pub redundant: Vec<usize>,
     /// Unknowns chosen as free, by index; others may still depend on them.
     pub free: Vec<usize>,
     /// What was divided by; the solution holds where none of it is zero. Its product is the determinant up to sign.
@@ -57,7 +55,6 @@ pub fn solve(field: &Field, rows: &[Row], n: usize) -> Result<Solution, Stop> {
             values: values.into_iter().map(Some).collect(),
             rank: n,
             contradiction: None,
-            redundant: Vec::new(),
             free: Vec::new(),
             divisors: vec![determinant],
         });
@@ -98,10 +95,6 @@ pub fn solve(field: &Field, rows: &[Row], n: usize) -> Result<Solution, Stop> {
         });
     }
     let contradiction = open.iter().copied().find(|r| !field.is_zero(&rhs[*r]));
-    let redundant = open
-        .into_iter()
-        .filter(|r| field.is_zero(&rhs[*r]))
-        .collect();
     let free: Vec<usize> = (0..n)
         .filter(|j| pivots.iter().all(|p| p.unknown != *j))
         .collect();
@@ -137,7 +130,6 @@ pub fn solve(field: &Field, rows: &[Row], n: usize) -> Result<Solution, Stop> {
         values,
         rank: pivots.len(),
         contradiction,
-        redundant,
         free,
         divisors: pivots.into_iter().map(|p| p.value).collect(),
     })

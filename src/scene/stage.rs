@@ -317,8 +317,6 @@ pub struct Lump {
     pub mass: Expr,
     /// Center of mass \[m\].
     pub center: Vector,
-    /// Moment of inertia about the center of mass \[kg m²\].
-    pub inertia: Expr,
 }
 
 impl Turn {
@@ -334,7 +332,6 @@ impl Turn {
             return Lump {
                 mass: first.mass.clone(),
                 center: first.center.clone(),
-                inertia: first.inertia.clone(),
             };
         }
         let all: Vec<&super::Body> = self.bodies().iter().map(|b| &scene.bodies[*b]).collect();
@@ -343,15 +340,7 @@ impl Turn {
             let moments = all.iter().map(|b| &b.mass * &b.center[axis]);
             &Expr::sum(moments) / &mass
         });
-        let inertia = Expr::sum(all.iter().map(|b| {
-            let arm = minus(&b.center, &center);
-            &b.inertia + &(&b.mass * &dot(&arm, &arm))
-        }));
-        Lump {
-            mass,
-            center,
-            inertia,
-        }
+        Lump { mass, center }
     }
 }
 

@@ -61,8 +61,6 @@ pub use state::{BodyState, Component, Open, State, Why, kinetic};
 /// A stage that was followed to its end.
 #[derive(Clone, Debug)]
 pub struct Passed {
-    /// Name of the stage; empty for the impact of a scene without stages.
-    pub name: String,
     /// How long it takes \[s\]; 0 for an impact.
     pub time: Component,
     /// At its beginning.
@@ -291,7 +289,6 @@ impl Course<'_> {
 
     fn passed(&self, time: Component, before: State, after: State, what: What) -> Passed {
         Passed {
-            name: self.name.into(),
             time,
             energy: [&before, &after].map(|state| kinetic(self.solids, state, None)),
             before,
