@@ -43,10 +43,15 @@ fn text(out: &mut String, field: &str, content: &str) {
     );
 }
 
-/// Fields with plain contents.
-fn fields(out: &mut String, all: &[(&str, &str)]) {
-    for (field, content) in all {
-        let _ = writeln!(out, "<{field}>{}</{field}>", xml(content));
+/// An element whose text is no HTML.
+fn field(out: &mut String, field: &str, content: &str) {
+    let _ = writeln!(out, "<{field}>{}</{field}>", xml(content));
+}
+
+/// Several of them, written `name=text` with blanks between.
+fn fields(out: &mut String, all: &str) {
+    for (name, content) in all.split_whitespace().filter_map(|f| f.split_once('=')) {
+        field(out, name, content);
     }
 }
 
@@ -76,15 +81,7 @@ fn question(out: &mut String, exercise: &Exercise, item: &Item, names: &Names) {
     }
     text(out, "questiontext", &asked);
     text(out, "generalfeedback", &quiet(&exercise.solution));
-    fields(
-        out,
-        &[
-            ("defaultgrade", "1"),
-            ("penalty", "0.1"),
-            ("hidden", "0"),
-            ("idnumber", ""),
-        ],
-    );
+    fields(out, "defaultgrade=1 penalty=0.1 hidden=0 idnumber=");
     let _ = writeln!(
         out,
         "<stackversion><text></text></stackversion>\n<questionvariables><text>{}</text></questionvariables>",
@@ -107,41 +104,34 @@ fn question(out: &mut String, exercise: &Exercise, item: &Item, names: &Names) {
     );
     text(out, "questiondescription", "");
     let positive = exercise.symbols.iter().all(|g| g.is_positive);
-    let flag = |on: bool| if on { "1" } else { "0" };
     fields(
         out,
-        &[
-            ("questionsimplify", "1"),
-            ("assumepositive", flag(positive)),
-            ("assumereal", flag(!positive)),
-        ],
+        match positive {
+            true => "questionsimplify=1 assumepositive=1 assumereal=0",
+            false => "questionsimplify=1 assumepositive=0 assumereal=1",
+        },
     );
     text(out, "prtcorrect", "<p>Right.</p>");
     text(out, "prtpartiallycorrect", "<p>Right in part.</p>");
     text(out, "prtincorrect", "<p>Not right.</p>");
     fields(
         out,
-        &[
-            ("decimals", "."),
-            ("scientificnotation", "*10"),
-            ("multiplicationsign", "dot"),
-            ("sqrtsign", "1"),
-            ("complexno", "i"),
-            ("inversetrig", "arccos"),
-            ("logicsymbol", "lang"),
-            ("matrixparens", "["),
-            ("variantsselectionseed", ""),
-        ],
+        "decimals=. scientificnotation=*10 multiplicationsign=dot sqrtsign=1 complexno=i inversetrig=arccos \
+         logicsymbol=lang matrixparens=[ variantsselectionseed=",
     );
-    input(out, "ans1", "ta1", false);
+    input(out, "name=ans1 type=algebraic tans=ta1 boxsize=30", "1");
     if with_numbers {
-        input(out, "ans2", "float(tn)", true);
+        input(
+            out,
+            "name=ans2 type=numerical tans=float(tn) boxsize=12",
+            "0",
+        );
     }
-    tree(out, item, &Tree::formula());
+    tree(out, item, &FORMULA);
     if with_numbers {
-        tree(out, item, &Tree::number());
+        tree(out, item, &NUMBER);
         for seed in 1..=item.variants.len() {
-            fields(out, &[("deployedseed", &seed.to_string())]);
+            field(out, "deployedseed", &seed.to_string());
         }
     }
     tests(out, item, with_numbers);
@@ -174,29 +164,16 @@ fn variables(item: &Item, names: &Names) -> String {
     out
 }
 
-fn input(out: &mut String, name: &str, answer: &str, is_number: bool) {
+fn input(out: &mut String, own: &str, check_type: &str) {
     out.push_str("<input>\n");
+    fields(out, own);
     fields(
         out,
-        &[
-            ("name", name),
-            ("type", if is_number { "numerical" } else { "algebraic" }),
-            ("tans", answer),
-            ("boxsize", if is_number { "12" } else { "30" }),
-            ("strictsyntax", "1"),
-            ("insertstars", "0"),
-            ("syntaxhint", ""),
-            ("syntaxattribute", "0"),
-            ("forbidwords", ""),
-            ("allowwords", ""),
-            ("forbidfloat", "0"),
-            ("requirelowestterms", "0"),
-            ("checkanswertype", if is_number { "0" } else { "1" }),
-            ("mustverify", "1"),
-            ("showvalidation", "1"),
-            ("options", ""),
-        ],
+        "strictsyntax=1 insertstars=0 syntaxhint= syntaxattribute=0 forbidwords= allowwords= forbidfloat=0 \
+         requirelowestterms=0",
     );
+    field(out, "checkanswertype", check_type);
+    fields(out, "mustverify=1 showvalidation=1 options=");
     out.push_str("</input>\n");
 }
 
@@ -210,29 +187,27 @@ struct Tree {
     options: &'static str,
 }
 
+/// The formula is held against the right one and the wrong ones.
+const FORMULA: Tree = Tree {
+    name: "prt1",
+    input: "ans1",
+    right: "ta1",
+    wrong: "w",
+    test: "AlgEquiv",
+    options: "",
+};
+
+/// The number is, up to a tolerance.
+const NUMBER: Tree = Tree {
+    name: "prt2",
+    input: "ans2",
+    right: "float(tn)",
+    wrong: "wn",
+    test: "NumRelative",
+    options: TOLERANCE,
+};
+
 impl Tree {
-    fn formula() -> Tree {
-        Tree {
-            name: "prt1",
-            input: "ans1",
-            right: "ta1",
-            wrong: "w",
-            test: "AlgEquiv",
-            options: "",
-        }
-    }
-
-    fn number() -> Tree {
-        Tree {
-            name: "prt2",
-            input: "ans2",
-            right: "float(tn)",
-            wrong: "wn",
-            test: "NumRelative",
-            options: TOLERANCE,
-        }
-    }
-
     /// What a branch compares with.
     fn against(&self, k: usize) -> String {
         match (k, self.test) {
@@ -254,23 +229,14 @@ impl Tree {
 /// The tree: the right answer, then each belief; every branch that holds ends it.
 fn tree(out: &mut String, item: &Item, tree: &Tree) {
     out.push_str("<prt>\n");
-    fields(
-        out,
-        &[
-            ("name", tree.name),
-            ("value", "1"),
-            ("autosimplify", "1"),
-            ("feedbackstyle", "1"),
-        ],
-    );
+    field(out, "name", tree.name);
+    fields(out, "value=1 autosimplify=1 feedbackstyle=1");
     out.push_str("<feedbackvariables><text></text></feedbackvariables>\n");
     for k in 0..=item.wrong.len() {
         let wrong = k.checked_sub(1).map(|k| &item.wrong[k]);
-        let next = if k < item.wrong.len() { k + 1 } else { 0 };
-        let next = if next == 0 {
-            String::from("-1")
-        } else {
-            next.to_string()
+        let next = match k < item.wrong.len() {
+            true => format!("falsenextnode={}", k + 1),
+            false => String::from("falsenextnode=-1"),
         };
         let belief: String = wrong
             .map_or("the right answer", |w| &w.belief)
@@ -279,36 +245,22 @@ fn tree(out: &mut String, item: &Item, tree: &Tree) {
             .collect();
         let score = if k == 0 { "1" } else { "0" };
         out.push_str("<node>\n");
-        fields(
-            out,
-            &[
-                ("name", &k.to_string()),
-                ("description", &belief),
-                ("answertest", tree.test),
-                ("sans", tree.input),
-                ("tans", &tree.against(k)),
-                ("testoptions", tree.options),
-                ("quiet", "1"),
-                ("truescoremode", "="),
-                ("truescore", score),
-                ("truepenalty", ""),
-                ("truenextnode", "-1"),
-                ("trueanswernote", &tree.note(item, k)),
-            ],
-        );
+        field(out, "name", &k.to_string());
+        field(out, "description", &belief);
+        field(out, "answertest", tree.test);
+        field(out, "sans", tree.input);
+        field(out, "tans", &tree.against(k));
+        field(out, "testoptions", tree.options);
+        fields(out, "quiet=1 truescoremode==");
+        field(out, "truescore", score);
+        fields(out, "truepenalty= truenextnode=-1");
+        field(out, "trueanswernote", &tree.note(item, k));
         let hint = wrong.map_or(String::new(), |w| format!("<p>{}</p>", words(&w.hint)));
         text(out, "truefeedback", &hint);
         let other = format!("{}-OTHER-{k}", tree.name);
-        fields(
-            out,
-            &[
-                ("falsescoremode", "="),
-                ("falsescore", "0"),
-                ("falsepenalty", ""),
-                ("falsenextnode", &next),
-                ("falseanswernote", &other),
-            ],
-        );
+        fields(out, "falsescoremode== falsescore=0 falsepenalty=");
+        fields(out, &next);
+        field(out, "falseanswernote", &other);
         text(out, "falsefeedback", "");
         out.push_str("</node>\n");
     }
@@ -320,12 +272,11 @@ fn tests(out: &mut String, item: &Item, with_numbers: bool) {
     for k in 0..=item.wrong.len() {
         let score = if k == 0 { "1" } else { "0" };
         let penalty = if k == 0 { "0" } else { "0.1" };
-        let note = |tree: &Tree| tree.note(item, k);
-        let mut trees = vec![(Tree::formula(), note(&Tree::formula()))];
+        let mut trees = vec![&FORMULA];
         // Two numbers may be near each other at some values: then the branch before is as good.
         let is_told = k == 0 || item.variants.iter().all(|v| v.wrong[k - 1].is_some());
         if with_numbers && is_told {
-            trees.push((Tree::number(), note(&Tree::number())));
+            trees.push(&NUMBER);
         }
         out.push_str("<qtest>\n");
         let what = if k == 0 {
@@ -333,11 +284,9 @@ fn tests(out: &mut String, item: &Item, with_numbers: bool) {
         } else {
             item.wrong[k - 1].code
         };
-        fields(
-            out,
-            &[("testcase", &(k + 1).to_string()), ("description", what)],
-        );
-        for (tree, _) in &trees {
+        field(out, "testcase", &(k + 1).to_string());
+        field(out, "description", what);
+        for tree in &trees {
             let value = tree.against(k);
             let _ = writeln!(
                 out,
@@ -345,17 +294,12 @@ fn tests(out: &mut String, item: &Item, with_numbers: bool) {
                 tree.input
             );
         }
-        for (tree, note) in &trees {
+        for tree in &trees {
             out.push_str("<expected>\n");
-            fields(
-                out,
-                &[
-                    ("name", tree.name),
-                    ("expectedscore", score),
-                    ("expectedpenalty", penalty),
-                    ("expectedanswernote", note),
-                ],
-            );
+            field(out, "name", tree.name);
+            field(out, "expectedscore", score);
+            field(out, "expectedpenalty", penalty);
+            field(out, "expectedanswernote", &tree.note(item, k));
             out.push_str("</expected>\n");
         }
         out.push_str("</qtest>\n");
