@@ -20,50 +20,47 @@ pub(super) fn impact(scene: &Scene, told: &Told, impact: &Case) -> String {
     let (own, about) = told.answers.split_at(d.answers.len());
     let mut out = String::new();
     if let Some(refusal) = possible.refusal() {
-        line(&mut out, "", &refusal);
+        let _ = writeln!(out, "{refusal}");
     }
-    line(&mut out, "", &super::heading(&scene.title, &scene.source));
+    let _ = writeln!(out, "{}", super::heading(&scene.title, &scene.source));
     equations(&mut out, scene, d);
     if !own.is_empty() {
-        line(&mut out, "\n", "answers:");
+        let _ = writeln!(out, "\nanswers:");
     }
     for answer in own {
         self::answer(&mut out, scene, d, answer);
     }
     if !d.definitions.is_empty() {
-        line(&mut out, "\n", "where:");
+        let _ = writeln!(out, "\nwhere:");
         for definition in &d.definitions {
-            line(
-                &mut out,
-                "  ",
-                &format!(
-                    "{} = {}",
-                    definition.name,
-                    unicode(scene, &definition.value)
-                ),
+            let _ = writeln!(
+                out,
+                "  {} = {}",
+                definition.name,
+                unicode(scene, &definition.value)
             );
-            line(&mut out, "      ", &definition.meaning);
+            let _ = writeln!(out, "      {}", definition.meaning);
         }
     }
     let under = super::assumptions(scene, d, proof);
     if !under.is_empty() {
-        line(&mut out, "\nunder: ", &under.join(", "));
+        let _ = writeln!(out, "\nunder: {}", under.join(", "));
     }
     let only = super::possible::conditions(scene, possible);
     if !only.is_empty() {
-        line(&mut out, "\npossible where: ", &only.join(", "));
+        let _ = writeln!(out, "\npossible where: {}", only.join(", "));
     }
     left_out(&mut out, d);
-    line(&mut out, "\n", "checked:");
+    let _ = writeln!(out, "\nchecked:");
     proof.scene.iter().for_each(|c| check(&mut out, "  ", c));
     if let Some(possible) = super::possible::check(scene, possible) {
         check(&mut out, "  ", &possible);
     }
     for words in &possible.not_judged {
-        line(&mut out, "  – not judged: ", words);
+        let _ = writeln!(out, "  – not judged: {words}");
     }
     for note in &possible.notes {
-        line(&mut out, "  – ", note);
+        let _ = writeln!(out, "  – {note}");
     }
     for (answer, checks) in d.answers.iter().zip(&proof.answers) {
         for c in checks {
@@ -71,7 +68,7 @@ pub(super) fn impact(scene: &Scene, told: &Told, impact: &Case) -> String {
         }
     }
     if !about.is_empty() {
-        line(&mut out, "\n", "asked about these answers:");
+        let _ = writeln!(out, "\nasked about these answers:");
         out.push_str(&super::story::answers(scene, about));
     }
     out
@@ -87,32 +84,32 @@ fn answer(out: &mut String, scene: &Scene, d: &Derivation, answer: &Answer) {
                     let number = super::digits(v.approximate);
                     format!(" = {}", answer.dimension.measured(&number))
                 });
-            line(
+            let _ = writeln!(
                 out,
-                "  ",
-                &format!("{} = {}{}", answer.name, unicode(scene, short), value),
+                "  {} = {}{}",
+                answer.name,
+                unicode(scene, short),
+                value
             );
-            line(
+            let _ = writeln!(
                 out,
-                "      ",
-                &format!("{} [{}]", answer.words, answer.dimension.spoken()),
+                "      {} [{}]",
+                answer.words,
+                answer.dimension.spoken()
             );
         }
         Form::Equation { left, right } => {
-            line(
+            let _ = writeln!(
                 out,
-                "  ",
-                &format!(
-                    "{}: {} = {}",
-                    answer.name,
-                    unicode(scene, left),
-                    unicode(scene, right)
-                ),
+                "  {}: {} = {}",
+                answer.name,
+                unicode(scene, left),
+                unicode(scene, right)
             );
-            line(out, "      ", &answer.words);
+            let _ = writeln!(out, "      {}", answer.words);
         }
         Form::Matrix(m) => {
-            line(out, "  ", &format!("{}: {}", answer.name, answer.words));
+            let _ = writeln!(out, "  {}: {}", answer.name, answer.words);
             matrix_lines(out, scene, m);
             for sentence in &answer.text {
                 line(out, "      ", &sentence.written(|e| unicode(scene, e)));
@@ -120,14 +117,11 @@ fn answer(out: &mut String, scene: &Scene, d: &Derivation, answer: &Answer) {
         }
         Form::Words => {}
         Form::Open(names) => {
-            line(
+            let _ = writeln!(
                 out,
-                "  ",
-                &format!(
-                    "{}: not determined by the laws ({} open)",
-                    answer.name,
-                    names.join(", ")
-                ),
+                "  {}: not determined by the laws ({} open)",
+                answer.name,
+                names.join(", ")
             );
         }
     }
@@ -138,33 +132,26 @@ pub(super) fn equations(out: &mut String, scene: &Scene, d: &Derivation) {
     counting(out, d);
     for (unknown, value) in &d.given {
         let name = d.names.plain(*unknown);
-        line(
-            out,
-            "\ngiven: ",
-            &format!("{name} = {}", unicode(scene, value)),
-        );
+        let _ = writeln!(out, "\ngiven: {name} = {}", unicode(scene, value));
     }
     for block in &d.blocks {
         let n = block.equations.len();
         let heading = format!("{n} equation{} in {n} unknown{}:", plural(n), plural(n));
-        line(out, "\n", &heading);
+        let _ = writeln!(out, "\n{heading}");
         for equation in &block.equations {
             let (left, right) = super::sides(d, equation);
-            line(out, "  ", &laws::describe(scene, &equation.law));
-            line(
+            let _ = writeln!(out, "  {}", laws::describe(scene, &equation.law));
+            let _ = writeln!(
                 out,
-                "      ",
-                &format!("{} = {}", unicode(scene, &left), unicode(scene, &right)),
+                "      {} = {}",
+                unicode(scene, &left),
+                unicode(scene, &right)
             );
         }
         for (unknown, value) in block.unknowns.iter().zip(d.solution(block)) {
             let value = unicode(scene, &value);
             if value.chars().count() <= 120 {
-                line(
-                    out,
-                    "  ⇒   ",
-                    &format!("{} = {value}", d.names.plain(*unknown)),
-                );
+                let _ = writeln!(out, "  ⇒   {} = {value}", d.names.plain(*unknown));
             }
         }
     }
@@ -173,9 +160,9 @@ pub(super) fn equations(out: &mut String, scene: &Scene, d: &Derivation) {
 /// What the scene did not need.
 pub(super) fn left_out(out: &mut String, d: &Derivation) {
     if !d.left_out.is_empty() {
-        line(out, "\n", "left out:");
+        let _ = writeln!(out, "\nleft out:");
         for left in &d.left_out {
-            line(out, "  ", &format!("{}: {}", left.what, left.why));
+            let _ = writeln!(out, "  {}: {}", left.what, left.why);
         }
     }
 }
@@ -192,7 +179,7 @@ pub fn numbers(scene: &Scene, numbers: &[super::Number]) -> String {
             },
             Err(reason) => reason.clone(),
         };
-        line(&mut out, "", &format!("{} = {text}", number.name));
+        let _ = writeln!(out, "{} = {text}", number.name);
     }
     out
 }
@@ -209,43 +196,40 @@ fn matrix_lines(out: &mut String, scene: &Scene, m: &Matrix) {
     let entries = entries.map(|row| row.iter().map(|e| unicode(scene, e)).collect());
     let rows: Vec<Vec<String>> = [m.unknowns.clone()].into_iter().chain(entries).collect();
     let lines = super::columns(&rows, |_| false);
-    line(out, "      ", lines[0].trim_end());
+    let _ = writeln!(out, "      {}", lines[0].trim_end());
     for (i, cells) in lines[1..].iter().enumerate() {
         let rhs = unicode(scene, &m.rhs[i]);
-        line(out, "    [ ", &format!("{cells} | {rhs} ]   {}", m.rows[i]));
+        let _ = writeln!(out, "    [ {cells} | {rhs} ]   {}", m.rows[i]);
     }
 }
 
 fn counting(out: &mut String, d: &Derivation) {
     let c = &d.counting;
     let used: usize = d.blocks.iter().map(|b| b.equations.len()).sum();
-    line(
+    let _ = writeln!(
         out,
-        "",
-        &format!(
-            "full system: {} equations, {} unknowns, rank {}; used here: {used}",
-            c.equations, c.unknowns, c.rank
-        ),
+        "full system: {} equations, {} unknowns, rank {}; used here: {used}",
+        c.equations, c.unknowns, c.rank
     );
     if c.contradictory {
-        line(
+        let _ = writeln!(
             out,
-            "",
-            "the equations contradict each other, so there is no answer; these cannot hold together:",
+            "the equations contradict each other, so there is no answer; these cannot hold together:"
         );
-        c.conflict.iter().for_each(|law| line(out, "  ", law));
+        for law in &c.conflict {
+            let _ = writeln!(out, "  {law}");
+        }
     }
     if !c.open.is_empty() {
         let names: Vec<&str> = c.open.iter().map(|u| d.names.plain(*u)).collect();
-        line(out, "", &format!("not determined: {}", names.join(", ")));
+        let _ = writeln!(out, "not determined: {}", names.join(", "));
         for law in &c.closing_laws {
-            line(out, "  would close it: ", law);
+            let _ = writeln!(out, "  would close it: {law}");
         }
         if c.rank_with_system == c.rank {
-            line(
+            let _ = writeln!(
                 out,
-                "  ",
-                "balances of the whole system are sums of those of its bodies and add no rank",
+                "  balances of the whole system are sums of those of its bodies and add no rank"
             );
         }
     }
@@ -257,12 +241,7 @@ fn check(out: &mut String, lead: &str, check: &Check) {
         Some(false) => "✗ FAILED:",
         None => "–",
     };
-    line(out, lead, &format!("{mark} {}", check.words));
-}
-
-fn line(out: &mut String, lead: &str, text: &str) {
-    // Writing to a string cannot fail.
-    let _ = writeln!(out, "{lead}{text}");
+    let _ = writeln!(out, "{lead}{mark} {}", check.words);
 }
 
 fn plural(n: usize) -> &'static str {
