@@ -4,6 +4,9 @@
 //! `kg·m/s`, `km/h`, `rpm`. Case matters, as it does in the SI. After one slash everything is in the denominator up to
 //! the end; `kg/m s` and `kg/m·s` are refused, because people disagree about them.
 
+use std::collections::HashMap;
+use std::sync::LazyLock;
+
 use num_traits::{One, Zero};
 
 use super::Dimension;
@@ -210,7 +213,7 @@ impl<'a> Reader<'a> {
             }
             Some('°') => {
                 self.at += '°'.len_utf8();
-                Ok(angle(ratio(1, 180), 1))
+                plain("°").ok_or_else(|| fault("this is no unit".into(), start, self.at))
             }
             _ => {
                 let rest = &self.text[start..];
@@ -343,16 +346,6 @@ fn raise(value: &Rational, power: i64) -> Rational {
     if power < 0 { up.recip() } else { up }
 }
 
-fn angle(factor: Rational, pi: i64) -> Unit {
-    Unit {
-        dimension: Dimension::none(),
-        factor,
-        pi: ratio(pi, 1),
-        angle: true,
-        cycles: false,
-    }
-}
-
 /// A unit by its name, with a prefix where the SI allows one.
 fn named(word: &str) -> Option<Unit> {
     if let Some(found) = plain(word) {
@@ -420,134 +413,108 @@ const LONG_PREFIXES: [(&str, i64); 8] = [
     ("nano", -9),
 ];
 
-fn electric(mass: i64, length: i64, time: i64, current: i64) -> Unit {
-    Unit {
-        dimension: Dimension {
-            current: ratio(current, 1),
-            ..Dimension::new(mass, length, time)
-        },
-        ..Unit::number()
-    }
-}
+/// Units by their names: dimension by mass, length, time, current and temperature, then factors to SI, those behind the slash
+/// below. Of angles, `pi` is one of them.
+const UNITS: &str = "
+kg kilogram kilograms; 1 0 0; 1
+g gram grams; 1 0 0; 0.001
+t tonne tonnes; 1 0 0; 1000
+m meter meters metre metres; 0 1 0; 1
+s sec second seconds; 0 0 1; 1
+min minute minutes; 0 0 1; 60
+h hr hour hours; 0 0 1; 3600
+N newton newtons; 1 1 -2; 1
+Nm J joule joules Ws; 1 2 -2; 1
+Ns; 1 1 -1; 1
+kilometer kilometers kilometre kilometres; 0 1 0; 1000
+centimeter centimeters centimetre centimetres; 0 1 0; 0.01
+millimeter millimeters millimetre millimetres; 0 1 0; 0.001
+W watt watts; 1 2 -3; 1
+Pa pascal pascals; 1 -1 -2; 1
+Hz hertz; 0 0 -1; 1 cycles
+Wh; 1 2 -2; 3600
+kWh; 1 2 -2; 3600000
+eV; 1 2 -2; 1602176634 / 10000000000000000 1000000000000
+keV; 1 2 -2; 1602176634 / 10000000000000 1000000000000
+MeV; 1 2 -2; 1602176634 / 10000000000 1000000000000
+GeV; 1 2 -2; 1602176634 / 10000000 1000000000000
+cal; 1 2 -2; 4.184
+kcal; 1 2 -2; 4184
+hp; 1 2 -3; 0.45359237 9.80665 0.3048 550
+bar; 1 -1 -2; 100000
+atm; 1 -1 -2; 101325
+psi; 1 -1 -2; 0.45359237 9.80665 / 0.0254 0.0254
+L l liter liters litre litres; 0 3 0; 0.001
+mL ml; 0 3 0; 0.000001
+mi mile miles; 0 1 0; 1609.344
+yd yard yards; 0 1 0; 0.9144
+in inch inches; 0 1 0; 0.0254
+ft foot feet; 0 1 0; 0.3048
+oz ounce ounces; 1 0 0; 0.45359237 / 16
+lb lbs lbm pound pounds; 1 0 0; 0.45359237
+lbf; 1 1 -2; 0.45359237 9.80665
+slug slugs; 1 0 0; 0.45359237 9.80665 / 0.3048
+day days; 0 0 1; 86400
+knot knots; 0 1 -1; 1852 / 3600
+kph; 0 1 -1; 1 / 3.6
+mph; 0 1 -1; 0.44704
+A ampere amperes; 0 0 0 1; 1
+C coulomb coulombs; 0 0 1 1; 1
+V volt volts; 1 2 -3 -1; 1
+Ω ohm ohms; 1 2 -3 -2; 1
+F farad farads; -1 -2 4 2; 1
+H henry; 1 2 -2 -2; 1
+T tesla; 1 0 -2 -1; 1
+Wb weber; 1 2 -2 -1; 1
+K kelvin kelvins; 0 0 0 0 1; 1
+rad rads radian radians; 0 0 0; 1 angle
+deg degree degrees °; 0 0 0; pi / 180 angle
+rev turn revolution revolutions; 0 0 0; 2 pi angle
+rpm; 0 0 -1; pi / 30 angle
+";
 
-/// 10^`tens` electron volts, exact since 2019.
-fn electron_volt(tens: i64) -> Unit {
-    let joule = ratio(1_602_176_634, 1)
-        * raise(&ratio(10, 1), -12)
-        * raise(&ratio(10, 1), -12)
-        * ratio(1, 10_000);
-    Unit {
-        dimension: Dimension::new(1, 2, -2),
-        factor: joule * raise(&ratio(10, 1), tens),
-        ..Unit::number()
-    }
-}
-
+/// A unit by one of its names.
 fn plain(word: &str) -> Option<Unit> {
-    let si = |mass, length, time, factor| Unit {
-        dimension: Dimension::new(mass, length, time),
-        factor,
-        ..Unit::number()
-    };
-    let one = Rational::one;
-    Some(match word {
-        "kg" | "kilogram" | "kilograms" => si(1, 0, 0, one()),
-        "g" | "gram" | "grams" => si(1, 0, 0, ratio(1, 1000)),
-        "t" | "tonne" | "tonnes" => si(1, 0, 0, ratio(1000, 1)),
-        "m" | "meter" | "meters" | "metre" | "metres" => si(0, 1, 0, one()),
-        "s" | "sec" | "second" | "seconds" => si(0, 0, 1, one()),
-        "min" | "minute" | "minutes" => si(0, 0, 1, ratio(60, 1)),
-        "h" | "hr" | "hour" | "hours" => si(0, 0, 1, ratio(3600, 1)),
-        "N" | "newton" | "newtons" => si(1, 1, -2, one()),
-        // Nm and Ns are not SI spelling, but how newton metre and newton second are often typed.
-        "Nm" | "J" | "joule" | "joules" => si(1, 2, -2, one()),
-        "Ns" => si(1, 1, -1, one()),
-        "Ws" => si(1, 2, -2, one()),
-        "kilometer" | "kilometers" | "kilometre" | "kilometres" => si(0, 1, 0, ratio(1000, 1)),
-        "centimeter" | "centimeters" | "centimetre" | "centimetres" => si(0, 1, 0, ratio(1, 100)),
-        "millimeter" | "millimeters" | "millimetre" | "millimetres" => si(0, 1, 0, ratio(1, 1000)),
-        "W" => si(1, 2, -3, one()),
-        "Pa" => si(1, -1, -2, one()),
-        "Hz" | "hertz" => Unit {
-            cycles: true,
-            ..si(0, 0, -1, one())
-        },
-        "watt" | "watts" => si(1, 2, -3, one()),
-        "pascal" | "pascals" => si(1, -1, -2, one()),
-        "Wh" => si(1, 2, -2, ratio(3600, 1)),
-        "kWh" => si(1, 2, -2, ratio(3_600_000, 1)),
-        "eV" => electron_volt(0),
-        "keV" => electron_volt(3),
-        "MeV" => electron_volt(6),
-        "GeV" => electron_volt(9),
-        "cal" => si(1, 2, -2, ratio(4184, 1000)),
-        "kcal" => si(1, 2, -2, ratio(4184, 1)),
-        "hp" => si(
-            1,
-            2,
-            -3,
-            ratio(45_359_237, 100_000_000)
-                * ratio(980_665, 100_000)
-                * ratio(381, 1250)
-                * ratio(550, 1),
-        ),
-        "bar" => si(1, -1, -2, ratio(100_000, 1)),
-        "atm" => si(1, -1, -2, ratio(101_325, 1)),
-        "psi" => si(
-            1,
-            -1,
-            -2,
-            ratio(45_359_237, 100_000_000) * ratio(980_665, 100_000) / ratio(127 * 127, 25_000_000),
-        ),
-        "L" | "l" | "liter" | "liters" | "litre" | "litres" => si(0, 3, 0, ratio(1, 1000)),
-        "mL" | "ml" => si(0, 3, 0, ratio(1, 1_000_000)),
-        "mi" | "mile" | "miles" => si(0, 1, 0, ratio(201_168, 125)),
-        "yd" | "yard" | "yards" => si(0, 1, 0, ratio(1143, 1250)),
-        "oz" | "ounce" | "ounces" => si(1, 0, 0, ratio(45_359_237, 1_600_000_000)),
-        "lbs" => si(1, 0, 0, ratio(45_359_237, 100_000_000)),
-        "day" | "days" => si(0, 0, 1, ratio(86_400, 1)),
-        "knot" | "knots" => si(0, 1, -1, ratio(1852, 3600)),
-        "A" | "ampere" | "amperes" => electric(0, 0, 0, 1),
-        "C" | "coulomb" | "coulombs" => electric(0, 0, 1, 1),
-        "V" | "volt" | "volts" => electric(1, 2, -3, -1),
-        "Ω" | "ohm" | "ohms" => electric(1, 2, -3, -2),
-        "F" | "farad" | "farads" => electric(-1, -2, 4, 2),
-        "H" | "henry" => electric(1, 2, -2, -2),
-        "T" | "tesla" => electric(1, 0, -2, -1),
-        "Wb" | "weber" => electric(1, 2, -2, -1),
-        "K" | "kelvin" | "kelvins" => Unit {
-            dimension: Dimension {
-                temperature: one(),
-                ..Dimension::none()
-            },
-            ..Unit::number()
-        },
-        "rad" | "rads" | "radian" | "radians" => angle(one(), 0),
-        "deg" | "degree" | "degrees" => angle(ratio(1, 180), 1),
-        "rev" | "turn" | "revolution" | "revolutions" => angle(ratio(2, 1), 1),
-        "rpm" => Unit {
-            dimension: Dimension::new(0, 0, -1),
-            ..angle(ratio(1, 30), 1)
-        },
-        "in" | "inch" | "inches" => si(0, 1, 0, ratio(127, 5000)),
-        "ft" | "foot" | "feet" => si(0, 1, 0, ratio(381, 1250)),
-        "lb" | "lbm" | "pound" | "pounds" => si(1, 0, 0, ratio(45_359_237, 100_000_000)),
-        "lbf" => si(
-            1,
-            1,
-            -2,
-            ratio(45_359_237, 100_000_000) * ratio(980_665, 100_000),
-        ),
-        "slug" | "slugs" => si(
-            1,
-            0,
-            0,
-            ratio(45_359_237, 100_000_000) * ratio(980_665, 100_000) * ratio(1250, 381),
-        ),
-        "kph" => si(0, 1, -1, ratio(5, 18)),
-        "mph" => si(0, 1, -1, ratio(1397, 3125)),
-        _ => return None,
-    })
+    static ALL: LazyLock<HashMap<&str, Unit>> = LazyLock::new(|| {
+        let rows = UNITS.lines().filter_map(|row| row.split_once("; "));
+        rows.flat_map(|(names, rest)| {
+            let unit = row(rest);
+            names.split(' ').map(move |name| (name, unit.clone()))
+        })
+        .collect()
+    });
+    ALL.get(word).cloned()
+}
+
+/// A row of the table behind the names.
+fn row(text: &str) -> Unit {
+    let (powers, factors) = text.split_once("; ").unwrap_or((text, ""));
+    let mut powers = powers.split(' ').map(|p| ratio(p.parse().unwrap_or(0), 1));
+    let [mass, length, time, current, temperature] =
+        std::array::from_fn(|_| powers.next().unwrap_or_default());
+    let mut unit = Unit::coherent(Dimension {
+        mass,
+        length,
+        time,
+        current,
+        temperature,
+    });
+    let mut below = false;
+    for factor in factors.split(' ') {
+        match factor {
+            "/" => below = true,
+            "pi" => unit.pi = Rational::one(),
+            "angle" => unit.angle = true,
+            "cycles" => unit.cycles = true,
+            number => {
+                let (whole, part) = number.split_once('.').unwrap_or((number, ""));
+                let digits = format!("{whole}{part}").parse().unwrap_or(1);
+                let number = ratio(digits, 10i64.pow(part.len() as u32));
+                unit.factor *= if below { number.recip() } else { number };
+            }
+        }
+    }
+    unit
 }
 
 #[cfg(test)]
@@ -581,6 +548,12 @@ mod tests {
             ("m2", Dimension::new(0, 2, 0), (1, 1)),
             ("ft/s", Dimension::new(0, 1, -1), (381, 1250)),
             ("kph", Dimension::new(0, 1, -1), (5, 18)),
+            ("mph", Dimension::new(0, 1, -1), (1397, 3125)),
+            (
+                "psi",
+                Dimension::new(1, -1, -2),
+                (8896443230521, 1290320000),
+            ),
             ("kg•m", Dimension::new(1, 1, 0), (1, 1)),
             ("newton-seconds", Dimension::new(1, 1, -1), (1, 1)),
             ("meters/second squared", Dimension::new(0, 1, -2), (1, 1)),
