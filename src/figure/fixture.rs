@@ -3,7 +3,7 @@
 //! In: a place on the sheet, in pixels, and which way it faces. Out: lines on the sheet.
 
 use super::place::Room;
-use super::sheet::{Ink, Item, Line, Sheet};
+use super::sheet::{Ink, Line, Sheet};
 use super::stage::PEG;
 use super::values::{Pair, size};
 
@@ -30,11 +30,7 @@ pub(super) fn hatched(sheet: &mut Sheet, from: Pair, to: Pair, back: Pair) {
             foot[0] + back[0] * 7.0 - unit[0] * 5.5,
             foot[1] + back[1] * 7.0 - unit[1] * 5.5,
         ];
-        sheet.items.push(Item::Path {
-            points: vec![foot, end],
-            closed: false,
-            line: Line::thin(Ink::Ground),
-        });
+        sheet.segment(foot, end, Line::thin(Ink::Ground), 0.0);
     }
     for depth in [3.5, 7.5] {
         let behind = |p: Pair| [p[0] + back[0] * depth, p[1] + back[1] * depth];
@@ -54,15 +50,8 @@ pub(super) fn peg(sheet: &mut Sheet, at: Pair) {
     );
     for k in [-3.0, 0.0, 3.0] {
         let half = f64::sqrt(PEG * PEG - k * k) * 0.75;
-        let points = vec![
-            [at[0] + k - half * 0.6, at[1] - half * 0.8],
-            [at[0] + k + half * 0.6, at[1] + half * 0.8],
-        ];
-        sheet.items.push(Item::Path {
-            points,
-            closed: false,
-            line: Line::thin(Ink::Ground),
-        });
+        let [low, high] = [-1.0, 1.0].map(|s| [at[0] + k + s * half * 0.6, at[1] + s * half * 0.8]);
+        sheet.segment(low, high, Line::thin(Ink::Ground), 0.0);
     }
     sheet.kept.push(Room::around(at, PEG));
 }
@@ -103,14 +92,8 @@ pub(super) fn stop(sheet: &mut Sheet, at: Pair, way: f64) {
         high: [at[0].max(far), at[1] + 13.0],
     });
     for k in [3.0, 6.0, 9.0] {
-        sheet.items.push(Item::Path {
-            points: vec![
-                [at[0] + way * k, at[1] + 2.0],
-                [at[0] + way * k, at[1] + 11.0],
-            ],
-            closed: false,
-            line: Line::thin(Ink::Ground),
-        });
+        let [low, high] = [2.0, 11.0].map(|y| [at[0] + way * k, at[1] + y]);
+        sheet.segment(low, high, Line::thin(Ink::Ground), 0.0);
     }
 }
 

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::label::Label;
 use super::place::{Room, Spot};
 use super::pose::{Look, Pose};
-use super::sheet::{Ink, Item, SIZE, SMALL, Sheet};
+use super::sheet::{Ink, Item, Paint, SIZE, SMALL, Sheet};
 use super::stage::{DOT, Stage, center_name};
 use super::values::{Pair, dot, size};
 use crate::expr::Vector;
@@ -260,7 +260,11 @@ pub(super) fn axes(sheet: &mut Sheet) {
     let blocked = |b: &Room| {
         sheet.items.iter().any(|item| match item {
             Item::Text { room, .. } => room.overlap(b) > 0.0,
-            Item::Path { points, .. } => points.windows(2).any(|w| {
+            Item::Path {
+                points,
+                paint: Paint::Stroke(_),
+                ..
+            } => points.windows(2).any(|w| {
                 (0..=10).any(|k| {
                     let t = f64::from(k) / 10.0;
                     let p = [

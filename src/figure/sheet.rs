@@ -41,42 +41,50 @@ pub struct Line {
     pub filled: bool,
 }
 
+/// How something is drawn.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Paint {
+    /// By its outline.
+    Stroke(Line),
+    /// Filled.
+    Fill(Ink),
+}
+
+impl Paint {
+    /// By how much what is drawn reaches beyond its points, in pixels.
+    fn reach(&self) -> f64 {
+        match self {
+            Paint::Stroke(line) => line.width / 2.0,
+            Paint::Fill(_) => 0.0,
+        }
+    }
+
+    /// Whether it is an outline in an ink.
+    fn is_line(&self, ink: Ink) -> bool {
+        matches!(self, Paint::Stroke(line) if line.ink == ink)
+    }
+}
+
 /// One thing on the sheet.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Item {
-    /// A line through points.
+    /// A line through points, or a polygon.
     Path {
         /// Its points.
         points: Vec<Pair>,
         /// Whether it returns to its start.
         closed: bool,
         /// How it is drawn.
-        line: Line,
+        paint: Paint,
     },
-    /// A circle.
+    /// A circle, or a dot.
     Circle {
         /// Its middle.
         center: Pair,
         /// Its radius.
         radius: f64,
         /// How it is drawn.
-        line: Line,
-    },
-    /// A filled dot.
-    Dot {
-        /// Its middle.
-        center: Pair,
-        /// Its radius.
-        radius: f64,
-        /// What it belongs to.
-        ink: Ink,
-    },
-    /// A filled polygon.
-    Fill {
-        /// Its corners.
-        points: Vec<Pair>,
-        /// What it belongs to.
-        ink: Ink,
+        paint: Paint,
     },
     /// A label in its place.
     Text {
@@ -168,10 +176,11 @@ impl Sheet {
         }
         walls.retain(|(.., weight)| *weight > 0.0);
         self.walls.extend(walls);
+        let paint = Paint::Stroke(line);
         self.items.push(Item::Path {
             points,
             closed,
-            line,
+            paint,
         });
     }
 
@@ -188,17 +197,17 @@ impl Sheet {
         self.items.push(Item::Circle {
             center,
             radius,
-            line,
+            paint: Paint::Stroke(line),
         });
     }
 
     /// Draws a dot.
     pub fn dot(&mut self, center: Pair, radius: f64, ink: Ink) {
         self.kept.push(Room::around(center, radius + 1.0));
-        self.items.push(Item::Dot {
+        self.items.push(Item::Circle {
             center,
             radius,
-            ink,
+            paint: Paint::Fill(ink),
         });
     }
 
@@ -229,11 +238,7 @@ impl Sheet {
             width,
             ..Line::of(ink)
         };
-        self.items.push(Item::Path {
-            points: vec![from, stop],
-            closed: false,
-            line,
-        });
+        self.segment(from, stop, line, 0.0);
         self.items.push(head(to, along, size, ink));
         self.walls.push((from, to, 3.0));
         let middle = [to[0] - along[0] * size / 2.0, to[1] - along[1] * size / 2.0];
@@ -255,14 +260,11 @@ impl Sheet {
             center[1] + radius * end.sin(),
         ];
         let cut = arc(center, radius, start, start + turn - sign * 6.0 / radius);
-        self.items.push(Item::Path {
-            points: cut,
-            closed: false,
-            line: Line {
-                width: 1.9,
-                ..Line::of(ink)
-            },
-        });
+        let line = Line {
+            width: 1.9,
+            ..Line::of(ink)
+        };
+        self.path(cut, false, line, 0.0);
         self.items.push(head(tip, along, 9.0, ink));
         self.kept.push(Room::around(tip, 5.0));
     }
@@ -295,12 +297,8 @@ impl Sheet {
                 let others = boxes.iter().enumerate().filter(|(j, _)| *j != i);
                 others.map(|(_, room)| room).any(|r| r.crossed(a, b) > 0.0)
             };
-            if let Some(leader) = place::leader(&wish, &room).filter(|l| !crosses(*l)) {
-                self.items.push(Item::Path {
-                    points: leader.to_vec(),
-                    closed: false,
-                    line: Line::thin(Ink::Dimension),
-                });
+            if let Some([from, to]) = place::leader(&wish, &room).filter(|l| !crosses(*l)) {
+                self.segment(from, to, Line::thin(Ink::Dimension), 0.0);
             }
             self.items
                 .push(Item::text(wish.label, wish.size, false, room));
@@ -313,16 +311,16 @@ impl Sheet {
             Item::Path {
                 points,
                 closed,
-                line,
-            } if line.ink == ink => {
+                paint,
+            } if paint.is_line(ink) => {
                 let again = points.first().filter(|_| *closed);
                 Some(points.iter().chain(again).copied().collect())
             }
             Item::Circle {
                 center,
                 radius,
-                line,
-            } if line.ink == ink => Some(arc(*center, *radius, 0.0, TAU)),
+                paint,
+            } if paint.is_line(ink) => Some(arc(*center, *radius, 0.0, TAU)),
             _ => None,
         });
         drawn.collect()
@@ -357,14 +355,12 @@ impl Item {
     /// The room it takes; `None` where it has no point.
     fn room(&self) -> Option<Room> {
         match self {
-            Item::Path { points, line, .. } => Some(Room::of(points)?.grown(line.width / 2.0)),
+            Item::Path { points, paint, .. } => Some(Room::of(points)?.grown(paint.reach())),
             Item::Circle {
                 center,
                 radius,
-                line,
-            } => Some(Room::around(*center, radius + line.width / 2.0)),
-            Item::Dot { center, radius, .. } => Some(Room::around(*center, *radius)),
-            Item::Fill { points, .. } => Room::of(points),
+                paint,
+            } => Some(Room::around(*center, radius + paint.reach())),
             Item::Text { room, .. } => Some(*room),
             Item::Noted { item, .. } => item.room(),
         }
@@ -376,10 +372,8 @@ impl Item {
             p[1] += by[1];
         };
         match self {
-            Item::Path { points, .. } | Item::Fill { points, .. } => {
-                points.iter_mut().for_each(moved);
-            }
-            Item::Circle { center, .. } | Item::Dot { center, .. } => moved(center),
+            Item::Path { points, .. } => points.iter_mut().for_each(moved),
+            Item::Circle { center, .. } => moved(center),
             Item::Text { at, room, .. } => {
                 moved(at);
                 moved(&mut room.low);
@@ -405,7 +399,11 @@ fn head(tip: Pair, along: Pair, size: f64, ink: Ink) -> Item {
         notch,
         corner(size, -size * 0.36),
     ];
-    Item::Fill { points, ink }
+    Item::Path {
+        points,
+        closed: true,
+        paint: Paint::Fill(ink),
+    }
 }
 
 /// Points on an arc, close enough to look round.

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use super::label::Label;
 use super::place::Room;
 use super::pose::{Look, Pose, posed};
-use super::sheet::{Ink, Item, Line, Sheet, arc};
+use super::sheet::{Ink, Item, Line, Paint, Sheet, arc};
 use super::values::{Pair, Values, dot, size};
 use crate::scene::Scene;
 
@@ -278,7 +278,7 @@ impl Stage<'_> {
                 sheet.items.push(Item::Circle {
                     center: at,
                     radius: 3.6,
-                    line: Line::of(Ink::Body),
+                    paint: Paint::Stroke(Line::of(Ink::Body)),
                 });
             }
         }

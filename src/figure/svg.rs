@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::label::{Level, SMALL};
-use super::sheet::{Ink, Item, Line};
+use super::sheet::{Ink, Item, Paint};
 use super::values::Pair;
 
 /// A picture with its words.
@@ -110,50 +110,28 @@ fn write_item(item: &Item, height: f64, out: &mut String) {
         Item::Path {
             points,
             closed,
-            line,
-        } => writeln!(
-            out,
-            "<path d=\"{}\"{}/>",
-            path(points, *closed, height),
-            stroke(line)
-        ),
+            paint,
+        } => {
+            let d = path(points, *closed, height);
+            writeln!(out, "<path d=\"{d}\"{}/>", painted(paint))
+        }
         Item::Circle {
             center,
             radius,
-            line,
-        } => {
-            writeln!(
-                out,
-                "<circle cx=\"{}\" cy=\"{}\" r=\"{}\"{}/>",
-                x(center),
-                y(center),
-                number(*radius),
-                stroke(line)
-            )
-        }
-        Item::Dot {
-            center,
-            radius,
-            ink,
+            paint,
         } => writeln!(
             out,
-            "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{}\"/>",
+            "<circle cx=\"{}\" cy=\"{}\" r=\"{}\"{}/>",
             x(center),
             y(center),
             number(*radius),
-            color(*ink)
+            painted(paint)
         ),
         Item::Noted { item, note } => {
             let _ = write!(out, "<g><title>{}</title>", escape(note));
             write_item(item, height, out);
             writeln!(out, "</g>")
         }
-        Item::Fill { points, ink } => writeln!(
-            out,
-            "<path d=\"{}\" fill=\"{}\"/>",
-            path(points, true, height),
-            color(*ink)
-        ),
         Item::Text {
             at,
             size,
@@ -215,7 +193,11 @@ fn write_item(item: &Item, height: f64, out: &mut String) {
     };
 }
 
-fn stroke(line: &Line) -> String {
+fn painted(paint: &Paint) -> String {
+    let line = match paint {
+        Paint::Stroke(line) => line,
+        Paint::Fill(ink) => return format!(" fill=\"{}\"", color(*ink)),
+    };
     let color = color(line.ink);
     let mut out = format!(
         " stroke=\"{color}\" stroke-width=\"{}\"",

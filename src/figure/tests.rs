@@ -325,7 +325,7 @@ fn no_label_lies_on_a_line() {
                 Item::Path {
                     points,
                     closed,
-                    line,
+                    paint: sheet::Paint::Stroke(line),
                 } => Some((points, *closed, line)),
                 _ => None,
             });

@@ -5,7 +5,7 @@
 
 use super::label::{Label, Level, Run};
 use super::latex::command;
-use super::sheet::{Ink, Item, Line};
+use super::sheet::{Ink, Item, Paint};
 use super::svg::number;
 use super::values::Pair;
 
@@ -49,7 +49,11 @@ fn color(ink: Ink) -> &'static str {
     }
 }
 
-fn style(line: &Line) -> String {
+fn style(paint: &Paint) -> String {
+    let line = match paint {
+        Paint::Stroke(line) => line,
+        Paint::Fill(ink) => return format!("fill={}", color(*ink)),
+    };
     let color = color(line.ink);
     let mut out = format!("draw={color},line width={}bp", number(line.width * SCALE));
     if line.dashed {
@@ -76,32 +80,19 @@ fn one(item: &Item) -> String {
         Item::Path {
             points,
             closed,
-            line,
-        } => format!("\\path[{}] {};\n", style(line), path(points, *closed)),
+            paint,
+        } => format!("\\path[{}] {};\n", style(paint), path(points, *closed)),
         Item::Circle {
             center,
             radius,
-            line,
+            paint,
         } => format!(
             "\\path[{}] {} circle[radius={}];\n",
-            style(line),
-            at(center),
-            number(*radius)
-        ),
-        Item::Dot {
-            center,
-            radius,
-            ink,
-        } => format!(
-            "\\path[fill={}] {} circle[radius={}];\n",
-            color(*ink),
+            style(paint),
             at(center),
             number(*radius)
         ),
         Item::Noted { item, .. } => one(item),
-        Item::Fill { points, ink } => {
-            format!("\\path[fill={}] {};\n", color(*ink), path(points, true))
-        }
         Item::Text {
             at: place,
             size,
