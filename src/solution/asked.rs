@@ -112,7 +112,7 @@ fn slope(
         words::formula(at),
         say(" vanishes:"),
     ]);
-    let math = vec![Math::Expr(slope), Math::Op("="), Math::Expr(Expr::zero())];
+    let math = words::related(&slope, "=", &Expr::zero());
     solution.push(Part::Display(vec![Line { math, step: None }]));
     true
 }
@@ -138,11 +138,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     let stated = answer.stated.iter();
     for (left, relation, right) in stated.filter(|(l, _, r)| !plain(l) || !plain(r)) {
         lines.push(Line {
-            math: vec![
-                Math::Expr(left.clone()),
-                Math::Op(relation.sign()),
-                Math::Expr(right.clone()),
-            ],
+            math: words::related(left, relation.sign(), right),
             step: None,
         });
     }
@@ -342,11 +338,7 @@ fn found(
     let symbol = Expr::symbol(&answer.name);
     let name = crate::expr::Symbol::from(answer.name.as_str());
     let line = |left: &Expr, op: &'static str, right: &Expr, step: &Option<String>| Line {
-        math: vec![
-            Math::Expr(left.clone()),
-            Math::Op(op),
-            Math::Expr(right.clone()),
-        ],
+        math: words::related(left, op, right),
         step: step.clone(),
     };
     let mut found: Vec<Line> = Vec::new();

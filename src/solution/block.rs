@@ -275,11 +275,7 @@ impl Writer<'_> {
         for (u, value) in &pairs {
             let symbol = Expr::symbol(self.d.names.plain(*u));
             let shown = self.short(*u, value);
-            lines.push(vec![
-                Math::Expr(symbol.clone()),
-                Math::Op("="),
-                Math::Expr(shown),
-            ]);
+            lines.push(words::related(&symbol, "=", &shown));
             after.push(Claim::new(symbol, value.clone()));
         }
         let id = self.step(before, after, "solving for the unknowns");

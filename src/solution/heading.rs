@@ -67,11 +67,7 @@ pub(super) fn further(solution: &mut Solution, ask: &Ask, answer: &Answer) {
 pub(super) fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> {
     let math = |e: &Expr| words::formula(e);
     let related = |left: &Expr, relation: Relation, right: &Expr| {
-        Inline::Math(vec![
-            Math::Expr(left.clone()),
-            Math::Op(relation.sign()),
-            Math::Expr(right.clone()),
-        ])
+        Inline::Math(words::related(left, relation.sign(), right))
     };
     match ask {
         Ask::Value { meaning, .. } if !meaning.is_empty() => {

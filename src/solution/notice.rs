@@ -394,13 +394,7 @@ impl Writer<'_> {
                     .map(|n| (n.clone(), Expr::zero()))
                     .chain(others.iter().cloned())
                     .take(3)
-                    .map(|(n, e)| {
-                        Inline::Math(vec![
-                            Math::Expr(Expr::symbol(&n)),
-                            Math::Op(arrow),
-                            Math::Expr(e),
-                        ])
-                    })
+                    .map(|(n, e)| Inline::Math(words::related(&Expr::symbol(&n), arrow, &e)))
                     .collect();
                 let count = pieces.len();
                 for (i, piece) in pieces.drain(..).enumerate() {

@@ -44,11 +44,7 @@ impl Writer<'_> {
             match &answer.form {
                 Form::Value { closed, short } => {
                     let symbol = Expr::symbol(&answer.name);
-                    let mut math = vec![
-                        Math::Expr(symbol.clone()),
-                        Math::Op("="),
-                        Math::Expr(short.clone()),
-                    ];
+                    let mut math = words::related(&symbol, "=", short);
                     if short == &symbol {
                         math[2] = Math::Expr(closed.clone());
                     }
@@ -141,11 +137,7 @@ impl Writer<'_> {
                 step.defines = fresh.then(|| definition.name.clone());
             }
             lines.push(Line {
-                math: vec![
-                    Math::Expr(symbol.clone()),
-                    Math::Op("="),
-                    Math::Expr(definition.value.clone()),
-                ],
+                math: words::related(&symbol, "=", &definition.value),
                 step: Some(id),
             });
             let again = meanings

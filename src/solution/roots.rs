@@ -1,7 +1,7 @@
 //! Long roots that formulas share get a letter, told before its first use.
 
 use super::words::{self, say};
-use super::{Claim, Line, Math, Meaning, Part, Writer};
+use super::{Claim, Line, Meaning, Part, Writer};
 use crate::expr::{Expr, Node, Symbol};
 
 /// Least size, in nodes, of a root that gets a letter.
@@ -40,11 +40,7 @@ impl Writer<'_> {
                 words::formula(&symbol),
                 say(" be the positive root of"),
             ]);
-            let math = vec![
-                Math::Expr(square.left),
-                Math::Op("="),
-                Math::Expr(square.right),
-            ];
+            let math = words::related(&square.left, "=", &square.right);
             let step = Some(id);
             self.push(Part::Display(vec![Line { math, step }]));
             self.roots.push((root, name));

@@ -2,7 +2,7 @@
 //! conditions holds.
 
 use super::words::{self, say};
-use super::{Inline, Math, Writer};
+use super::{Inline, Writer};
 use crate::expr::{Expr, dot};
 use crate::scene::{Contact, ContactLaw, Decided, Hypothesis, Mode, Scene};
 
@@ -68,11 +68,7 @@ impl Writer<'_> {
                 if i > 0 {
                     text.push(say(" and "));
                 }
-                text.push(Inline::Math(vec![
-                    Math::Expr(left.clone()),
-                    Math::Op(relation.sign()),
-                    Math::Expr(right.clone()),
-                ]));
+                text.push(Inline::Math(words::related(left, relation.sign(), right)));
             }
         }
         text.push(say("."));

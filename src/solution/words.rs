@@ -259,7 +259,7 @@ pub fn condition(scene: &Scene, text: &str) -> Inline {
         {
             return match left.size() + right.size() > LONG_CONDITION {
                 true => say(FURTHER),
-                false => Inline::Math(vec![Math::Expr(left), Math::Op(op), Math::Expr(right)]),
+                false => Inline::Math(related(&left, op, &right)),
             };
         }
     }
@@ -285,13 +285,18 @@ pub fn formula(e: &Expr) -> Inline {
     Inline::Math(vec![Math::Expr(e.clone())])
 }
 
+/// Two sides and what stands between them.
+pub fn related(left: &Expr, sign: &'static str, right: &Expr) -> Vec<Math> {
+    vec![
+        Math::Expr(left.clone()),
+        Math::Op(sign),
+        Math::Expr(right.clone()),
+    ]
+}
+
 /// An equation in a sentence.
 pub fn equation(left: &Expr, right: &Expr) -> Inline {
-    Inline::Math(vec![
-        Math::Expr(left.clone()),
-        Math::Op("="),
-        Math::Expr(right.clone()),
-    ])
+    Inline::Math(related(left, "=", right))
 }
 
 /// What an unknown is, for another program.

@@ -189,11 +189,7 @@ impl<'a> Writer<'a> {
 
     /// Records a single claim and shows it.
     pub(super) fn claim(&mut self, left: Expr, right: Expr, reason: &str) -> String {
-        let math = vec![
-            Math::Expr(left.clone()),
-            Math::Op("="),
-            Math::Expr(right.clone()),
-        ];
+        let math = words::related(&left, "=", &right);
         let id = self.step(Vec::new(), vec![Claim::new(left, right)], reason);
         self.show(math, Some(id.clone()));
         id

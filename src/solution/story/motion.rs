@@ -171,7 +171,7 @@ impl Page<'_> {
         };
         let momentum = tidied(self.scene, &(inertia * spin));
         let impulse = -torque * Expr::symbol(&time.name);
-        let math = vec![Math::Expr(impulse), Math::Op("="), Math::Expr(momentum)];
+        let math = words::related(&impulse, "=", &momentum);
         self.solution
             .say("In the time it takes, the moment takes up the angular momentum as well:");
         self.solution

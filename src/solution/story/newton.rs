@@ -5,7 +5,7 @@ use crate::answer::Answer;
 use crate::expr::{Expr, Node, Symbol, dot};
 use crate::scene::{Ask, StageKind};
 use crate::solution::neat::{alike, neat, tidied};
-use crate::solution::words::{name, say};
+use crate::solution::words::{self, name, say};
 use crate::solution::{Claim, Detail, Inline, Line, Math, Meaning, Part};
 use crate::story::{StageTold, Step};
 
@@ -31,7 +31,7 @@ impl Page<'_> {
             let meanings = &mut self.solution.meanings;
             meanings.insert(Symbol::from(START), Meaning::Defined);
             lines.push(Line {
-                math: vec![Math::Expr(symbol), Math::Op("="), Math::Expr(value)],
+                math: words::related(&symbol, "=", &value),
                 step: Some(id),
             });
         }

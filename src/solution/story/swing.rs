@@ -52,7 +52,7 @@ impl Page<'_> {
             Math::Op("="),
             words::kinetic("", "-"),
         ];
-        let risen = vec![Math::Expr(h.clone()), Math::Op("="), Math::Expr(height)];
+        let risen = words::related(&h, "=", &height);
         let lines = vec![
             Line {
                 math: balance,
@@ -86,7 +86,7 @@ impl Page<'_> {
                 say(" below it:"),
             ]);
             let swung = &length * (Expr::one() - cosine);
-            let math = vec![Math::Expr(h), Math::Op("="), Math::Expr(swung)];
+            let math = words::related(&h, "=", &swung);
             self.solution
                 .push(Part::Display(vec![Line { math, step: None }]));
             let meaning = Meaning::Answer(angle.question.clone(), None);
