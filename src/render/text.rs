@@ -112,7 +112,7 @@ fn answer(out: &mut String, scene: &Scene, d: &Derivation, answer: &Answer) {
             let _ = writeln!(out, "  {}: {}", answer.name, answer.words);
             matrix_lines(out, scene, m);
             for sentence in &answer.text {
-                line(out, "      ", &sentence.written(|e| unicode(scene, e)));
+                let _ = writeln!(out, "      {}", sentence.written(|e| unicode(scene, e)));
             }
         }
         Form::Words => {}
