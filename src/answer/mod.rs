@@ -192,6 +192,16 @@ impl Answer {
             (Some(latex), _) => latex.clone(),
             (None, _) => latex_name(name),
         };
+        Answer::typeset(question, name, latex, words)
+    }
+
+    /// The same under a name whose LaTeX is known.
+    pub fn typeset(
+        question: &Question,
+        name: &str,
+        latex: String,
+        words: impl Into<String>,
+    ) -> Answer {
         Answer {
             question: question.name.clone(),
             told: None,

@@ -101,21 +101,20 @@ impl Work<'_> {
             .unwrap_or_else(|| crate::formula::latex_name(&question.name));
         let words = words(self.scene, &question.ask);
         let dimension = question.ask.dimension();
-        let make = |name: String, latex: String, words: String, form: Form| Answer {
-            latex,
+        let make = |name: &str, latex: String, words: String, form: Form| Answer {
             form,
             dimension: dimension.clone(),
-            ..Answer::blank(question, &name, words)
+            ..Answer::typeset(question, name, latex, words)
         };
         let motion = self.parts.as_ref().map(Parts::motion);
         match self.asked(&question.ask, motion.unwrap_or(&self.reduced)) {
             Asked::Linear(forms) => {
                 for (suffix, form) in forms {
-                    let open: Vec<Unknown> = self
-                        .unknowns_in(&form)?
-                        .into_iter()
-                        .filter(|u| !counting.is_unique(*u))
-                        .collect();
+                    let mut open = match counting.open.is_empty() {
+                        true => Vec::new(),
+                        false => self.unknowns_in(&form)?,
+                    };
+                    open.retain(|u| !counting.is_unique(*u));
                     let value = match open.is_empty() {
                         true => self.linear(&form)?,
                         false => None,
@@ -129,7 +128,7 @@ impl Work<'_> {
                             format!("{words}, along {axis}"),
                         ),
                     };
-                    out.push(make(name, latex, words, form));
+                    out.push(make(&name, latex, words, form));
                 }
             }
             Asked::Energy(when, of) => {
@@ -141,17 +140,17 @@ impl Work<'_> {
                     },
                 };
                 let form = value.unwrap_or_else(|| Form::Open(self.called(&counting.open)));
-                out.push(make(question.name.clone(), latex, words, form));
+                out.push(make(&question.name, latex, words, form));
             }
             Asked::Balance(system, along) => {
                 let form = self.balance(&system, &along)?;
-                out.push(make(question.name.clone(), latex, words, form));
+                out.push(make(&question.name, latex, words, form));
             }
             Asked::Matrix(rows, unknowns) => {
                 let matrix = self.matrix(&rows, &unknowns)?;
                 let determinant = self.determinant(&matrix)?;
                 let form = Form::Matrix(matrix);
-                let mut answer = make(question.name.clone(), latex, words, form);
+                let mut answer = make(&question.name, latex, words, form);
                 answer.text.extend(determinant);
                 out.push(answer);
             }

@@ -268,7 +268,8 @@ fn energies<T: Number>(given: &Given<T>, motion: &Motion<T>, list: &mut Vec<Iden
         energy_before(given, None),
         energy_after(given, motion, None),
     );
-    let size = before.size() + after.size() + work(given, motion, None).size();
+    let work = work(given, motion, None);
+    let size = before.size() + after.size() + work.size();
     let gain = after.minus(&before);
     let mut claim = |what, left, right| {
         list.push(Identity {
@@ -278,11 +279,7 @@ fn energies<T: Number>(given: &Given<T>, motion: &Motion<T>, list: &mut Vec<Iden
             size,
         })
     };
-    claim(
-        Invariant::EnergyIsWork,
-        gain.clone(),
-        work(given, motion, None),
-    );
+    claim(Invariant::EnergyIsWork, gain.clone(), work);
     let lost = energy_lost(given, motion, None);
     claim(Invariant::EnergyLost, lost.clone(), gain.negated());
     if let Some(e) = one_restitution(given, motion) {

@@ -4,12 +4,12 @@
 //! value that all but vanishes has no digits of its own: it is measured by what a change of the data's last digits would
 //! make of it, as the independent solution shows.
 
-use super::{Check, Run, evaluate, numeric_value};
+use super::{Check, Run, asked, evaluate, numeric_value};
 use crate::answer::Answer;
 use crate::derive::Derivation;
 use crate::expr::{Expr, Point};
 use crate::numeric;
-use crate::scene::Scene;
+use crate::scene::{Ask, Scene};
 
 /// Differences up to this many units in the last place of the value need no other measure.
 const CLOSE: f64 = 4096.0;
@@ -30,7 +30,9 @@ pub(super) fn check(
     let of_one_vector = |a: &&Answer| {
         a.question == answer.question && a.axis().is_some() && answer.axis().is_some()
     };
-    let siblings: Vec<&Answer> = derivation.answers.iter().filter(of_one_vector).collect();
+    let siblings = derivation.answers.iter().filter(of_one_vector);
+    let siblings: Vec<Ask> = siblings.filter_map(|a| asked(scene, a)).collect();
+    let ask = asked(scene, answer);
     let mut worst: f64 = 0.0;
     let mut count = 0;
     // Whether a value was measured by what it is made of.
@@ -40,7 +42,10 @@ pub(super) fn check(
         let Some(value) = evaluate(closed, derivation, point) else {
             continue;
         };
-        let Some((expected, length)) = value_of(scene, answer, &siblings, run) else {
+        let Some(ask) = &ask else {
+            continue;
+        };
+        let Some((expected, length)) = value_of(ask, &siblings, run) else {
             continue;
         };
         let scale = length.max(value.abs()).max(expected.abs());
@@ -49,7 +54,7 @@ pub(super) fn check(
         let apart = (value - expected).abs();
         let mut off = apart / (unit * f64::EPSILON);
         if off > CLOSE {
-            let weight = condition(scene, answer, point, expected);
+            let weight = condition(scene, ask, point, expected);
             weighed |= weight > unit;
             off = apart / (weight.max(unit) * f64::EPSILON);
         }
@@ -80,30 +85,20 @@ pub(super) fn run(scene: &Scene, point: Point<f64>) -> Option<Run<f64>> {
 }
 
 /// The independent value of an answer, and the length of the vector it is a component of.
-fn value_of(
-    scene: &Scene,
-    answer: &Answer,
-    siblings: &[&Answer],
-    run: &Run<f64>,
-) -> Option<(f64, f64)> {
-    let Run {
-        point,
-        given,
-        motion,
-    } = run;
-    let value = numeric_value(scene, answer, point, given, motion)?;
+fn value_of(ask: &Ask, siblings: &[Ask], run: &Run<f64>) -> Option<(f64, f64)> {
+    let value = numeric_value(ask, run)?;
     let length = siblings
         .iter()
-        .filter_map(|a| numeric_value(scene, a, point, given, motion))
+        .filter_map(|ask| numeric_value(ask, run))
         .fold(f64::MIN_POSITIVE, |length, x| length.max(x.abs()));
     Some((value, length))
 }
 
 /// Σ |xᵢ ∂f/∂xᵢ| over the data: what relative errors of the data do to the value.
-fn condition(scene: &Scene, answer: &Answer, point: &Point<f64>, value: f64) -> f64 {
+fn condition(scene: &Scene, ask: &Ask, point: &Point<f64>, value: f64) -> f64 {
     let mut sum = 0.0;
     let mut add = |nudged: Point<f64>| {
-        let there = run(scene, nudged).and_then(|run| value_of(scene, answer, &[], &run));
+        let there = run(scene, nudged).and_then(|run| value_of(ask, &[], &run));
         if let Some((there, _)) = there {
             sum += (there - value).abs() / NUDGE;
         }

@@ -301,14 +301,8 @@ fn admissible(scene: &Scene, derivation: &Derivation, runs: &[Run<Rational>], pr
     }
 }
 
-/// The value of an answer's question in the independent solution, and the component it is.
-fn numeric_value<T: numeric::Number>(
-    scene: &Scene,
-    answer: &Answer,
-    point: &Point<T>,
-    given: &numeric::Given<T>,
-    motion: &numeric::Motion<T>,
-) -> Option<T> {
+/// What an answer's question asks for, and of a vector the component that the answer is.
+fn asked(scene: &Scene, answer: &Answer) -> Option<Ask> {
     let question = scene
         .asked_of_impact()
         .find(|q| q.name == answer.question)?;
@@ -321,7 +315,12 @@ fn numeric_value<T: numeric::Number>(
             _ => {}
         }
     }
-    match numeric::answer(&ask, point, given, motion).ok()? {
+    Some(ask)
+}
+
+/// The value of what is asked in the independent solution.
+fn numeric_value<T: numeric::Number>(ask: &Ask, run: &Run<T>) -> Option<T> {
+    match numeric::answer(ask, &run.point, &run.given, &run.motion).ok()? {
         numeric::Answer::Scalar(value) => Some(value),
         numeric::Answer::Vector(_) => None,
     }
@@ -335,9 +334,9 @@ fn exact_points(
     runs: &[Run<Rational>],
 ) -> Check {
     let mut equal = 0;
+    let ask = asked(scene, answer);
     for run in runs {
-        let Some(expected) = numeric_value(scene, answer, &run.point, &run.given, &run.motion)
-        else {
+        let Some(expected) = ask.as_ref().and_then(|ask| numeric_value(ask, run)) else {
             continue;
         };
         match evaluate(closed, derivation, &run.point) {

@@ -5,6 +5,7 @@
 //! inertia which the file itself gives, as it must for a body without outline, is taken from there.
 
 use std::f64::consts::TAU;
+use std::sync::LazyLock;
 
 use super::super::given::{Freedom, Undefined};
 use super::{finite, finite_pair};
@@ -41,8 +42,9 @@ const GAUSS: [[f64; 2]; 4] = [
     [0.861_136_311_594_052_6, 0.347_854_845_137_453_9],
 ];
 
-/// Directions round a circle; more than the squares of coordinates need.
-const ROUND: usize = 8;
+/// Sines and cosines of directions round a circle; more than the squares of coordinates need.
+static ROUND: LazyLock<[(f64, f64); 8]> =
+    LazyLock::new(|| std::array::from_fn(|k| (TAU * (k as f64 + 0.5) / 8.0).sin_cos()));
 
 /// The body in numbers.
 pub(super) fn solid(body: &Body, at: &Point<f64>) -> Result<Solid, Undefined> {
@@ -142,10 +144,8 @@ fn spots(
     number: &dyn Fn(&Expr, &str) -> Result<f64, Undefined>,
 ) -> Result<Vec<[f64; 3]>, Undefined> {
     let circle = |radius: f64, share: f64| {
-        (0..ROUND).map(move |k| {
-            let (s, c) = (TAU * (k as f64 + 0.5) / ROUND as f64).sin_cos();
-            [radius * c, radius * s, share]
-        })
+        let around = ROUND.iter();
+        around.map(move |(s, c)| [radius * c, radius * s, share])
     };
     // Rings of a disk: at the radius r there is mass in proportion to r.
     let disk = |radius: f64, share: f64| {
