@@ -145,6 +145,8 @@ pub(crate) fn content_in(p: &Poly, v: usize, fuel: &Fuel) -> Result<Poly, Stop> 
     parts.retain(|part| !part.is_zero());
     let g = match parts.as_slice() {
         [only] => only.clone(),
+        // What divides a single term is one, and p is rid of those that all its terms share.
+        _ if parts.iter().any(|part| part.len() == 1) => Poly::one(),
         _ => common(&parts, &image::shared(&parts), fuel)?,
     };
     let outside = mono_div(&mono, &mono_of(v, exponent(&mono, v)));
