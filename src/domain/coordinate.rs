@@ -5,11 +5,11 @@ use std::sync::LazyLock;
 use num_traits::{One, Signed, Zero};
 
 use super::{Domain, Limit};
-use crate::expr::number::to_f64;
+use crate::expr::number::{product, same, sum, to_f64};
 use crate::expr::{Int, Rational, ratio};
 
 /// The value of one symbol at a sample point.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, Eq, Debug)]
 pub enum Coordinate {
     /// The symbol has this value.
     Number(Rational),
@@ -24,6 +24,28 @@ pub enum Coordinate {
         /// Full turns added to φ/N.
         turns: i32,
     },
+}
+
+impl PartialEq for Coordinate {
+    fn eq(&self, other: &Coordinate) -> bool {
+        use Coordinate::{Direction, Number, Pi};
+        match (self, other) {
+            (Number(x), Number(y)) | (Pi(x), Pi(y)) => same(x, y),
+            (
+                Direction {
+                    divisor,
+                    unit: [cos, sin],
+                    turns,
+                },
+                Direction {
+                    divisor: n,
+                    unit: [c, s],
+                    turns: k,
+                },
+            ) => divisor == n && turns == k && same(cos, c) && same(sin, s),
+            _ => false,
+        }
+    }
 }
 
 impl Coordinate {
@@ -202,15 +224,19 @@ pub(super) fn random_number(domain: &Domain, random: &mut Lcg) -> Option<Rationa
             Some(l.value.clone())
         }
     };
-    let short =
-        |x: Rational| Rational::new((x * ratio(1009, 1)).round().to_integer(), Int::from(1009));
+    let short = |x: Rational| {
+        Rational::new(
+            product(&x, &ratio(1009, 1)).round().to_integer(),
+            Int::from(1009),
+        )
+    };
     Some(match (&domain.low, &domain.high) {
         (Some(l), Some(h)) => {
             let (l, h) = (end(l)?, end(h)?);
-            short(&l + (&h - &l) * step)
+            short(sum(&l, &product(&sum(&h, &l, true), &step), false))
         }
-        (Some(l), None) => end(l)? + step * scale,
-        (None, Some(h)) => end(h)? - step * scale,
+        (Some(l), None) => sum(&end(l)?, &product(&step, &scale), false),
+        (None, Some(h)) => sum(&end(h)?, &product(&step, &scale), true),
         (None, None) => (step - ratio(1, 2)) * scale * ratio(2, 1),
     })
 }

@@ -12,7 +12,7 @@ use std::ops::{
 
 use num_bigint::BigInt;
 use num_integer::Integer;
-use num_traits::{Num, One, Signed, ToPrimitive, Zero};
+use num_traits::{Float, Num, One, Signed, ToPrimitive, Zero};
 
 /// An exact fraction in lowest terms with a positive denominator.
 pub type Rational = num_rational::Ratio<Int>;
@@ -88,6 +88,11 @@ fn wide(a: i64, b: i64) -> i128 {
 /// Whether a fraction is n/d, which is in lowest terms. Comparing fractions in general costs divisions.
 pub fn is(x: &Rational, n: i64, d: i64) -> bool {
     x.numer().as_i64() == Some(n) && x.denom().as_i64() == Some(d)
+}
+
+/// Whether two fractions in lowest terms are the same; their own comparison divides.
+pub fn same(x: &Rational, y: &Rational) -> bool {
+    x.numer() == y.numer() && x.denom() == y.denom()
 }
 
 /// Whether a fraction in lowest terms is a whole number.
@@ -510,11 +515,21 @@ pub fn to_f64(value: &Rational) -> f64 {
 
 /// The exact value of a double; `None` for infinities and NaN.
 pub fn from_f64(value: f64) -> Option<Rational> {
-    let exact = num_rational::BigRational::from_float(value)?;
-    Some(Rational::new_raw(
-        Int::from(exact.numer().clone()),
-        Int::from(exact.denom().clone()),
-    ))
+    if !value.is_finite() {
+        return None;
+    }
+    let (mantissa, exponent, sign) = Float::integer_decode(value);
+    let zeros = mantissa.trailing_zeros();
+    let Some(odd) = mantissa.checked_shr(zeros) else {
+        return Some(Rational::zero());
+    };
+    let numer = Int::from(i128::from(odd) * i128::from(sign));
+    let exponent = i32::from(exponent) + zeros as i32;
+    let power = Int::from(2).pow(exponent.unsigned_abs());
+    Some(match exponent < 0 {
+        true => Rational::new_raw(numer, power),
+        false => Rational::from(numer * power),
+    })
 }
 
 #[cfg(test)]

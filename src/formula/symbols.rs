@@ -274,8 +274,12 @@ fn in_words(name: &str) -> String {
 }
 
 fn key_of(name: &str) -> Cow<'_, str> {
-    // Letters, then digits, are their own key.
-    match name.contains(['_', '\'', '^', '{', '}']) {
+    // Letters, then digits, are their own key; so is a word with an index of one.
+    let own = name.split_once('_').is_some_and(|(base, index)| {
+        let is_word = |s: &str| !s.is_empty() && s.bytes().all(|b| b.is_ascii_alphabetic());
+        is_word(base) && is_word(index) && !ACCENTS.contains(&index)
+    });
+    match !own && name.contains(['_', '\'', '^', '{', '}']) {
         // Greek letters are read as their names: `m_π` is `m_pi`.
         _ if !name.is_ascii() => Cow::Owned(parts_of(&in_words(name)).key()),
         true => Cow::Owned(parts_of(name).key()),

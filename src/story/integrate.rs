@@ -37,10 +37,12 @@ pub(super) fn points_of(
         let fraction =
             (0.618_033_988_75 * (k + 1) as f64 + prime.sqrt() * seed as f64).fract() * 0.9 + 0.05;
         // Later points are of all sizes, and near the ends: a motion may get to its end only where something is large.
-        let size = (0.754_877_666 * (k + 1) as f64 + prime.cbrt() * seed as f64).fract();
         let size = match seed {
             0..=ORDINARY => 1.0,
-            _ => 10f64.powf(6.0 * size - 3.0),
+            _ => {
+                let part = (0.754_877_666 * (k + 1) as f64 + prime.cbrt() * seed as f64).fract();
+                10f64.powf(6.0 * part - 3.0)
+            }
         };
         let low = domain.and_then(|d| d.low.as_ref()).map(Limit::approximate);
         let high = domain.and_then(|d| d.high.as_ref()).map(Limit::approximate);
