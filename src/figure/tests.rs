@@ -247,8 +247,8 @@ fn a_rise_is_marked_by_its_height_and_what_has_rolled_on_is_in_nobodys_way() {
                 Item::Circle {
                     center,
                     radius,
-                    line,
-                } if line.filled && *radius > 12.0 => Some((*center, *radius)),
+                    paint: sheet::Paint::Fill(_),
+                } if *radius > 12.0 => Some((*center, *radius)),
                 _ => None,
             };
             let disks: Vec<(Pair, f64)> = sheet.items.iter().filter_map(round).collect();
