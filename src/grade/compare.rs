@@ -54,7 +54,9 @@ impl Finding {
     pub(super) fn stopped(&mut self) {
         let settled = match self.verdict {
             Verdict::Different => self.counterexample.is_some(),
-            Verdict::Equivalent | Verdict::Invalid => true,
+            Verdict::Equivalent => true,
+            // Without steps left values are unknown, not absent.
+            Verdict::Invalid => self.note != "INVALID_UNDEFINED",
             Verdict::Undecided => false,
         };
         if !settled {

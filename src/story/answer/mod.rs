@@ -26,9 +26,17 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
     let mut answers: Vec<Answer> = Vec::new();
     for question in &scene.questions {
         let new = if !question.ask.formulas().is_empty() {
+            // What is the same in every case holds on the whole domain.
+            let put_in = |known: &Known| -> Vec<Expr> {
+                let asked = question.ask.formulas().into_iter();
+                asked.map(|e| e.substitute(known)).collect()
+            };
+            let mut pairs = worlds.windows(2);
+            let is_same = pairs.all(|pair| put_in(&pair[0].known) == put_in(&pair[1].known));
             let mut new = worlds::each(scene, question, &mut worlds, |world| {
                 match needs_open(&question.ask, &world.known, &answers) {
                     Some(why) => Ok(vec![unanswered(question, &why)]),
+                    None if is_same => formula(scene, question, &world.known),
                     None => formula(&world.part_of(scene), question, &world.known),
                 }
             })?;
