@@ -172,6 +172,21 @@ fn the_answers_are_those_of_the_table() {
 }
 
 #[test]
+fn no_check_of_a_further_scene_with_stages_fails() {
+    let mut tried = 0;
+    for path in shared::files("derivations/more", "json") {
+        let text = std::fs::read_to_string(&path).expect("a scene");
+        let scene = carom::scene::read(&text).expect("a sound scene");
+        if scene.has_stages() {
+            let told = carom::story::tell(&scene).expect("stages that fit");
+            assert!(told.is_proved(), "{}", path.display());
+            tried += 1;
+        }
+    }
+    assert!(tried >= 30);
+}
+
+#[test]
 fn every_check_of_every_story_holds_and_every_question_has_an_answer() {
     for name in shipped() {
         let scene = scene(&name);
