@@ -6,6 +6,7 @@ use num_traits::Signed;
 
 use super::label::{LONGEST, Label, Level};
 use crate::expr::{Expr, Node, ratio};
+use crate::formula::Quotient;
 use crate::scene::Scene;
 
 /// Deepest formula that is written out.
@@ -44,13 +45,13 @@ pub(super) fn write(e: &Expr, scene: &Scene, out: &mut Label, depth: usize) {
                 );
             }
         }
-        Node::Product(factors) => product(factors, scene, out, depth),
+        Node::Product(_) => product(e, scene, out, depth),
         Node::Power(base, exponent) => match exponent.as_number() {
             Some(k) if *k == ratio(1, 2) => {
                 out.push("√", false, Level::Base);
                 factor(base, scene, out, depth);
             }
-            Some(k) if k.is_negative() => product(std::slice::from_ref(e), scene, out, depth),
+            Some(k) if k.is_negative() => product(e, scene, out, depth),
             _ => {
                 factor(base, scene, out, depth);
                 let mut power = Label::default();
@@ -68,47 +69,29 @@ pub(super) fn write(e: &Expr, scene: &Scene, out: &mut Label, depth: usize) {
     }
 }
 
-fn product(factors: &[Expr], scene: &Scene, out: &mut Label, depth: usize) {
-    let mut number = ratio(1, 1);
-    let (mut above, mut below) = (Vec::new(), Vec::new());
-    for f in factors {
-        match f.node() {
-            Node::Number(value) => number *= value,
-            Node::Power(base, exponent)
-                if exponent.as_number().is_some_and(Signed::is_negative) =>
-            {
-                below.push(base.power(-exponent));
-            }
-            _ => above.push(f.clone()),
-        }
+fn product(e: &Expr, scene: &Scene, out: &mut Label, depth: usize) {
+    let q = Quotient::of(e);
+    out.push(if q.negative { "−" } else { "" }, false, Level::Base);
+    if q.above.is_empty() {
+        out.push("1", false, Level::Base);
     }
-    if number.is_negative() {
-        out.push("−", false, Level::Base);
-    }
-    let (top, bottom) = (
-        number.numer().to_string().replace('-', ""),
-        number.denom().to_string(),
-    );
-    if top != "1" || above.is_empty() {
-        out.push(&top, false, Level::Base);
-    }
-    for (i, f) in above.iter().enumerate() {
-        if i > 0 || (top != "1" && matches!(f.node(), Node::Call(..))) {
+    for (i, f) in q.above.iter().enumerate() {
+        let numbered = i > 0 && q.above[i - 1].as_number().is_some();
+        if i > 0 && (!numbered || matches!(f.node(), Node::Call(..))) {
             out.push("\u{2009}", false, Level::Base);
         }
         factor(f, scene, out, depth);
     }
-    let pieces = below.len() + usize::from(bottom != "1");
-    if pieces > 0 {
-        out.push(if pieces > 1 { "/(" } else { "/" }, false, Level::Base);
-        if bottom != "1" {
-            out.push(&bottom, false, Level::Base);
-        }
-        for f in &below {
-            factor(f, scene, out, depth);
-        }
-        out.push(if pieces > 1 { ")" } else { "" }, false, Level::Base);
+    let [open, close] = match q.below.len() {
+        0 => ["", ""],
+        1 => ["/", ""],
+        _ => ["/(", ")"],
+    };
+    out.push(open, false, Level::Base);
+    for f in &q.below {
+        factor(f, scene, out, depth);
     }
+    out.push(close, false, Level::Base);
 }
 
 fn factor(e: &Expr, scene: &Scene, out: &mut Label, depth: usize) {

@@ -3,10 +3,12 @@
 //! What is written reads back as the same value with the same names declared. Only the order of factors is touched:
 //! numbers first, functions last.
 
-use num_traits::{One, Signed};
+use num_traits::Signed;
 
+use super::quotient::Quotient;
 use super::symbols::{greek_letter, greek_name, is_greek, parts_of};
 use super::visible::{in_math, visible};
+use crate::dimension::superscript;
 use crate::expr::{Expr, Function, Node, Rational, number};
 
 /// How a name is typeset where the caller says so.
@@ -50,82 +52,6 @@ fn write(e: &Expr, style: Style, names: Names) -> String {
     writer.out
 }
 
-/// A term as a quotient of factors: sign, above, below.
-struct Quotient {
-    negative: bool,
-    above: Vec<Expr>,
-    below: Vec<Expr>,
-}
-
-fn quotient(e: &Expr) -> Quotient {
-    let mut q = Quotient {
-        negative: false,
-        above: Vec::new(),
-        below: Vec::new(),
-    };
-    let factors = match e.node() {
-        Node::Product(factors) => factors.as_slice(),
-        _ => std::slice::from_ref(e),
-    };
-    divide(factors, &mut q);
-    q.above.sort_by_key(class);
-    q.below.sort_by_key(class);
-    q
-}
-
-/// Sorts factors into above and below; a product below is opened, so that its factors stand beside the others.
-fn divide(factors: &[Expr], q: &mut Quotient) {
-    for factor in factors {
-        match factor.node() {
-            Node::Number(value) => {
-                q.negative ^= value.is_negative();
-                let n = value.numer().abs();
-                if !n.is_one() {
-                    q.above.push(Expr::from(Rational::from(n)));
-                }
-                if !value.is_integer() {
-                    q.below
-                        .push(Expr::from(Rational::from(value.denom().clone())));
-                }
-            }
-            Node::Power(base, exponent) => match exponent.as_number() {
-                // A literal (1/2)^-1 would fold; only powers that stay powers are moved below.
-                Some(k) if number::is(k, -1, 1) => {
-                    if let Node::Product(inner) = base.node() {
-                        std::mem::swap(&mut q.above, &mut q.below);
-                        divide(inner, q);
-                        std::mem::swap(&mut q.above, &mut q.below);
-                    } else {
-                        q.below.push(base.clone());
-                    }
-                }
-                Some(k) if k.is_negative() => q.below.push(base.power(Expr::from(-k))),
-                _ => q.above.push(factor.clone()),
-            },
-            _ => q.above.push(factor.clone()),
-        }
-    }
-}
-
-/// Numbers and their roots, then names, then other roots, then sums, then functions.
-fn class(e: &Expr) -> u8 {
-    match e.node() {
-        Node::Number(_) => 0,
-        Node::Symbol(_) => 1,
-        Node::Power(base, exponent) if !exponent.as_number().is_some_and(Rational::is_integer) => {
-            match (class(base), exponent.as_number()) {
-                (0, Some(_)) => 0,
-                (base, _) => base.max(2),
-            }
-        }
-        Node::Power(base, _) => class(base),
-        Node::Product(_) => 2,
-        Node::Sum(_) => 3,
-        Node::Call(Function::Abs, _) => 3,
-        Node::Call(..) => 4,
-    }
-}
-
 impl Writer<'_> {
     fn sum(&mut self, e: &Expr) {
         let terms = match e.node() {
@@ -133,7 +59,7 @@ impl Writer<'_> {
             _ => std::slice::from_ref(e),
         };
         for (i, term) in terms.iter().enumerate() {
-            let q = quotient(term);
+            let q = Quotient::of(term);
             match (i, q.negative) {
                 (0, true) => self.out.push_str(if self.style == Style::Unicode {
                     "−"
@@ -270,7 +196,7 @@ impl Writer<'_> {
         }
         match (self.style, raised) {
             (Style::Unicode, Some(k)) if k.numer().bits() < 16 => {
-                self.out.push_str(&superscript(&k.to_string()))
+                self.out.push_str(&superscript(k))
             }
             (Style::Latex, _) => {
                 self.out.push_str("^{");
@@ -328,7 +254,7 @@ impl Writer<'_> {
         if let Some(k) = power {
             match self.style {
                 Style::Latex => self.out.push_str(&format!("^{{{k}}}")),
-                _ if k.numer().bits() < 14 => self.out.push_str(&superscript(&k.to_string())),
+                _ if k.numer().bits() < 14 => self.out.push_str(&superscript(k)),
                 _ => self.out.push_str(&format!("^{k}")),
             }
         }
@@ -408,15 +334,6 @@ fn is_tall(e: &Expr) -> bool {
             .is_none_or(|k| !k.is_integer() || k.is_negative()),
         _ => false,
     })
-}
-
-fn superscript(digits: &str) -> String {
-    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    digits
-        .chars()
-        .filter_map(|c| c.to_digit(10))
-        .map(|d| RAISED[d as usize])
-        .collect()
 }
 
 /// Whether an absolute value stands inside.

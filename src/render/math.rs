@@ -296,7 +296,7 @@ pub fn needs_brackets(e: &Expr) -> bool {
 }
 
 /// The components of a vector that do not vanish: sign, size (`None` for 1), unit vector.
-pub fn components(v: &[(Expr, usize)]) -> Vec<(bool, Option<Expr>, usize)> {
+fn components(v: &[(Expr, usize)]) -> Vec<(bool, Option<Expr>, usize)> {
     let mut out = Vec::new();
     for (e, axis) in v {
         if e.is_zero() {
@@ -336,38 +336,43 @@ pub fn is_plain(inner: &[Math]) -> bool {
 }
 
 /// How a format writes a sum of components along unit vectors.
-struct Style {
-    minus: &'static str,
-    brackets: [&'static str; 2],
+pub(super) struct Style {
+    /// A minus sign in front; plus and minus between two.
+    pub signs: [&'static str; 3],
+    pub brackets: [&'static str; 2],
     /// Between a component and its unit vector.
-    space: &'static str,
-    units: [&'static str; 3],
+    pub space: &'static str,
+    pub units: [&'static str; 3],
+    pub zero: &'static str,
 }
 
 const UNICODE: Style = Style {
-    minus: "−",
+    signs: ["−", " + ", " − "],
     brackets: ["(", ")"],
     space: " ",
     units: ["î", "ĵ", "k̂"],
+    zero: "0",
 };
 
 const LATEX: Style = Style {
-    minus: "-",
+    signs: ["-", " + ", " - "],
     brackets: ["\\left(", "\\right)"],
     space: "\\,",
     units: ["\\hat{\\imath}", "\\hat{\\jmath}", "\\hat{k}"],
+    zero: "0",
 };
 
 impl Style {
-    fn vector(&self, v: &[(Expr, usize)], expr: &impl Fn(&Expr) -> String) -> String {
+    pub fn vector(&self, v: &[(Expr, usize)], expr: &impl Fn(&Expr) -> String) -> String {
         let mut text = String::new();
         for (negative, size, axis) in components(v) {
-            let sign = if negative { self.minus } else { "+" };
-            match (text.is_empty(), negative) {
-                (true, false) => {}
-                (true, true) => text.push_str(sign),
-                (false, _) => text.push_str(&format!(" {sign} ")),
-            }
+            let [first, plus, minus] = self.signs;
+            text.push_str(match (text.is_empty(), negative) {
+                (true, false) => "",
+                (true, true) => first,
+                (false, false) => plus,
+                (false, true) => minus,
+            });
             if let Some(e) = size {
                 let [open, close] = match e.node() {
                     Node::Sum(_) => self.brackets,
@@ -378,7 +383,7 @@ impl Style {
             text.push_str(self.units[axis]);
         }
         if text.is_empty() {
-            text.push('0');
+            text.push_str(self.zero);
         }
         text
     }

@@ -1,10 +1,11 @@
 //! Formulas as native MathML. In: expressions and the pieces of a worked solution. Out: elements without namespace, as HTML
 //! takes them. Every character that comes from a scene is escaped.
 
-use num_traits::{One, Signed};
+use num_traits::Signed;
 
-use super::math::{components, is_plain, needs_brackets, vector_of};
-use crate::expr::{Expr, Function, Node, Rational, ratio};
+use super::math::{Style, is_plain, needs_brackets, vector_of};
+use crate::expr::{Expr, Function, Node, ratio};
+use crate::formula::Quotient;
 use crate::solution::{Math, Name, Solution};
 
 pub use crate::figure::escape;
@@ -18,7 +19,8 @@ pub fn formula(solution: &Solution, math: &[Math]) -> String {
             Math::Factor(e) if needs_brackets(e) => out.push_str(&brackets(&expr(solution, e))),
             Math::Factor(e) => out.push_str(&expr(solution, e)),
             Math::Vector(_) | Math::Along(_) => {
-                out.push_str(&vector(solution, &vector_of(m).unwrap_or_default()))
+                let sum = MATHML.vector(&vector_of(m).unwrap_or_default(), &|e| expr(solution, e));
+                out.push_str(&format!("<mrow>{sum}</mrow>"));
             }
             Math::Name(name) => out.push_str(&quantity(name)),
             Math::Op(op) => {
@@ -36,40 +38,20 @@ pub fn formula(solution: &Solution, math: &[Math]) -> String {
     out
 }
 
-fn unit(axis: usize) -> &'static str {
-    [
+const MATHML: Style = Style {
+    signs: ["<mo>−</mo>", "<mo>+</mo>", "<mo>−</mo>"],
+    brackets: ["<mrow><mo>(</mo>", "<mo>)</mo></mrow>"],
+    space: "<mspace width=\"0.17em\"></mspace>",
+    units: [
         "<mover accent=\"true\"><mi>ı</mi><mo>^</mo></mover>",
         "<mover accent=\"true\"><mi>ȷ</mi><mo>^</mo></mover>",
         "<mover accent=\"true\"><mi>k</mi><mo>^</mo></mover>",
-    ][axis]
-}
+    ],
+    zero: "<mn>0</mn>",
+};
 
 fn brackets(inner: &str) -> String {
     format!("<mrow><mo>(</mo>{inner}<mo>)</mo></mrow>")
-}
-
-fn vector(solution: &Solution, v: &[(Expr, usize)]) -> String {
-    let all = components(v);
-    if all.is_empty() {
-        return String::from("<mn>0</mn>");
-    }
-    let mut out = String::from("<mrow>");
-    for (i, (negative, size, axis)) in all.iter().enumerate() {
-        match (i, negative) {
-            (_, true) => out.push_str("<mo>−</mo>"),
-            (0, false) => {}
-            (_, false) => out.push_str("<mo>+</mo>"),
-        }
-        if let Some(e) = size {
-            let inner = expr(solution, e);
-            let sum = matches!(e.node(), Node::Sum(_));
-            out.push_str(&if sum { brackets(&inner) } else { inner });
-            out.push_str("<mspace width=\"0.17em\"></mspace>");
-        }
-        out.push_str(unit(*axis));
-    }
-    out.push_str("</mrow>");
-    out
 }
 
 fn quantity(name: &Name) -> String {
@@ -134,96 +116,27 @@ pub fn expr(solution: &Solution, e: &Expr) -> String {
     };
     let mut out = String::from("<mrow>");
     for (i, term) in terms.iter().enumerate() {
-        let quotient = Quotient::of(term);
-        match (i, quotient.negative) {
+        let q = Quotient::of(term);
+        match (i, q.negative) {
             (_, true) => out.push_str("<mo>−</mo>"),
             (0, false) => {}
             (_, false) => out.push_str("<mo>+</mo>"),
         }
-        out.push_str(&quotient.write(solution));
+        out.push_str(&quotient(solution, &q));
     }
     out.push_str("</mrow>");
     out
 }
 
-/// A term as factors above and below the line.
-#[derive(Default)]
-struct Quotient {
-    negative: bool,
-    above: Vec<Expr>,
-    below: Vec<Expr>,
-}
-
-impl Quotient {
-    fn of(e: &Expr) -> Quotient {
-        let mut q = Quotient::default();
-        let factors = match e.node() {
-            Node::Product(factors) => factors.as_slice(),
-            _ => std::slice::from_ref(e),
-        };
-        q.take(factors);
-        q.above.sort_by_key(class);
-        q.below.sort_by_key(class);
-        q
+fn quotient(solution: &Solution, q: &Quotient) -> String {
+    if q.below.is_empty() {
+        return product(solution, &q.above, false);
     }
-
-    fn take(&mut self, factors: &[Expr]) {
-        for factor in factors {
-            match factor.node() {
-                Node::Number(value) => {
-                    self.negative ^= value.is_negative();
-                    let size = value.abs();
-                    let whole = |n: &crate::expr::Int| Rational::from(n.clone());
-                    let (n, d) = (whole(size.numer()), whole(size.denom()));
-                    if !n.is_one() {
-                        self.above.push(Expr::from(n));
-                    }
-                    if !d.is_one() {
-                        self.below.push(Expr::from(d));
-                    }
-                }
-                Node::Power(base, exponent) => match exponent.as_number() {
-                    Some(k) if *k == ratio(-1, 1) => match base.node() {
-                        Node::Product(inner) => {
-                            std::mem::swap(&mut self.above, &mut self.below);
-                            self.take(inner);
-                            std::mem::swap(&mut self.above, &mut self.below);
-                        }
-                        _ => self.below.push(base.clone()),
-                    },
-                    Some(k) if k.is_negative() => self.below.push(base.power(Expr::from(-k))),
-                    _ => self.above.push(factor.clone()),
-                },
-                _ => self.above.push(factor.clone()),
-            }
-        }
-    }
-
-    fn write(&self, solution: &Solution) -> String {
-        if self.below.is_empty() {
-            return product(solution, &self.above, false);
-        }
-        format!(
-            "<mfrac><mrow>{}</mrow><mrow>{}</mrow></mfrac>",
-            product(solution, &self.above, true),
-            product(solution, &self.below, true)
-        )
-    }
-}
-
-/// Numbers, then names, then roots, then sums, then functions.
-fn class(e: &Expr) -> u8 {
-    match e.node() {
-        Node::Number(_) => 0,
-        Node::Symbol(_) => 1,
-        Node::Power(base, exponent) if !exponent.as_number().is_some_and(Rational::is_integer) => {
-            class(base).max(2)
-        }
-        Node::Power(base, _) => class(base),
-        Node::Product(_) => 2,
-        Node::Sum(_) | Node::Call(Function::Abs, _) => 3,
-        Node::Call(..) => 4,
-    }
+    format!(
+        "<mfrac><mrow>{}</mrow><mrow>{}</mrow></mfrac>",
+        product(solution, &q.above, true),
+        product(solution, &q.below, true)
+    )
 }
 
 fn product(solution: &Solution, factors: &[Expr], alone: bool) -> String {
