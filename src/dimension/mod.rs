@@ -180,21 +180,10 @@ impl fmt::Display for Dimension {
 }
 
 /// The exponent in raised characters.
-fn superscript(exponent: &Rational) -> String {
-    let raised = |c: char| match c {
-        '0' => '⁰',
-        '1' => '¹',
-        '2' => '²',
-        '3' => '³',
-        '4' => '⁴',
-        '5' => '⁵',
-        '6' => '⁶',
-        '7' => '⁷',
-        '8' => '⁸',
-        '9' => '⁹',
-        '-' => '⁻',
-        '/' => 'ᐟ',
-        other => other,
+pub(crate) fn superscript(exponent: &Rational) -> String {
+    let raised = |c: char| {
+        let mut both = "0123456789-/".chars().zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻ᐟ".chars());
+        both.find(|(low, _)| *low == c).map_or(c, |(_, high)| high)
     };
     exponent.to_string().chars().map(raised).collect()
 }

@@ -133,7 +133,7 @@ pub(super) fn motion_panel(name: &str, course: &Course) -> Panel {
     let labels = labels(&sheet);
     let caption = vec![Piece::Words(format!(
         "{}: broken lines at the beginning, full lines at the end.",
-        words::capital(name)
+        crate::formula::capital(name)
     ))];
     Panel {
         heading: name.to_string(),

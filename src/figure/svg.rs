@@ -68,7 +68,7 @@ pub fn number(value: f64) -> String {
         0.0
     };
     let text = format!("{value:.2}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
+    let text = crate::formula::trimmed(&text);
     if text == "-0" {
         "0".to_string()
     } else {

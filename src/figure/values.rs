@@ -140,7 +140,7 @@ impl Values {
 /// A number with at most three decimals.
 pub fn short(value: f64) -> String {
     let text = format!("{value:.3}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
+    let text = crate::formula::trimmed(&text);
     if text == "-0" {
         "0".to_string()
     } else {

@@ -97,11 +97,3 @@ pub fn values(scene: &Scene, values: &Values, shown: &dyn Fn(&str) -> bool) -> V
     }
     out
 }
-
-/// A sentence starts with a capital.
-pub fn capital(text: &str) -> String {
-    let mut chars = text.chars();
-    chars.next().map_or(String::new(), |first| {
-        first.to_uppercase().chain(chars).collect()
-    })
-}

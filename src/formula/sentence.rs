@@ -97,6 +97,39 @@ impl Sentence {
     }
 }
 
+/// `a, b and c`.
+pub fn listed(items: &[String]) -> String {
+    together(items, "and")
+}
+
+/// `a, b or c`.
+pub fn either(items: &[String]) -> String {
+    together(items, "or")
+}
+
+fn together(items: &[String], word: &str) -> String {
+    match items {
+        [first @ .., last] if !first.is_empty() => format!("{} {word} {last}", first.join(", ")),
+        _ => items.concat(),
+    }
+}
+
+/// A sentence starts with a capital.
+pub fn capital(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or(String::new(), |first| {
+        first.to_uppercase().chain(chars).collect()
+    })
+}
+
+/// A decimal without the zeros at its end that say nothing.
+pub fn trimmed(decimal: &str) -> &str {
+    match decimal.contains('.') {
+        true => decimal.trim_end_matches('0').trim_end_matches('.'),
+        false => decimal,
+    }
+}
+
 /// Both sides of `e ≥ 0` or `e = 0` as people write them: what is taken away stands on the right.
 pub fn sides(e: &Expr) -> [Expr; 2] {
     // The size of a factor before a sum says nothing of its sign.

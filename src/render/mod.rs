@@ -32,7 +32,7 @@ use std::collections::BTreeMap;
 use crate::answer::Matrix;
 use crate::derive::{Derivation, Equation};
 use crate::expr::{Expr, Point, Rational, Symbol};
-use crate::formula::{Symbols, is_hidden, visible};
+use crate::formula::{Symbols, is_hidden, trimmed, visible};
 use crate::numeric::{self, Answered};
 use crate::scene::Scene;
 pub use crate::solution::assumptions;
@@ -300,14 +300,6 @@ pub fn digits(value: f64) -> String {
         };
     }
     trimmed(&format!("{value:.*}", (5.0 - magnitude).max(0.0) as usize)).to_string()
-}
-
-fn trimmed(text: &str) -> &str {
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        text
-    }
 }
 
 /// Title and source in one line, as far as they are given.

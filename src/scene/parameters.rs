@@ -203,11 +203,7 @@ pub(super) fn number_words(number: f64) -> String {
     if number != 0.0 && !(1e-4..1e6).contains(&number.abs()) {
         return format!("{number:e}");
     }
-    let rounded = format!("{number:.6}");
-    rounded
-        .trim_end_matches('0')
-        .trim_end_matches('.')
-        .to_owned()
+    crate::formula::trimmed(&format!("{number:.6}")).to_owned()
 }
 
 fn multiple_of_pi(e: &Expr) -> Option<Rational> {

@@ -42,7 +42,7 @@ impl Writer<'_> {
         } else if !silent.is_empty() {
             text.push_str(&format!(
                 " The impulses at {} act there and have no moment.",
-                words::list(&silent)
+                words::listed(&silent)
             ));
         }
         if let [one] = through.as_slice() {
@@ -52,7 +52,7 @@ impl Writer<'_> {
         } else if !through.is_empty() {
             text.push_str(&format!(
                 " The impulses at {} pass through it and have no moment about it.",
-                words::list(&through)
+                words::listed(&through)
             ));
         }
         if outside.is_empty() {

@@ -152,7 +152,7 @@ impl Writer<'_> {
         (!inside.is_empty()).then(|| {
             format!(
                 "{subject} at {} {verb} internal to this system.",
-                words::list(&inside)
+                words::listed(&inside)
             )
         })
     }
@@ -268,7 +268,7 @@ impl Writer<'_> {
         } else if !silent.is_empty() {
             text.push_str(&format!(
                 " The impulses at {} are perpendicular to it.",
-                words::list(&silent)
+                words::listed(&silent)
             ));
         }
         self.say(&text);

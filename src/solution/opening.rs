@@ -140,7 +140,7 @@ impl Writer<'_> {
             let one = forces.len() == 1 && !forces[0].starts_with("the weights ");
             text.push_str(&format!(
                 " {} {} finite and {} no impulse during the short collision.",
-                words::capital(&words::list(&forces)),
+                words::capital(&words::listed(&forces)),
                 if one { "is" } else { "are" },
                 if one { "has" } else { "have" },
             ));

@@ -295,13 +295,19 @@ impl Writer<'_> {
         let mut parts: Vec<String> = Vec::new();
         let linear: Vec<String> = grouped
             .into_iter()
-            .map(|(whom, along)| format!("of {} along {}", words::list(&whom), words::list(&along)))
+            .map(|(whom, along)| {
+                format!(
+                    "of {} along {}",
+                    words::listed(&whom),
+                    words::listed(&along)
+                )
+            })
             .collect();
         if !linear.is_empty() {
-            parts.push(format!("linear momentum {}", words::list(&linear)));
+            parts.push(format!("linear momentum {}", words::listed(&linear)));
         }
         if !angular.is_empty() {
-            parts.push(format!("angular momentum {}", words::list(&angular)));
+            parts.push(format!("angular momentum {}", words::listed(&angular)));
         }
         format!("Balance {}", parts.join(", and "))
     }

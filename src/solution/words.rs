@@ -3,6 +3,7 @@
 use super::{Inline, Math, Meaning, Name};
 use crate::derive::Derivation;
 use crate::expr::{Expr, Symbol};
+pub use crate::formula::{capital, either, listed};
 use crate::laws::{Place, Unknown};
 use crate::scene::{Scene, with_noun};
 use crate::verify::Proof;
@@ -23,38 +24,12 @@ pub fn place(name: &str, noun: &str) -> String {
 
 /// `the bar and the ball`.
 pub fn bodies(scene: &Scene, system: &[usize]) -> String {
-    list(&system.iter().map(|b| body(scene, *b)).collect::<Vec<_>>())
-}
-
-/// `a, b and c`.
-pub fn list(items: &[String]) -> String {
-    match items {
-        [] => String::new(),
-        [one] => one.clone(),
-        [first @ .., last] => format!("{} and {last}", first.join(", ")),
-    }
+    listed(&system.iter().map(|b| body(scene, *b)).collect::<Vec<_>>())
 }
 
 /// A stage by its name: “Fall”.
 pub fn stage(name: &str) -> String {
     format!("“{}”", capital(&name.replace('_', " ")))
-}
-
-/// `the bar or the ball`.
-pub fn either(all: &[String]) -> String {
-    match all {
-        [first @ .., last] if !first.is_empty() => format!("{} or {last}", first.join(", ")),
-        _ => all.concat(),
-    }
-}
-
-/// A sentence starts with a capital.
-pub fn capital(text: &str) -> String {
-    let mut chars = text.chars();
-    match chars.next() {
-        Some(first) => first.to_uppercase().chain(chars).collect(),
-        None => String::new(),
-    }
 }
 
 /// A number up to twelve in words.
@@ -395,12 +370,7 @@ pub fn digits(value: f64) -> String {
         return format!("{value:.3e}");
     }
     let text = format!("{value:.*}", (3.0 - magnitude).max(0.0) as usize);
-    let text = if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        &text
-    };
-    text.replace('-', "−")
+    crate::formula::trimmed(&text).replace('-', "−")
 }
 
 /// A text of the derivation in which bodies are called as they are in sentences.

@@ -3,12 +3,12 @@
 //! In: a stage and one outcome. Out: a clause for each body whose change can be told; where its sense depends on the values,
 //! the formulas say more than words.
 
-use super::words::listed;
 use super::{Case, StageTold};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, essential, is_zero, sign};
 use crate::domain::Domains;
 use crate::expr::{Expr, minus};
+use crate::formula::listed;
 
 /// What becomes of every body that moves; those of which the same is said stand together.
 pub(super) fn words(told: &StageTold, case: &Case) -> Vec<String> {

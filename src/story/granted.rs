@@ -1,8 +1,7 @@
 //! What a story takes for granted, in sentences: that impacts take no time, and what holds of each kind of motion.
 
 use super::StageTold;
-use super::words::listed;
-use crate::formula::{Sentence, sentence};
+use crate::formula::{Sentence, listed, sentence};
 use crate::scene::StageKind;
 
 /// Everything the story takes for granted.

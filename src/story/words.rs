@@ -7,7 +7,7 @@ use crate::algebra::Sign;
 use crate::answer::calc::{Seen, is_zero, sign, tidy};
 use crate::derive;
 use crate::expr::{Expr, Symbol};
-use crate::formula::{Sentence, sentence};
+use crate::formula::{Sentence, listed, sentence};
 use crate::scene::{
     BlowImpulse, ContactLaw, FallEnd, OneSided, Scene, Slide, SlideEnd, Stage, StageKind, Turn,
     Until,
@@ -497,13 +497,4 @@ pub(super) fn missing(told: &StageTold) -> Vec<Sentence> {
     );
     out.extend(used.into_iter().map(|u| sentence!["supposed here: ", u]));
     out
-}
-
-/// `a`, `a and b`, `a, b and c`.
-pub(super) fn listed(names: &[String]) -> String {
-    match names {
-        [] => String::new(),
-        [one] => one.clone(),
-        [all @ .., last] => format!("{} and {last}", all.join(", ")),
-    }
 }
