@@ -4,7 +4,6 @@
 
 use super::errors::digits_lost;
 use super::measure::{Report, RouteSummary};
-use crate::formula::capital;
 
 /// An error up to which a route counts as accurate at usual values \[ulp\]: sixteen units leave fifteen digits.
 const ACCURATE: f64 = 16.0;
@@ -71,6 +70,14 @@ fn verdict(report: &Report) -> String {
         ));
     }
     out
+}
+
+/// Words at the beginning of a sentence.
+fn capital(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or(String::new(), |first| {
+        first.to_uppercase().chain(letters).collect()
+    })
 }
 
 /// A route as a sentence speaks of it.
