@@ -8,7 +8,7 @@ use super::energy::{
     energy_after, energy_before, energy_lost, energy_of_change, relative_velocities,
     velocity_after, work,
 };
-use super::given::{Freedom, Given, GivenLaw};
+use super::given::{Freedom, Given, GivenContact, GivenLaw, Joint};
 use super::number::{Number, cross, difference, dot};
 use super::solution::Motion;
 
@@ -331,34 +331,13 @@ fn one_restitution<T: Number>(given: &Given<T>, motion: &Motion<T>) -> Option<T>
     if quiet && consistent { one } else { None }
 }
 
-/// How two bodies meet at a contact.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Approach {
-    /// The touching points approach each other.
-    Approaching,
-    /// Their normal relative velocity is zero.
-    Grazing,
-    /// They move apart: no collision here.
-    Separating,
-}
-
 /// What a contact with a normal says of itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactReport<T> {
-    /// Normal relative velocity just before, u_n⁻ [m/s]; negative when approaching.
-    pub normal_before: T,
-    /// Normal relative velocity just after, u_n⁺ [m/s].
-    pub normal_after: T,
-    /// Normal impulse P_n on the second body \[N s\].
-    pub normal_impulse: T,
-    /// Tangential impulse P_t on the second body \[N s\], along the normal turned clockwise by 90°.
-    pub tangent_impulse: T,
-    /// How the bodies meet.
-    pub approach: Approach,
+    /// Whether the touching points move apart just before: no collision here.
+    pub separates: bool,
     /// Friction coefficient the answer needs, |P_t| / P_n; `None` where P_n is not positive.
     pub required_friction: Option<T>,
-    /// Whether the contact only pushes, and the bodies do not enter each other: P_n ≥ 0 and u_n⁺ ≥ 0.
-    pub admissible: bool,
 }
 
 /// The report of each contact; `None` for one without a normal.
@@ -367,44 +346,25 @@ pub fn contact_reports<T: Number + PartialOrd>(
     motion: &Motion<T>,
 ) -> Vec<Option<ContactReport<T>>> {
     let zero = T::zero();
-    let reports = given
-        .contacts
-        .iter()
-        .zip(&motion.contact)
-        .map(|(contact, impulse)| {
-            let n = contact.normal.as_ref()?;
-            let [before, after] =
-                relative_velocities(given, motion, contact.joint.bodies, &contact.joint.at);
-            let (normal_before, normal_after) = (dot(&before, n), dot(&after, n));
-            let (normal_impulse, tangent_impulse) = (dot(impulse, n), cross(impulse, n));
-            let approach = match normal_before.partial_cmp(&zero)? {
-                std::cmp::Ordering::Less => Approach::Approaching,
-                std::cmp::Ordering::Equal => Approach::Grazing,
-                std::cmp::Ordering::Greater => Approach::Separating,
-            };
-            let size = if tangent_impulse < zero {
-                tangent_impulse.negated()
-            } else {
-                tangent_impulse.clone()
-            };
-            let required_friction = if normal_impulse > zero {
-                normal_impulse.recip().map(|r| size.times(&r))
-            } else {
-                None
-            };
-            // Laws that set u_n⁺ to zero leave rounding there in doubles; what they state is not doubted here.
-            let apart = matches!(contact.law, GivenLaw::Sticking) || normal_after >= zero;
-            let admissible = normal_impulse >= zero && apart;
-            let report = ContactReport {
-                normal_before,
-                normal_after,
-                normal_impulse,
-                tangent_impulse,
-                approach,
-                required_friction,
-                admissible,
-            };
-            Some(report)
-        });
-    reports.collect()
+    let contacts = given.contacts.iter().zip(&motion.contact);
+    let report = |(contact, impulse): (&GivenContact<T>, &[T; 2])| {
+        let n = contact.normal.as_ref()?;
+        let Joint { bodies, at } = &contact.joint;
+        let [before, _] = relative_velocities(given, motion, *bodies, at);
+        let (normal, tangent) = (dot(impulse, n), cross(impulse, n));
+        let size = if tangent < zero {
+            tangent.negated()
+        } else {
+            tangent
+        };
+        let is_pushed = normal > zero;
+        Some(ContactReport {
+            separates: dot(&before, n) > zero,
+            required_friction: is_pushed
+                .then(|| normal.recip())
+                .flatten()
+                .map(|r| size.times(&r)),
+        })
+    };
+    contacts.map(report).collect()
 }

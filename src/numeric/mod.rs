@@ -39,7 +39,7 @@ pub use float::{lu_scaled, solve_f64, solve_roughly};
 pub use follow::{Followed, Lost, follow};
 pub use friction::settle;
 pub use given::{Given, Reason, Undefined, given};
-pub use invariants::{Approach, ContactReport, Identity, Invariant, contact_reports, identities};
+pub use invariants::{ContactReport, Identity, Invariant, contact_reports, identities};
 pub use number::Number;
 pub use points::{Needed, needed, point_of_any_size, random_point, rounded};
 pub use solution::{Contradiction, Motion, Solution, motion};

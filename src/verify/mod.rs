@@ -27,7 +27,7 @@ use crate::answer::{self, Answer, Check, Form, Refused};
 use crate::derive::Derivation;
 use crate::expr::{Expr, Point, Rational, Scalar, Symbol};
 use crate::formula::write_plain;
-use crate::numeric::{self, Approach};
+use crate::numeric::{self};
 use crate::scene::{Ask, Scene};
 
 /// Exact points at which every answer is compared. The identity is the proof; these guard the laws themselves, and
@@ -256,7 +256,7 @@ fn invariants(runs: &[Run<Rational>], proof: &mut Proof) {
     }
 }
 
-/// Approach, push and friction as the exact points show them; the friction that sticking needs is held against its formula.
+/// push and friction as the exact points show them; the friction that sticking needs is held against its formula.
 fn admissible(scene: &Scene, derivation: &Derivation, runs: &[Run<Rational>], proof: &mut Proof) {
     let mut separating = 0;
     let mut most: Option<Rational> = None;
@@ -267,8 +267,8 @@ fn admissible(scene: &Scene, derivation: &Derivation, runs: &[Run<Rational>], pr
         for (c, (contact, report)) in run.given.contacts.iter().zip(reports).enumerate() {
             let Some(report) = report else { continue };
             let is_light = |b: &usize| scene.bodies[*b].is_light_pulley();
-            let parts = report.approach == Approach::Separating;
-            separating += usize::from(parts && !contact.joint.bodies.iter().any(is_light));
+            separating +=
+                usize::from(report.separates && !contact.joint.bodies.iter().any(is_light));
             let sticks = matches!(contact.law, numeric::given::GivenLaw::Sticking);
             let needed = report.required_friction;
             let Some(needed) = needed.filter(|mu| sticks && !mu.is_zero()) else {
