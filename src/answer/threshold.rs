@@ -43,7 +43,7 @@ pub(super) fn fill(
         Err(Unsolved::Absent) => {
             let words = always(&gap, relation, domains);
             out.text
-                .push(sentence![words, "; ", parameter, " plays no part"]);
+                .push(sentence![words, ", whatever ", parameter, " is"]);
             return;
         }
         Err(Unsolved::Inside) => {

@@ -7,9 +7,9 @@ use num_integer::Integer;
 use super::Stop;
 use super::work::{Work, formulas};
 use crate::algebra::{self, Element, Sign};
-use crate::expr::{Expr, Int, Node, Rational};
+use crate::expr::{Expr, Int, Node, Rational, cross, dot, minus};
 use crate::formula::Sentence;
-use crate::scene::ContactLaw;
+use crate::scene::{Body, Contact, ContactLaw};
 
 /// Longest condition that is printed with an answer, in characters.
 const READABLE: usize = 110;
@@ -100,15 +100,9 @@ impl Work<'_> {
                 all.push(condition);
             }
         }
-        let bouncing = self
-            .scene
-            .contacts
-            .iter()
-            .filter(|c| matches!(c.law, ContactLaw::Frictionless { .. }))
-            .count();
-        if bouncing > 1 {
+        if self.order_matters() {
             all.push(String::from(
-                "all contacts act at the same instant, each with its own restitution (Newton); one after the other they could give another motion",
+                "all contacts act at the same instant, each with its own restitution (Newton); acting one after another they could leave a different motion",
             ));
         }
         for contact in &self.scene.contacts {
@@ -136,6 +130,40 @@ impl Work<'_> {
             }
         }
         all
+    }
+
+    /// Whether contacts that bounce would leave another motion if they acted one after another: an impulse along one normal
+    /// changes the speed of approach at another. Of free bodies that takes a body which both touch; joints pass everything on.
+    fn order_matters(&mut self) -> bool {
+        let scene = self.scene;
+        let law = |c: &Contact| matches!(c.law, ContactLaw::Frictionless { .. });
+        let bouncing: Vec<&Contact> = scene.contacts.iter().filter(|c| law(c)).collect();
+        if bouncing.len() < 2 || bouncing.len() < scene.contacts.len() || !scene.hinges.is_empty() {
+            return bouncing.len() > 1;
+        }
+        let pairs = bouncing.iter().enumerate();
+        let pairs: Vec<[&Contact; 2]> = pairs
+            .flat_map(|(i, a)| bouncing[i + 1..].iter().map(|b| [*a, *b]))
+            .collect();
+        pairs.iter().any(|pair| {
+            let both = |b: &usize| pair.iter().all(|c| c.bodies.contains(b));
+            let mut moving = (0..scene.bodies.len()).filter(|b| !scene.bodies[*b].is_fixed());
+            moving.any(|b| both(&b) && self.reaches(pair, &scene.bodies[b]))
+        })
+    }
+
+    /// Whether an impulse on a free body along the normal of one contact moves its point at the other along the normal there.
+    fn reaches(&mut self, [a, b]: &[&Contact; 2], body: &Body) -> bool {
+        let (Some(m), Some(n)) = (&a.normal, &b.normal) else {
+            return true;
+        };
+        let arms = [(a, m), (b, n)].map(|(c, n)| cross(&minus(&c.at, &body.center), n));
+        let response = match body.is_particle() {
+            true => dot(m, n),
+            false => &body.inertia * &dot(m, n) + &body.mass * &(&arms[0] * &arms[1]),
+        };
+        let element = self.field.element(&response);
+        !element.is_ok_and(|x| self.field.is_zero(&x))
     }
 }
 

@@ -95,7 +95,10 @@ pub(super) fn composites(solution: &mut Solution, scene: &Scene) {
                 "The parts of {} have their common center of mass at ",
                 words::body(scene, b)
             )),
-            Inline::Math(vec![Math::Vector(place)]),
+            match place.iter().all(Expr::is_zero) {
+                true => say("the origin"),
+                false => Inline::Math(vec![Math::Vector(place)]),
+            },
             say("; each adds its own moment of inertia and its mass times the square of its distance from there:"),
         ]);
         let mut math = vec![words::name("I", &c, "", false), Math::Op("=")];

@@ -289,10 +289,18 @@ impl Writer<'_> {
             }
             let sign = |open: bool| if open { "<" } else { "≤" };
             let mut math = Vec::new();
-            if let Some(low) = &domain.low {
-                math.extend([Math::Expr(low.expr()), Math::Op(sign(low.open))]);
+            let symbol = Math::Expr(Expr::symbol(name));
+            match (&domain.low, &domain.high) {
+                // One limit stands behind the symbol.
+                (Some(low), None) => {
+                    let over = if low.open { ">" } else { "≥" };
+                    math.extend([symbol, Math::Op(over), Math::Expr(low.expr())]);
+                }
+                (Some(low), _) => {
+                    math.extend([Math::Expr(low.expr()), Math::Op(sign(low.open)), symbol]);
+                }
+                (None, _) => math.push(symbol),
             }
-            math.push(Math::Expr(Expr::symbol(name)));
             if let Some(high) = &domain.high {
                 math.extend([Math::Op(sign(high.open)), Math::Expr(high.expr())]);
             }

@@ -191,8 +191,8 @@ impl Change<'_> {
         let begins = is_zero(before, self.domains) == Some(true);
         let sense = match self.one_of(after, ["counterclockwise", "clockwise"])? {
             Way::Sure(sense) if begins => return Some(format!("begins to turn {sense}")),
-            Way::NotBack([_, back]) if begins => {
-                return Some(format!("does not begin to turn {back}"));
+            Way::NotBack([sense, _]) if begins => {
+                return Some(format!("begins to turn {sense} or does not turn"));
             }
             Way::Sure(sense) => sense,
             Way::NotBack([sense, _]) => return Some(format!("turns {sense} or stops turning")),

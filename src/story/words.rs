@@ -146,6 +146,7 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
         StageKind::Slide(slide) => out.push(sliding(stage, told, slide)),
         StageKind::Fall(fall) => {
             let name = &scene.bodies[fall.body].name;
+            let falls = goes_down(told, fall.body);
             out.push(match (&fall.until, &fall.gravity) {
                 (FallEnd::Drop(h), Some(_)) if fall.rising => {
                     sentence!["`", name, "` rises freely through ", measured(&-h, "m")]
@@ -154,9 +155,10 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
                     sentence!["`", name, "` flies freely until it is as high as at first"]
                 }
                 (FallEnd::Drop(h), Some(_)) => match counted(h, [" lower", " higher"]) {
-                    (_, " lower") => {
+                    (_, " lower") if falls => {
                         sentence!["`", name, "` falls freely through ", measured(h, "m")]
                     }
+                    (down, " lower") => flown(name, (down, " lower")),
                     (up, _) => sentence![
                         "`",
                         name,
@@ -165,10 +167,10 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
                         " higher"
                     ],
                 },
-                (FallEnd::Time(t), Some(_)) => {
+                (FallEnd::Time(t), Some(_)) if falls => {
                     sentence!["`", name, "` falls freely for ", measured(t, "s")]
                 }
-                (FallEnd::Time(t), None) => {
+                (FallEnd::Time(t), _) => {
                     sentence!["`", name, "` flies freely for ", measured(t, "s")]
                 }
                 (FallEnd::Range(s), _) => {
@@ -178,10 +180,9 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
             });
             for b in &fall.with {
                 let other = &scene.bodies[*b].name;
-                let verb = if fall.gravity.is_some() {
-                    "falls"
-                } else {
-                    "flies"
+                let verb = match fall.gravity.is_some() && goes_down(told, *b) {
+                    true => "falls",
+                    false => "flies",
                 };
                 out.push(sentence![
                     "`",
@@ -289,6 +290,15 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
         SlideEnd::Stops => sentence![lead, " until they stop", strings],
         SlideEnd::Rolls => sentence![lead, " until it rolls", strings],
     }
+}
+
+/// Whether a body is known not to rise at the beginning.
+fn goes_down(told: &StageTold, body: usize) -> bool {
+    let up = sign(&told.before.velocity[body][1], &told.placed.scene.domains);
+    matches!(
+        up,
+        Seen::Proved(Sign::Zero | Sign::Negative | Sign::NotPositive)
+    )
 }
 
 /// A formula, or a number with its unit.

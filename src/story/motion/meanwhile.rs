@@ -49,7 +49,7 @@ pub(super) fn others(
             (Part::Waits, _) if !body.is_fixed() => out.push(sentence![
                 "`",
                 &body.name,
-                "` comes into play where the scene has it"
+                "` comes into play at the place that the scene gives"
             ]),
             (Part::Free | Part::Waits, Some(time)) if weightless => {
                 for k in 0..2 {
