@@ -50,7 +50,8 @@ record! {
         /// Finite forces that act too, such as weight. They have no impulse, and the solution says so.
         forces: Option<Vec<ForceFile>>,
         /// What happens before and after the collision: stages that hand the motion on. Hinges, contacts, supports and blows
-        /// then stand in the impacts.
+        /// then stand in the impacts. A group of them may be repeated.
+        #[schemars(with = "Option<Vec<StageOrGroup>>")]
         stages: Option<Vec<StageFile>>,
         /// How an incomplete statement or a missing figure is read, in words; the solution repeats it.
         assumptions: Option<Vec<Text>>,
@@ -62,6 +63,32 @@ record! {
         figure: Option<FigureFile>,
         /// What a book prints about the scene, for `carom verify`.
         printed: Option<Vec<PrintedFile>>,
+    }
+}
+
+/// A stage, or a group of stages that happens several times.
+#[derive(schemars::JsonSchema)]
+#[schemars(untagged)]
+#[allow(
+    dead_code,
+    reason = "it stands for either in the schema; the reader writes groups out first"
+)]
+enum StageOrGroup {
+    /// One stage.
+    Stage(Box<StageFile>),
+    /// A group.
+    Group(RepeatFile),
+}
+
+record! {
+    /// A group of stages that happens several times. `#` in any text of it stands for the number of the turn: 1, 2, 3, ….
+    RepeatFile {
+        /// How many times, a whole number.
+        repeat: Formula,
+        /// Its stages, such as one named "bounce #".
+        stages: Vec<StageFile>,
+        /// What is asked in every turn, such as "v_#"; the questions of the scene may use the answers.
+        questions: Option<Map<QuestionFile>>,
     }
 }
 

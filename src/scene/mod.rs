@@ -28,6 +28,7 @@ mod question_file;
 mod questions;
 mod record;
 mod relations;
+mod repeat;
 mod resolve;
 mod stage;
 mod stage_file;
@@ -61,6 +62,11 @@ pub const LONGEST: usize = 1 << 20;
 /// Reads a scene file, JSON with comments. What is wrong with it comes back as faults, all that one pass can find.
 pub fn read(text: &str) -> Result<Scene, Faults> {
     parsed(text, "scene", |root, faults| {
+        let unrolled = repeat::unrolled(root, faults);
+        if !faults.is_empty() {
+            return Scene::default();
+        }
+        let root = unrolled.as_ref().unwrap_or(root);
         let Some(file) = <file::SceneFile as record::Read>::read(root, faults) else {
             return Scene::default();
         };

@@ -28,7 +28,7 @@ use crate::scene::stage_file::{EndName, StageFile, StartFile};
 use crate::scene::{Body, Scene, Shape, geometry, questions};
 
 /// Most stages a scene may have.
-const STAGES: usize = 40;
+pub(super) const STAGES: usize = 40;
 
 /// A file whose only stage is an impact, written as a scene of one impact: the same scene. `None` where it says more than
 /// such a scene can, or something that is to be refused.
