@@ -169,11 +169,14 @@ impl<'a> Trial<'a> {
             return None;
         }
         if let Some(k) = quotient(self.answer, self.expected, ctx) {
-            let value = fraction(&k);
-            if let Some(value) = &value {
-                let off = (value - ratio(1, 1)).abs();
-                if !simple(value) && off < ratio(1, 50) {
-                    let digits = number::digits_shared(value, &[ratio(1, 1), ratio(1, 1)]).min(30);
+            let fraction = fraction(&k).is_some_and(|k| simple(&k));
+            if let Some([low, high]) = number::bounds(&k).filter(|_| !fraction) {
+                let one = ratio(1, 1);
+                if [&low, &high]
+                    .iter()
+                    .all(|k| (*k - &one).abs() < ratio(1, 50))
+                {
+                    let digits = number::digits_shared(&low, &[one.clone(), one]).min(30);
                     let message =
                         format!("right to about {digits} digits: a coefficient was rounded");
                     return Some(Diagnosis::new(

@@ -59,7 +59,10 @@ pub(super) fn compare(f: &Expr, g: &Expr, domains: &Domains) -> Option<Compared>
     if zero != [false, false] {
         let extents = [&x, &y].map(|x| match field.is_zero(x) {
             true => Extent::All,
-            false => extent(&field, &field.zeros(x), &domains),
+            false => {
+                let parts = field.zeros(x);
+                extent(&field, &written(&field, &parts), &domains)
+            }
         });
         return Some(Compared {
             lost: Vec::new(),
@@ -68,20 +71,21 @@ pub(super) fn compare(f: &Expr, g: &Expr, domains: &Domains) -> Option<Compared>
             extents,
         });
     }
-    let mut split = field.split_zeros(&x, &y).ok()?;
-    let written = |list: &[Element]| -> Vec<(Element, Expr)> {
-        list.iter().map(|x| (x.clone(), field.expr(x))).collect()
-    };
-    let [lost, mut shared, gained] = [&split[0], &split[1], &split[2]].map(|l| written(l));
+    let split = field.split_zeros(&x, &y).ok()?;
+    let [mut lost, mut shared, mut gained] = [0, 1, 2].map(|i| written(&field, &split[i]));
     if shared.is_empty() {
         // Roots squared away may show what the two share: √y = √x and y = x.
         let (plain_x, plain_y) = (squared(&field, &x)?, squared(&field, &y)?);
         let again = field.split_zeros(&plain_x, &plain_y).ok()?;
-        shared = again[1]
-            .iter()
-            .map(|x| (x.clone(), field.expr(x)))
-            .collect();
-        split[1] = again[1].clone();
+        shared = written(&field, &again[1]);
+    }
+    // What is the only part of an equation vanishes with the equation, which may be much shorter as it was written.
+    for (parts, whole) in [(&mut lost, f), (&mut gained, g)] {
+        if let ([(_, part)], true) = (&mut parts[..], shared.is_empty())
+            && whole.size() < part.size()
+        {
+            *part = whole.clone();
+        }
     }
     let part = |(element, expr): (Element, Expr), other: &Expr| {
         if matches!(field.sign(&element), Some(Sign::Positive | Sign::Negative)) {
@@ -93,15 +97,8 @@ pub(super) fn compare(f: &Expr, g: &Expr, domains: &Domains) -> Option<Compared>
         let at = vanishing(&expr, other, &domains);
         Some(Part { expr, at })
     };
-    let whole = |parts: &[(Element, Expr)]| {
-        let elements: Vec<Element> = parts.iter().map(|(x, _)| x.clone()).collect();
-        elements
-    };
-    let extents = [
-        [whole(&lost), whole(&shared)].concat(),
-        [whole(&gained), whole(&shared)].concat(),
-    ]
-    .map(|parts| extent(&field, &parts, &domains));
+    let extents = [&lost, &gained]
+        .map(|parts| extent(&field, &[parts.as_slice(), &shared].concat(), &domains));
     let symbols = shared.iter().flat_map(|(_, e)| e.symbols()).collect();
     Some(Compared {
         lost: lost.into_iter().filter_map(|p| part(p, g)).collect(),
@@ -123,24 +120,30 @@ fn squared(field: &Field, x: &Element) -> Option<Element> {
     Some(x)
 }
 
+fn written(field: &Field, parts: &[Element]) -> Vec<(Element, Expr)> {
+    parts.iter().map(|x| (x.clone(), field.expr(x))).collect()
+}
+
 /// Whether a product of parts vanishes somewhere on the domain.
-fn extent(field: &Field, parts: &[Element], domains: &Domains) -> Extent {
-    let strict = |x: &&Element| matches!(field.sign(x), Some(Sign::Positive | Sign::Negative));
-    let left: Vec<&Element> = parts.iter().filter(|x| !strict(x)).collect();
-    if left.is_empty() {
+fn extent(field: &Field, parts: &[(Element, Expr)], domains: &Domains) -> Extent {
+    let strict = |x: &Element| matches!(field.sign(x), Some(Sign::Positive | Sign::Negative));
+    let mut left = parts.iter().filter(|(x, _)| !strict(x)).peekable();
+    if left.peek().is_none() {
         return Extent::None;
     }
     let one = Expr::one();
-    let somewhere = |x: &&&Element| vanishing(&field.expr(x), &one, domains).is_some();
-    match left.iter().any(|x| somewhere(&x)) {
+    match left.any(|(_, x)| vanishing(x, &one, domains).is_some()) {
         true => Extent::Some,
         false => Extent::Unknown,
     }
 }
 
 /// Whether `other` vanishes wherever `part` does: what the part is with its roots squared away divides it, or is linear in
-/// some symbol and, solved for it, turns it into zero.
+/// some symbol and, solved for it, turns it into zero. Parts without a common symbol say nothing of each other.
 fn covered(part: &Expr, other: &Expr, domains: &Domains) -> bool {
+    if part.symbols().is_disjoint(&other.symbols()) {
+        return false;
+    }
     let mut field = Field::new(domains);
     field.prepare([part, other]);
     let pieces = |field: &mut Field| {
