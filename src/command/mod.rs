@@ -137,15 +137,12 @@ fn solve_impact(scene: &Scene, numbers: Numbers, format: Format) -> Result<Outpu
     let found = match numbers {
         Numbers::Certified => return certified(scene, format),
         Numbers::Exact => {
-            let point = numeric::exact_values(scene).map_err(|why| no_point(&why))?;
+            let point = numeric::exact_values(scene).map_err(|why| why.to_string())?;
             let answers = numeric::answers(scene, &point, numeric::solve_exact);
             render::exact_numbers(answers.map_err(|why| why.to_string())?)
         }
         Numbers::Doubles => {
-            render::double_numbers(numeric::doubles(scene).map_err(|why| match why {
-                numeric::NoDoubles::NoPoint(why) => no_point(&why),
-                numeric::NoDoubles::NoAnswer(why) => why.to_string(),
-            })?)
+            render::double_numbers(numeric::doubles(scene).map_err(|why| why.to_string())?)
         }
     };
     let text = match format {
@@ -162,15 +159,7 @@ fn certified(scene: &Scene, format: Format) -> Result<Output, String> {
             "an impact with friction is not rounded for sure\nhint: take --exact, which decides its mode in fractions",
         ));
     }
-    let answers = numeric::correct(scene).map_err(|why| match why {
-        numeric::NoCorrect::NoPoint(why) => no_point(&why),
-        numeric::NoCorrect::Contradiction(laws) => {
-            numeric::NoAnswer::Contradiction(laws).to_string()
-        }
-        numeric::NoCorrect::Undecided => String::from(
-            "the values are irrational and the equations cannot be told from singular ones\nhint: take angles with rational cosine and sine, such as acos(3/5)",
-        ),
-    })?;
+    let answers = numeric::correct(scene).map_err(|why| why.to_string())?;
     let text = match format {
         Format::Text => render::certified::text(scene, &answers),
         Format::Json => pretty(&render::certified::json(scene, &answers)),
@@ -180,25 +169,10 @@ fn certified(scene: &Scene, format: Format) -> Result<Output, String> {
     Ok(Output { text, status })
 }
 
-fn no_point(why: &numeric::NoPoint) -> String {
-    match why {
-        numeric::NoPoint::Missing(symbols) => no_value(symbols),
-        numeric::NoPoint::Irrational(symbol) => format!(
-            "the value of {symbol} has no exact fraction\nhint: leave out --exact, or take an angle with rational cosine and sine, such as --set {symbol}=acos(3/5)"
-        ),
-    }
-}
-
-fn no_value<T: AsRef<str>>(symbols: &[T]) -> String {
-    let names: Vec<&str> = symbols.iter().map(AsRef::as_ref).collect();
-    let first = names.first().unwrap_or(&"v");
-    let list = names.join(", ");
-    format!("no value for {list}\nhint: give values in the scene or with --set {first}=…")
-}
-
 /// Follows a scene with stages in numbers; a stage that is lost does not hold.
 fn follow(scene: &Scene, format: Format) -> Result<Output, String> {
-    let point = numeric::follow::values(scene).map_err(|missing| no_value(&missing))?;
+    let point = numeric::follow::values(scene)
+        .map_err(|missing| numeric::NoPoint::Missing(missing).to_string())?;
     let followed = numeric::follow(scene, &point).map_err(|undefined| undefined.to_string())?;
     let text = match format {
         Format::Text => render::stages::text(scene, &followed, &point),

@@ -228,14 +228,16 @@ fn joints<'s>(stage: &Stage<'s>, motion: Option<&Motion<f64>>) -> Vec<Joint<'s>>
     let scene = stage.scene;
     let moving =
         |bodies: [usize; 2]| bodies.map(|b| Some(b).filter(|b| !scene.bodies[*b].is_fixed()));
-    let sure = |x: Unknown, y: Unknown, m: &Motion<f64>| m.determines(x) && m.determines(y);
+    let sure = |part: fn(usize, usize) -> Unknown, i: usize, m: &Motion<f64>| {
+        (0..2).all(|axis| m.determines(part(i, axis)))
+    };
     let mut out = Vec::new();
     for (i, contact) in scene.contacts.iter().enumerate() {
         let frictionless = matches!(contact.law, ContactLaw::Frictionless { .. });
         let normal = contact.normal.as_ref().filter(|_| frictionless);
         let known = motion.filter(|m| match frictionless {
             true => m.determines(Unknown::ContactNormal(i)),
-            false => sure(Unknown::ContactX(i), Unknown::ContactY(i), m),
+            false => sure(Unknown::Contact, i, m),
         });
         out.push(Joint {
             from: ImpulseAt::Contact(i),
@@ -249,7 +251,7 @@ fn joints<'s>(stage: &Stage<'s>, motion: Option<&Motion<f64>>) -> Vec<Joint<'s>>
         });
     }
     for (i, hinge) in scene.hinges.iter().enumerate() {
-        let known = motion.filter(|m| sure(Unknown::HingeX(i), Unknown::HingeY(i), m));
+        let known = motion.filter(|m| sure(Unknown::Hinge, i, m));
         out.push(Joint {
             from: ImpulseAt::Hinge(i),
             bodies: moving(hinge.bodies),

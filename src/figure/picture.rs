@@ -12,7 +12,7 @@ use super::stage::{Moment, Stage};
 use super::values::{Pair, size};
 use crate::expr::{Expr, Point};
 use crate::numeric::system::Unknown;
-use crate::numeric::{Motion, assemble, given, motion, solve_f64};
+use crate::numeric::{Motion, assemble, given, motion, motion_of, solve_f64};
 use crate::scene::Ask;
 
 /// Longest arrow in pixels.
@@ -138,8 +138,8 @@ pub fn after(stage: &Stage, motion: &Motion<f64>) -> Sheet {
     let most = fastest(stage, Some(motion));
     let fastest_spin = motion.spin.iter().fold(0.0, |m: f64, s| m.max(s.abs()));
     for (i, body) in scene.bodies.iter().enumerate() {
-        let known =
-            motion.determines(Unknown::VelocityX(i)) && motion.determines(Unknown::VelocityY(i));
+        let known = motion.determines(Unknown::Velocity(i, 0))
+            && motion.determines(Unknown::Velocity(i, 1));
         let v = motion.velocity[i];
         let start = stage.px(stage.poses[i].center);
         let start = [start[0] + asides[i][0], start[1] + asides[i][1]];
@@ -178,11 +178,7 @@ pub fn after(stage: &Stage, motion: &Motion<f64>) -> Sheet {
         ];
         let spin = motion.spin[*body];
         let v = [v[0] - spin * r[1], v[1] + spin * r[0]];
-        let known = [
-            Unknown::VelocityX(*body),
-            Unknown::VelocityY(*body),
-            Unknown::Spin(*body),
-        ];
+        let known = motion_of(*body);
         if size(v) > 1e-7 * most && known.into_iter().all(|u| motion.determines(u)) {
             let label = vector_name(&question.name, question.latex.as_deref());
             velocity(

@@ -7,11 +7,12 @@ use super::energy::{energy_after, energy_before, energy_lost, velocity_after};
 use std::fmt;
 
 use super::friction::settle;
-use super::given::{Given, GivenImpulse, GivenLaw, Reason, Undefined, given, vector};
+use super::given::{Given, GivenImpulse, GivenLaw, Undefined, given, vector};
 use super::number::{Number, dot};
 use super::path::NoPath;
 use super::solution::{Contradiction, Motion, Solution, motion};
-use super::system::{Law, System, Unknown, assemble};
+use super::system::{Law, System, Unknown, assemble, motion_of};
+use super::values::NoPoint;
 use crate::expr::{Point, Vector};
 use crate::scene::{Ask, EnergyWhen, ImpulseAt, Scene};
 
@@ -37,6 +38,10 @@ pub enum NoAnswer {
     Contradiction(Vec<Law>),
     /// The impact with friction has no end.
     NoPath(NoPath),
+    /// A parameter has no value, or none in fractions.
+    NoPoint(NoPoint),
+    /// No enclosure tells the equations apart from singular ones; at irrational values that cannot be decided.
+    Undecided,
 }
 
 impl fmt::Display for NoAnswer {
@@ -47,6 +52,10 @@ impl fmt::Display for NoAnswer {
             NoAnswer::NotANumber => f.write_str("asks for an equation, not for a number"),
             NoAnswer::Contradiction(_) => f.write_str("the laws contradict each other"),
             NoAnswer::NoPath(why) => write!(f, "{why}"),
+            NoAnswer::NoPoint(why) => write!(f, "{why}"),
+            NoAnswer::Undecided => f.write_str(
+                "the values are irrational and the equations cannot be told from singular ones\nhint: take angles with rational cosine and sine, such as acos(3/5)",
+            ),
         }
     }
 }
@@ -90,15 +99,12 @@ pub fn answer<T: Number>(
     };
     let known = |body: usize| match given.bodies.get(body) {
         Some(_) => Ok(body),
-        None => Err(NoAnswer::Undefined(Undefined {
-            quantity: "body asked for".into(),
-            reason: Reason::Missing,
-        })),
+        None => Err(NoAnswer::Undefined(Undefined::missing("body asked for"))),
     };
     match ask {
         Ask::Velocity { body, point, along } => {
             let body = known(*body)?;
-            let mut needs = vec![Unknown::VelocityX(body), Unknown::VelocityY(body)];
+            let mut needs = vec![Unknown::Velocity(body, 0), Unknown::Velocity(body, 1)];
             let velocity = match point {
                 // An enclosure minus itself is no exact zero, so the center of mass goes without an arm.
                 None => {
@@ -121,10 +127,9 @@ pub fn answer<T: Number>(
             let body = known(*body)?;
             determined(motion, &[Unknown::Spin(body)])?;
             let spin = motion.spin[body].clone();
-            Ok(Answer::Scalar(if *clockwise {
-                spin.negated()
-            } else {
-                spin
+            Ok(Answer::Scalar(match clockwise {
+                true => spin.negated(),
+                false => spin,
             }))
         }
         Ask::Impulse { from, on, along } => {
@@ -146,16 +151,7 @@ pub fn answer<T: Number>(
             }
             if *when != EnergyWhen::Before {
                 let bodies = (0..given.bodies.len()).filter(|i| of.is_none_or(|b| b == *i));
-                let needs: Vec<Unknown> = bodies
-                    .flat_map(|i| {
-                        [
-                            Unknown::VelocityX(i),
-                            Unknown::VelocityY(i),
-                            Unknown::Spin(i),
-                        ]
-                    })
-                    .collect();
-                determined(motion, &needs)?;
+                determined(motion, &bodies.flat_map(motion_of).collect::<Vec<_>>())?;
             }
             Ok(Answer::Scalar(match when {
                 EnergyWhen::Before => energy_before(given, *of),
@@ -174,29 +170,25 @@ fn impulse<T: Number>(
     given: &Given<T>,
     motion: &Motion<T>,
 ) -> Result<([T; 2], usize), NoAnswer> {
-    let missing = || {
-        NoAnswer::Undefined(Undefined {
-            quantity: "impulse asked for".into(),
-            reason: Reason::Missing,
-        })
+    let missing = || NoAnswer::Undefined(Undefined::missing("impulse asked for"));
+    let needs = |unknown: fn(usize, usize) -> Unknown, i: usize| {
+        let used = (0..2).filter(|axis| uses[*axis]);
+        determined(
+            motion,
+            &used.map(|axis| unknown(i, axis)).collect::<Vec<_>>(),
+        )
     };
     match from {
         ImpulseAt::Hinge(i) => {
             let hinge = given.hinges.get(i).ok_or_else(missing)?;
-            determined(
-                motion,
-                &used(uses, [Unknown::HingeX(i), Unknown::HingeY(i)]),
-            )?;
+            needs(Unknown::Hinge, i)?;
             Ok((motion.hinge[i].clone(), hinge.bodies[1]))
         }
         ImpulseAt::Contact(i) => {
             let contact = given.contacts.get(i).ok_or_else(missing)?;
             match contact.law {
                 GivenLaw::Frictionless(_) => determined(motion, &[Unknown::ContactNormal(i)])?,
-                _ => determined(
-                    motion,
-                    &used(uses, [Unknown::ContactX(i), Unknown::ContactY(i)]),
-                )?,
+                _ => needs(Unknown::Contact, i)?,
             }
             Ok((motion.contact[i].clone(), contact.joint.bodies[1]))
         }
@@ -210,21 +202,11 @@ fn impulse<T: Number>(
     }
 }
 
-fn used(uses: [bool; 2], components: [Unknown; 2]) -> Vec<Unknown> {
-    let kept = components.into_iter().zip(uses).filter(|(_, used)| *used);
-    kept.map(|(component, _)| component).collect()
-}
-
 fn determined<T>(motion: &Motion<T>, needs: &[Unknown]) -> Result<(), NoAnswer> {
-    let open: Vec<Unknown> = needs
-        .iter()
-        .copied()
-        .filter(|u| !motion.determines(*u))
-        .collect();
-    if open.is_empty() {
-        Ok(())
-    } else {
-        Err(NoAnswer::NotDetermined(open))
+    let open = needs.iter().copied().filter(|u| !motion.determines(*u));
+    match open.collect::<Vec<_>>() {
+        none if none.is_empty() => Ok(()),
+        open => Err(NoAnswer::NotDetermined(open)),
     }
 }
 

@@ -67,31 +67,20 @@ impl CorrectAnswers {
     }
 }
 
-/// Why there are none.
-#[derive(Clone, Debug, PartialEq)]
-pub enum NoCorrect {
-    /// A parameter has no value.
-    NoPoint(NoPoint),
-    /// These laws contradict each other.
-    Contradiction(Vec<Law>),
-    /// No enclosure tells the equations apart from singular ones; at irrational values that cannot be decided here.
-    Undecided,
-}
-
 /// Everything a scene asks for, correctly rounded.
-pub fn correct(scene: &Scene) -> Result<CorrectAnswers, NoCorrect> {
-    given_values(scene).map_err(NoCorrect::NoPoint)?;
+pub fn correct(scene: &Scene) -> Result<CorrectAnswers, NoAnswer> {
+    given_values(scene).map_err(NoAnswer::NoPoint)?;
     if let Ok(at) = exact_values(scene) {
         match given(scene, &at) {
             Ok(numbers) => {
                 let system = assemble(&numbers);
-                let clash = |c: Contradiction| NoCorrect::Contradiction(c.laws(&system));
+                let clash = |c: Contradiction| NoAnswer::Contradiction(c.laws(&system));
                 let solution = solve_exact(&system).map_err(clash)?;
                 let rounded = |v: &Rational| Correct::Rounded(to_f64(v), How::Exact);
                 return Ok(told(scene, &at, &numbers, &system, &solution, rounded));
             }
             Err(undefined) if undefined.reason != Reason::NotANumber => {
-                return Err(NoCorrect::Undecided);
+                return Err(NoAnswer::Undecided);
             }
             Err(_) => {}
         }
@@ -110,15 +99,15 @@ pub fn correct(scene: &Scene) -> Result<CorrectAnswers, NoCorrect> {
         }
         best = Some(joined);
     }
-    best.ok_or(NoCorrect::Undecided)
+    best.ok_or(NoAnswer::Undecided)
 }
 
 /// By enclosures of `BITS` bits; `None` where they cannot tell the equations from singular ones.
 fn enclosed<const BITS: u32>(
     scene: &Scene,
     part: Option<&Part>,
-) -> Result<Option<CorrectAnswers>, NoCorrect> {
-    let at = enclosed_point::<BITS>(scene).map_err(NoCorrect::NoPoint)?;
+) -> Result<Option<CorrectAnswers>, NoAnswer> {
+    let at = enclosed_point::<BITS>(scene).map_err(NoAnswer::NoPoint)?;
     let Ok(numbers) = given(scene, &at) else {
         return Ok(None);
     };

@@ -6,38 +6,26 @@
 //! may underflow before there is any equation.
 
 use super::answer::{Answer, Answered, NoAnswer, answers};
-use super::correct::{Correct, NoCorrect, correct};
+use super::correct::{Correct, correct};
 use super::exact::solve_exact;
 use super::float::solve_f64;
-use super::values::{NoPoint, exact_values, values};
+use super::values::{exact_values, values};
 use crate::expr::Rational;
 use crate::expr::number::to_f64;
 use crate::scene::Scene;
 
-/// Why there are none.
-#[derive(Clone, Debug, PartialEq)]
-pub enum NoDoubles {
-    /// A parameter has no value.
-    NoPoint(NoPoint),
-    /// The scene has no motion at its values.
-    NoAnswer(NoAnswer),
-}
-
 /// A double for every question that asks for numbers.
-pub fn doubles(scene: &Scene) -> Result<Answered<f64>, NoDoubles> {
+pub fn doubles(scene: &Scene) -> Result<Answered<f64>, NoAnswer> {
     if scene.friction().is_some() {
         return with_friction(scene);
     }
     let found = match correct(scene) {
         Ok(found) => found,
-        Err(NoCorrect::NoPoint(why)) => return Err(NoDoubles::NoPoint(why)),
-        Err(NoCorrect::Contradiction(laws)) => {
-            return Err(NoDoubles::NoAnswer(NoAnswer::Contradiction(laws)));
+        Err(NoAnswer::Undecided) => {
+            let point = values(scene).map_err(NoAnswer::NoPoint)?;
+            return answers(scene, &point, solve_f64);
         }
-        Err(NoCorrect::Undecided) => {
-            let point = values(scene).map_err(NoDoubles::NoPoint)?;
-            return answers(scene, &point, solve_f64).map_err(NoDoubles::NoAnswer);
-        }
+        Err(why) => return Err(why),
     };
     let answer = |components: Vec<Correct>| {
         let numbers: Option<Vec<f64>> = components.iter().map(double).collect();
@@ -52,7 +40,7 @@ pub fn doubles(scene: &Scene) -> Result<Answered<f64>, NoDoubles> {
 }
 
 /// With friction the impact is followed in fractions where there are any, so that its mode is decided exactly.
-fn with_friction(scene: &Scene) -> Result<Answered<f64>, NoDoubles> {
+fn with_friction(scene: &Scene) -> Result<Answered<f64>, NoAnswer> {
     if let Ok(point) = exact_values(scene)
         && let Ok(found) = answers(scene, &point, solve_exact)
     {
@@ -63,8 +51,8 @@ fn with_friction(scene: &Scene) -> Result<Answered<f64>, NoDoubles> {
         let named = found.into_iter();
         return Ok(named.map(|(name, a)| (name, a.map(answer))).collect());
     }
-    let point = values(scene).map_err(NoDoubles::NoPoint)?;
-    answers(scene, &point, solve_f64).map_err(NoDoubles::NoAnswer)
+    let point = values(scene).map_err(NoAnswer::NoPoint)?;
+    answers(scene, &point, solve_f64)
 }
 
 fn double(c: &Correct) -> Option<f64> {

@@ -1,6 +1,6 @@
 //! Kinetic energy before, after and lost; the loss from impulses, never as a difference of large numbers.
 
-use super::given::{Freedom, Given, GivenLaw};
+use super::given::{Freedom, Given, GivenLaw, Joint};
 use super::number::{Number, difference, dot, total, velocity_at};
 use super::solution::Motion;
 
@@ -11,11 +11,8 @@ pub fn velocity_after<T: Number>(
     body: usize,
     point: &[T; 2],
 ) -> [T; 2] {
-    velocity_at(
-        &motion.velocity[body],
-        &motion.spin[body],
-        &given.bodies[body].arm(point),
-    )
+    let arm = given.bodies[body].arm(point);
+    velocity_at(&motion.velocity[body], &motion.spin[body], &arm)
 }
 
 /// Velocity of the second body's point relative to the first body's, just before and just after [m/s].
@@ -58,39 +55,25 @@ pub fn energy_lost<T: Number>(given: &Given<T>, motion: &Motion<T>, body: Option
 fn lost_by_all<T: Number>(given: &Given<T>, motion: &Motion<T>) -> T {
     let mut lost = T::zero();
     let mut lose = |amount: T| lost = lost.plus(&amount);
-    for (i, contact) in given.contacts.iter().enumerate() {
-        let impulse = &motion.contact[i];
-        let [before, after] =
-            relative_velocities(given, motion, contact.joint.bodies, &contact.joint.at);
-        lose(match (&contact.law, &contact.normal) {
+    for (contact, impulse) in given.contacts.iter().zip(&motion.contact) {
+        let Joint { bodies, at } = &contact.joint;
+        let [before, after] = relative_velocities(given, motion, *bodies, at);
+        let twice = match (&contact.law, &contact.normal) {
             (GivenLaw::Frictionless(e), Some(n)) => {
                 let factor = T::one().minus(e);
-                dot(impulse, n)
-                    .times(&dot(&before, n))
-                    .times(&factor)
-                    .halved()
-                    .negated()
+                dot(impulse, n).times(&dot(&before, n)).times(&factor)
             }
-            (GivenLaw::Sticking, _) => dot(impulse, &before).halved().negated(),
-            _ => dot(impulse, &total(&before, &after)).halved().negated(),
-        });
-        lose(work_on_fixed(
-            given,
-            contact.joint.bodies,
-            &contact.joint.at,
-            impulse,
-        ));
+            (GivenLaw::Sticking, _) => dot(impulse, &before),
+            _ => dot(impulse, &total(&before, &after)),
+        };
+        lose(twice.halved().negated());
+        lose(work_on_fixed(given, *bodies, at, impulse));
     }
-    for (i, hinge) in given.hinges.iter().enumerate() {
+    for (hinge, impulse) in given.hinges.iter().zip(&motion.hinge) {
         // After, both sides of a hinge move alike; before, they do if the scene is consistent.
         let [before, _] = relative_velocities(given, motion, hinge.bodies, &hinge.at);
-        lose(dot(&motion.hinge[i], &before).halved().negated());
-        lose(work_on_fixed(
-            given,
-            hinge.bodies,
-            &hinge.at,
-            &motion.hinge[i],
-        ));
+        lose(dot(impulse, &before).halved().negated());
+        lose(work_on_fixed(given, hinge.bodies, &hinge.at, impulse));
     }
     for (i, blow) in given.blows.iter().enumerate() {
         if given.bodies[blow.body].freedom != Freedom::Fixed {
@@ -130,19 +113,16 @@ pub fn work<T: Number>(given: &Given<T>, motion: &Motion<T>, body: Option<usize>
             &velocity_after(given, motion, acted, at),
         );
         let done = dot(impulse, &path).halved();
-        sum = if sign {
-            sum.plus(&done)
-        } else {
-            sum.minus(&done)
+        sum = match sign {
+            true => sum.plus(&done),
+            false => sum.minus(&done),
         };
     };
-    for (hinge, impulse) in given.hinges.iter().zip(&motion.hinge) {
-        on(hinge.bodies[0], &hinge.at, impulse, false);
-        on(hinge.bodies[1], &hinge.at, impulse, true);
-    }
-    for (contact, impulse) in given.contacts.iter().zip(&motion.contact) {
-        on(contact.joint.bodies[0], &contact.joint.at, impulse, false);
-        on(contact.joint.bodies[1], &contact.joint.at, impulse, true);
+    let hinges = given.hinges.iter().zip(&motion.hinge);
+    let contacts = given.contacts.iter().map(|c| &c.joint).zip(&motion.contact);
+    for (joint, impulse) in hinges.chain(contacts) {
+        on(joint.bodies[0], &joint.at, impulse, false);
+        on(joint.bodies[1], &joint.at, impulse, true);
     }
     for (blow, impulse) in given.blows.iter().zip(&motion.blow) {
         on(blow.body, &blow.at, impulse, true);

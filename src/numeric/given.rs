@@ -167,6 +167,16 @@ impl fmt::Display for Undefined {
 
 impl std::error::Error for Undefined {}
 
+impl Undefined {
+    /// What the scene does not say.
+    pub fn missing(quantity: impl Into<String>) -> Undefined {
+        Undefined {
+            quantity: quantity.into(),
+            reason: Reason::Missing,
+        }
+    }
+}
+
 /// Every number of the scene at a point, or the first quantity that has none.
 pub fn given<T: Number>(scene: &Scene, at: &Point<T>) -> Result<Given<T>, Undefined> {
     let mut bodies = Vec::with_capacity(scene.bodies.len());
@@ -205,10 +215,7 @@ pub(super) fn around<T: Number>(
 ) -> Result<Given<T>, Undefined> {
     let known_body = |body: usize, whose: &dyn Fn() -> String| match scene.bodies.get(body) {
         Some(_) => Ok(body),
-        None => Err(Undefined {
-            quantity: whose(),
-            reason: Reason::Missing,
-        }),
+        None => Err(Undefined::missing(whose())),
     };
     let pair = |bodies: [usize; 2], whose: &dyn Fn() -> String| {
         Ok([known_body(bodies[0], whose)?, known_body(bodies[1], whose)?])
@@ -305,10 +312,7 @@ fn contact_law<T: Number>(contact: &Contact, at: &Point<T>) -> Result<GivenLaw<T
         ),
         ContactLaw::Frictionless { restitution } => {
             if contact.normal.is_none() {
-                return Err(Undefined {
-                    quantity: format!("normal of contact {name}"),
-                    reason: Reason::Missing,
-                });
+                return Err(Undefined::missing(format!("normal of contact {name}")));
             }
             GivenLaw::Frictionless(value(restitution, at, || {
                 format!("restitution of contact {name}")

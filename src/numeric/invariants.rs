@@ -15,10 +15,8 @@ use super::solution::Motion;
 /// What an identity states. Bodies, contacts and hinges by index.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Invariant {
-    /// Momentum of a system of bodies along x, after = before + impulses from outside the system.
-    MomentumX(Vec<usize>),
-    /// The same along y.
-    MomentumY(Vec<usize>),
+    /// Momentum of a system of bodies along x (0) or y (1), after = before + impulses from outside the system.
+    Momentum(Vec<usize>, usize),
     /// Angular momentum of a system about the n-th of the points tried, after = before + moments of outside impulses.
     AngularMomentum(Vec<usize>, usize),
     /// Both sides of a hinge have the same velocity after, along x (0) or y (1).
@@ -105,10 +103,8 @@ fn balances<T: Number>(given: &Given<T>, motion: &Motion<T>, list: &mut Vec<Iden
         systems.push(free.clone());
     }
     if free.len() > 2 {
-        systems.extend(
-            free.iter()
-                .map(|i| free.iter().copied().filter(|j| j != i).collect()),
-        );
+        let others = |i| free.iter().copied().filter(|j| j != i).collect();
+        systems.extend(free.iter().map(others));
     }
     let mut points = vec![[T::zero(), T::zero()]];
     points.extend(given.hinges.iter().map(|h| h.at.clone()));
@@ -127,7 +123,7 @@ fn balances<T: Number>(given: &Given<T>, motion: &Motion<T>, list: &mut Vec<Iden
             for (_, _, impulse) in &outside {
                 right.add(impulse[axis].clone());
             }
-            let what = [Invariant::MomentumX, Invariant::MomentumY][axis](system.clone());
+            let what = Invariant::Momentum(system.clone(), axis);
             list.push(identity(what, left, right));
         }
         for (k, point) in points.iter().enumerate() {
@@ -151,11 +147,8 @@ fn balances<T: Number>(given: &Given<T>, motion: &Motion<T>, list: &mut Vec<Iden
                 };
                 right.add(cross(&difference(acts_at, point), impulse));
             }
-            list.push(identity(
-                Invariant::AngularMomentum(system.clone(), k),
-                left,
-                right,
-            ));
+            let what = Invariant::AngularMomentum(system.clone(), k);
+            list.push(identity(what, left, right));
         }
     }
 }
@@ -177,11 +170,8 @@ fn outside_impulses<T: Number>(
             continue;
         }
         if system.contains(&one) {
-            list.push((
-                one,
-                joint.at.clone(),
-                [impulse[0].negated(), impulse[1].negated()],
-            ));
+            let back = [impulse[0].negated(), impulse[1].negated()];
+            list.push((one, joint.at.clone(), back));
         }
         if system.contains(&two) {
             list.push((two, joint.at.clone(), impulse.clone()));
@@ -205,28 +195,18 @@ fn laws<T: Number>(given: &Given<T>, motion: &Motion<T>, list: &mut Vec<Identity
     let mut same = |what: Invariant, left: &T, right: &T| {
         list.push(identity(what, single(left), single(right)))
     };
-    for (i, hinge) in given.hinges.iter().enumerate() {
-        let [one, two] = hinge
-            .bodies
-            .map(|b| velocity_after(given, motion, b, &hinge.at));
-        let [one_before, two_before] = hinge
-            .bodies
-            .map(|b| given.bodies[b].velocity_before(&hinge.at));
+    for (i, Joint { bodies, at }) in given.hinges.iter().enumerate() {
+        let [one, two] = bodies.map(|b| velocity_after(given, motion, b, at));
+        let [one_before, two_before] = bodies.map(|b| given.bodies[b].velocity_before(at));
         for axis in 0..2 {
+            let before = Invariant::HingeBefore(i, axis);
             same(Invariant::Hinge(i, axis), &two[axis], &one[axis]);
-            same(
-                Invariant::HingeBefore(i, axis),
-                &two_before[axis],
-                &one_before[axis],
-            );
+            same(before, &two_before[axis], &one_before[axis]);
         }
     }
     for (i, contact) in given.contacts.iter().enumerate() {
-        let at = &contact.joint.at;
-        let [one, two] = contact
-            .joint
-            .bodies
-            .map(|b| velocity_after(given, motion, b, at));
+        let Joint { bodies, at } = &contact.joint;
+        let [one, two] = bodies.map(|b| velocity_after(given, motion, b, at));
         match (&contact.law, &contact.normal) {
             (GivenLaw::Sticking, _) => {
                 for axis in 0..2 {
@@ -234,18 +214,12 @@ fn laws<T: Number>(given: &Given<T>, motion: &Motion<T>, list: &mut Vec<Identity
                 }
             }
             (GivenLaw::Frictionless(e), Some(n)) => {
-                let [before, _] = relative_velocities(given, motion, contact.joint.bodies, at);
+                let [before, _] = relative_velocities(given, motion, *bodies, at);
                 let target = e.times(&dot(&before, n));
-                same(
-                    Invariant::Restitution(i),
-                    &dot(&two, n).plus(&target),
-                    &dot(&one, n),
-                );
-                let along = [
-                    motion.contact[i][0].times(&n[1]),
-                    motion.contact[i][1].times(&n[0]),
-                ];
-                same(Invariant::NoFriction(i), &along[0], &along[1]);
+                let what = Invariant::Restitution(i);
+                same(what, &dot(&two, n).plus(&target), &dot(&one, n));
+                let [x, y] = &motion.contact[i];
+                same(Invariant::NoFriction(i), &x.times(&n[1]), &y.times(&n[0]));
             }
             _ => {}
         }
@@ -264,10 +238,8 @@ fn laws<T: Number>(given: &Given<T>, motion: &Motion<T>, list: &mut Vec<Identity
 }
 
 fn energies<T: Number>(given: &Given<T>, motion: &Motion<T>, list: &mut Vec<Identity<T>>) {
-    let (before, after) = (
-        energy_before(given, None),
-        energy_after(given, motion, None),
-    );
+    let before = energy_before(given, None);
+    let after = energy_after(given, motion, None);
     let work = work(given, motion, None);
     let size = before.size() + after.size() + work.size();
     let gain = after.minus(&before);
@@ -284,14 +256,12 @@ fn energies<T: Number>(given: &Given<T>, motion: &Motion<T>, list: &mut Vec<Iden
     claim(Invariant::EnergyLost, lost.clone(), gain.negated());
     if let Some(e) = one_restitution(given, motion) {
         // Loss as seen from the walls: what they take or give is not lost.
-        let lost = given.contacts.iter().zip(&motion.contact).fold(
-            T::zero(),
-            |sum, (contact, impulse)| {
-                let [a, b] =
-                    relative_velocities(given, motion, contact.joint.bodies, &contact.joint.at);
-                sum.minus(&dot(impulse, &a).plus(&dot(impulse, &b)).halved())
-            },
-        );
+        let contacts = given.contacts.iter().zip(&motion.contact);
+        let lost = contacts.fold(T::zero(), |sum, (contact, impulse)| {
+            let Joint { bodies, at } = &contact.joint;
+            let [a, b] = relative_velocities(given, motion, *bodies, at);
+            sum.minus(&dot(impulse, &a).plus(&dot(impulse, &b)).halved())
+        });
         let change = energy_of_change(given, motion);
         let left = lost.times(&T::one().plus(&e));
         claim(Invariant::Carnot, left, change.times(&T::one().minus(&e)));
@@ -319,16 +289,12 @@ fn one_restitution<T: Number>(given: &Given<T>, motion: &Motion<T>) -> Option<T>
     let quiet = given.blows.is_empty() && given.known.is_empty();
     let consistent = given.hinges.iter().all(|h| {
         let [[x, y], _] = relative_velocities(given, motion, h.bodies, &h.at);
-        let size = given.bodies[h.bodies[0]]
-            .velocity_before(&h.at)
-            .iter()
-            .map(Number::size)
-            .sum::<f64>();
-        [x, y]
-            .iter()
-            .all(|v| v.is_zero() || v.size() <= 1e-12 * size)
+        let own = given.bodies[h.bodies[0]].velocity_before(&h.at);
+        let size = own.iter().map(Number::size).sum::<f64>();
+        let vanishes = |v: &T| v.is_zero() || v.size() <= 1e-12 * size;
+        vanishes(&x) && vanishes(&y)
     });
-    if quiet && consistent { one } else { None }
+    one.filter(|_| quiet && consistent)
 }
 
 /// What a contact with a normal says of itself.

@@ -30,8 +30,8 @@ pub mod values;
 mod tests;
 
 pub use answer::{Answer, Answered, NoAnswer, answer, answers};
-pub use correct::{Correct, CorrectAnswers, How, NoCorrect, correct};
-pub use doubles::{NoDoubles, doubles};
+pub use correct::{Correct, CorrectAnswers, How, correct};
+pub use doubles::doubles;
 pub use energy::{energy_after, energy_before, energy_lost};
 pub use exact::solve_exact;
 pub use field::eliminate;
@@ -43,5 +43,5 @@ pub use invariants::{ContactReport, Identity, Invariant, contact_reports, identi
 pub use number::Number;
 pub use points::{Needed, needed, point_of_any_size, random_point, rounded};
 pub use solution::{Contradiction, Motion, Solution, motion};
-pub use system::{Law, System, Unknown, assemble};
+pub use system::{Law, System, Unknown, assemble, motion_of};
 pub use values::{NoPoint, exact_values, values};

@@ -112,13 +112,10 @@ pub fn motion<T: Number>(
     for (i, unknown) in system.unknowns.iter().enumerate() {
         let value = solution.values[i].clone();
         match *unknown {
-            Unknown::VelocityX(b) => motion.velocity[b][0] = value,
-            Unknown::VelocityY(b) => motion.velocity[b][1] = value,
+            Unknown::Velocity(b, axis) => motion.velocity[b][axis] = value,
             Unknown::Spin(b) => motion.spin[b] = value,
-            Unknown::HingeX(h) => motion.hinge[h][0] = value,
-            Unknown::HingeY(h) => motion.hinge[h][1] = value,
-            Unknown::ContactX(c) => motion.contact[c][0] = value,
-            Unknown::ContactY(c) => motion.contact[c][1] = value,
+            Unknown::Hinge(h, axis) => motion.hinge[h][axis] = value,
+            Unknown::Contact(c, axis) => motion.contact[c][axis] = value,
             Unknown::ContactNormal(c) => {
                 if let (GivenLaw::Frictionless(_), Some(n)) =
                     (&given.contacts[c].law, &given.contacts[c].normal)

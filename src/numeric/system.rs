@@ -4,26 +4,20 @@
 //! equation from `laws`; that is why agreement between the two means something. Positions are frozen during the
 //! collision and finite forces have no impulse. Signs: counterclockwise positive, impulses are those on the second body.
 
-use super::given::{Freedom, Given, GivenImpulse, GivenLaw};
+use super::given::{Freedom, Given, GivenImpulse, GivenLaw, Joint};
 use super::number::{Number, cross, dot};
 
 /// A component that the equations determine, or fail to. The indices are those of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Unknown {
-    /// x-component of the velocity of a body's center of mass just after [m/s].
-    VelocityX(usize),
-    /// y-component of the velocity of a body's center of mass just after [m/s].
-    VelocityY(usize),
+    /// Component along x (0) or y (1) of the velocity of a body's center of mass just after [m/s].
+    Velocity(usize, usize),
     /// Angular velocity of a body just after [rad/s].
     Spin(usize),
-    /// x-component of a hinge's impulse on its second body \[N s\].
-    HingeX(usize),
-    /// y-component of a hinge's impulse on its second body \[N s\].
-    HingeY(usize),
-    /// x-component of a contact's impulse on its second body \[N s\].
-    ContactX(usize),
-    /// y-component of a contact's impulse on its second body \[N s\].
-    ContactY(usize),
+    /// Component along x (0) or y (1) of a hinge's impulse on its second body \[N s\].
+    Hinge(usize, usize),
+    /// Component along x (0) or y (1) of a contact's impulse on its second body \[N s\].
+    Contact(usize, usize),
     /// A contact's impulse on its second body, along the normal \[N s\].
     ContactNormal(usize),
     /// Size of a blow along its direction \[N s\].
@@ -33,30 +27,30 @@ pub enum Unknown {
 impl Unknown {
     /// Whether it is a velocity or the spin of this body.
     pub fn is_motion_of(self, body: usize) -> bool {
-        match self {
-            Unknown::VelocityX(b) | Unknown::VelocityY(b) | Unknown::Spin(b) => b == body,
-            _ => false,
-        }
+        matches!(self, Unknown::Velocity(b, _) | Unknown::Spin(b) if b == body)
     }
+}
+
+/// Everything that a body's motion just after is made of.
+pub fn motion_of(body: usize) -> [Unknown; 3] {
+    [
+        Unknown::Velocity(body, 0),
+        Unknown::Velocity(body, 1),
+        Unknown::Spin(body),
+    ]
 }
 
 /// The law a row states. The indices are those of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Law {
-    /// Momentum of a body along x.
-    MomentumX(usize),
-    /// Momentum of a body along y.
-    MomentumY(usize),
+    /// Momentum of a body along x (0) or y (1).
+    Momentum(usize, usize),
     /// Angular momentum of a body about its center of mass.
     AngularMomentum(usize),
-    /// Both bodies move alike along x at a hinge.
-    HingeX(usize),
-    /// Both bodies move alike along y at a hinge.
-    HingeY(usize),
-    /// Both bodies move alike along x at a sticking contact.
-    StickingX(usize),
-    /// Both bodies move alike along y at a sticking contact.
-    StickingY(usize),
+    /// Both bodies move alike along x (0) or y (1) at a hinge.
+    Hinge(usize, usize),
+    /// Both bodies move alike along x (0) or y (1) at a sticking contact.
+    Sticking(usize, usize),
     /// Normal relative velocity after = −e × before, at a contact.
     Restitution(usize),
     /// Condition 0 or 1 of a contact, on its impulse and the relative velocity after.
@@ -140,11 +134,7 @@ pub fn assemble<T: Number>(given: &Given<T>) -> System<T> {
 pub fn unknowns<T>(given: &Given<T>, into: &mut Vec<Unknown>) {
     into.clear();
     for (i, body) in given.bodies.iter().enumerate() {
-        let all = [
-            Unknown::VelocityX(i),
-            Unknown::VelocityY(i),
-            Unknown::Spin(i),
-        ];
+        let all = motion_of(i);
         into.extend_from_slice(match body.freedom {
             Freedom::Fixed => &[],
             Freedom::Particle => &all[..2],
@@ -152,17 +142,12 @@ pub fn unknowns<T>(given: &Given<T>, into: &mut Vec<Unknown>) {
         });
     }
     for i in 0..given.hinges.len() {
-        into.extend([Unknown::HingeX(i), Unknown::HingeY(i)]);
+        into.extend([Unknown::Hinge(i, 0), Unknown::Hinge(i, 1)]);
     }
     for (i, contact) in given.contacts.iter().enumerate() {
         match contact.law {
             GivenLaw::Frictionless(_) => into.push(Unknown::ContactNormal(i)),
-            GivenLaw::None
-            | GivenLaw::Sticking
-            | GivenLaw::Friction(_)
-            | GivenLaw::Conditions(_) => {
-                into.extend([Unknown::ContactX(i), Unknown::ContactY(i)]);
-            }
+            _ => into.extend([Unknown::Contact(i, 0), Unknown::Contact(i, 1)]),
         }
     }
     let sizes = given.blows.iter().enumerate();
@@ -177,13 +162,12 @@ fn balances<T: Number>(given: &Given<T>, columns: &Columns, rows: &mut Rows<T>) 
         let Some(column) = columns.body[i] else {
             continue;
         };
-        let x = rows.start(Law::MomentumX(i));
-        first_row[i] = Some(x);
-        rows.put(x, column, body.mass.clone());
-        rows.right[x] = body.mass.times(&body.velocity[0]);
-        let y = rows.start(Law::MomentumY(i));
-        rows.put(y, column + 1, body.mass.clone());
-        rows.right[y] = body.mass.times(&body.velocity[1]);
+        first_row[i] = Some(rows.laws.len());
+        for axis in 0..2 {
+            let row = rows.start(Law::Momentum(i, axis));
+            rows.put(row, column + axis, body.mass.clone());
+            rows.right[row] = body.mass.times(&body.velocity[axis]);
+        }
         if body.freedom == Freedom::Rigid {
             let turn = rows.start(Law::AngularMomentum(i));
             rows.put(turn, column + 2, body.inertia.clone());
@@ -199,11 +183,8 @@ fn balances<T: Number>(given: &Given<T>, columns: &Columns, rows: &mut Rows<T>) 
             rows.add(row, column, &sign(direction[0].clone()));
             rows.add(row + 1, column, &sign(direction[1].clone()));
             if given.bodies[body].freedom == Freedom::Rigid {
-                rows.add(
-                    row + 2,
-                    column,
-                    &sign(cross(&given.bodies[body].arm(at), direction)),
-                );
+                let lever = cross(&given.bodies[body].arm(at), direction);
+                rows.add(row + 2, column, &sign(lever));
             }
         };
     for (i, hinge) in given.hinges.iter().enumerate() {
@@ -212,24 +193,14 @@ fn balances<T: Number>(given: &Given<T>, columns: &Columns, rows: &mut Rows<T>) 
             push(body, &hinge.at, &ey, columns.hinge[i] + 1, on_second);
         }
     }
-    for (i, contact) in given.contacts.iter().enumerate() {
-        for (body, on_second) in [
-            (contact.joint.bodies[0], false),
-            (contact.joint.bodies[1], true),
-        ] {
+    for (contact, column) in given.contacts.iter().zip(&columns.contact) {
+        let Joint { bodies, at } = &contact.joint;
+        for (body, on_second) in [(bodies[0], false), (bodies[1], true)] {
             match (&contact.law, &contact.normal) {
-                (GivenLaw::Frictionless(_), Some(n)) => {
-                    push(body, &contact.joint.at, n, columns.contact[i], on_second)
-                }
+                (GivenLaw::Frictionless(_), Some(n)) => push(body, at, n, *column, on_second),
                 _ => {
-                    push(body, &contact.joint.at, &ex, columns.contact[i], on_second);
-                    push(
-                        body,
-                        &contact.joint.at,
-                        &ey,
-                        columns.contact[i] + 1,
-                        on_second,
-                    );
+                    push(body, at, &ex, *column, on_second);
+                    push(body, at, &ey, column + 1, on_second);
                 }
             }
         }
@@ -258,26 +229,20 @@ fn joints<T: Number>(given: &Given<T>, columns: &Columns, rows: &mut Rows<T>) {
         |rows: &mut Rows<T>, law: Law, [one, two]: [usize; 2], at: &[T; 2], along: &[T; 2]| {
             let row = rows.start(law);
             rows.add_velocity(row, columns, given, two, at, along);
-            rows.add_velocity(
-                row,
-                columns,
-                given,
-                one,
-                at,
-                &[along[0].negated(), along[1].negated()],
-            );
+            let back = along.each_ref().map(T::negated);
+            rows.add_velocity(row, columns, given, one, at, &back);
             row
         };
     for (i, hinge) in given.hinges.iter().enumerate() {
-        relative(rows, Law::HingeX(i), hinge.bodies, &hinge.at, &ex);
-        relative(rows, Law::HingeY(i), hinge.bodies, &hinge.at, &ey);
+        relative(rows, Law::Hinge(i, 0), hinge.bodies, &hinge.at, &ex);
+        relative(rows, Law::Hinge(i, 1), hinge.bodies, &hinge.at, &ey);
     }
     for (i, contact) in given.contacts.iter().enumerate() {
         let (bodies, at) = (contact.joint.bodies, &contact.joint.at);
         match (&contact.law, &contact.normal) {
             (GivenLaw::Sticking, _) => {
-                relative(rows, Law::StickingX(i), bodies, at, &ex);
-                relative(rows, Law::StickingY(i), bodies, at, &ey);
+                relative(rows, Law::Sticking(i, 0), bodies, at, &ex);
+                relative(rows, Law::Sticking(i, 1), bodies, at, &ey);
             }
             (GivenLaw::Frictionless(e), Some(n)) => {
                 let row = relative(rows, Law::Restitution(i), bodies, at, n);
@@ -327,10 +292,7 @@ impl Columns {
         let hinge = given.hinges.iter().map(|_| take(2)).collect();
         let contact = given.contacts.iter().map(|contact| match contact.law {
             GivenLaw::Frictionless(_) => take(1),
-            GivenLaw::None
-            | GivenLaw::Sticking
-            | GivenLaw::Friction(_)
-            | GivenLaw::Conditions(_) => take(2),
+            _ => take(2),
         });
         let contact = contact.collect();
         let blow = given.blows.iter().map(|blow| match blow.impulse {
@@ -372,10 +334,9 @@ impl<T: Number> Rows<T> {
 
     fn add(&mut self, row: usize, column: usize, value: &T) {
         let cell = &mut self.matrix[row * self.columns + column];
-        *cell = if cell.is_zero() {
-            value.clone()
-        } else {
-            cell.plus(value)
+        *cell = match cell.is_zero() {
+            true => value.clone(),
+            false => cell.plus(value),
         };
     }
 

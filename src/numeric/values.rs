@@ -19,6 +19,25 @@ pub enum NoPoint {
     Irrational(Symbol),
 }
 
+impl std::fmt::Display for NoPoint {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            NoPoint::Missing(names) => {
+                let first = names.first().map_or("v", |name| name);
+                let names = names.join(", ");
+                write!(
+                    f,
+                    "no value for {names}\nhint: give values in the scene or with --set {first}=…"
+                )
+            }
+            NoPoint::Irrational(name) => write!(
+                f,
+                "the value of {name} has no exact fraction\nhint: leave out --exact, or take an angle with rational cosine and sine, such as --set {name}=acos(3/5)"
+            ),
+        }
+    }
+}
+
 /// The point in doubles.
 pub fn values(scene: &Scene) -> Result<Point<f64>, NoPoint> {
     let all = given_values(scene)?;

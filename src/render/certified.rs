@@ -8,6 +8,8 @@ use crate::numeric::redundant::POINTS;
 use crate::numeric::{Correct, CorrectAnswers, How, Law, Unknown};
 use crate::scene::Scene;
 
+const AXES: [&str; 2] = ["x", "y"];
+
 /// Answers first, then every unknown of the full system.
 pub fn text(scene: &Scene, answers: &CorrectAnswers) -> String {
     let mut out = String::new();
@@ -60,13 +62,10 @@ fn law(scene: &Scene, law: Law) -> String {
     let hinge = |h: usize| &scene.hinges[h].name;
     let contact = |c: usize| &scene.contacts[c].name;
     match law {
-        Law::MomentumX(b) => format!("momentum of {} along x", body(b)),
-        Law::MomentumY(b) => format!("momentum of {} along y", body(b)),
+        Law::Momentum(b, axis) => format!("momentum of {} along {}", body(b), AXES[axis]),
         Law::AngularMomentum(b) => format!("angular momentum of {}", body(b)),
-        Law::HingeX(h) => format!("hinge {} along x", hinge(h)),
-        Law::HingeY(h) => format!("hinge {} along y", hinge(h)),
-        Law::StickingX(c) => format!("sticking at {} along x", contact(c)),
-        Law::StickingY(c) => format!("sticking at {} along y", contact(c)),
+        Law::Hinge(h, axis) => format!("hinge {} along {}", hinge(h), AXES[axis]),
+        Law::Sticking(c, axis) => format!("sticking at {} along {}", contact(c), AXES[axis]),
         Law::Restitution(c) => format!("restitution at {}", contact(c)),
         Law::Condition(c, _) => format!("friction at {}", contact(c)),
         Law::Known(k) => format!("known value {}", k + 1),
@@ -115,7 +114,7 @@ pub fn json(scene: &Scene, answers: &CorrectAnswers) -> Value {
 fn components<'a>(question: &str, values: &'a [Correct]) -> Vec<(String, &'a Correct)> {
     match values {
         [one] => vec![(question.to_string(), one)],
-        _ => ["x", "y"]
+        _ => AXES
             .iter()
             .zip(values)
             .map(|(axis, v)| (format!("{question}_{axis}"), v))
@@ -135,24 +134,21 @@ pub fn words(how: How) -> String {
 pub fn unknown_words(scene: &Scene, unknown: Unknown) -> (String, &'static str) {
     let body = |b: usize| &scene.bodies[b].name;
     let contact = |c: usize| &scene.contacts[c].name;
-    match unknown {
-        Unknown::VelocityX(b) => (format!("velocity of {} along x", body(b)), "m/s"),
-        Unknown::VelocityY(b) => (format!("velocity of {} along y", body(b)), "m/s"),
-        Unknown::Spin(b) => (format!("spin of {}", body(b)), "rad/s"),
-        Unknown::HingeX(h) => (
-            format!("impulse at hinge {} along x", scene.hinges[h].name),
-            "N s",
-        ),
-        Unknown::HingeY(h) => (
-            format!("impulse at hinge {} along y", scene.hinges[h].name),
-            "N s",
-        ),
-        Unknown::ContactX(c) => (format!("impulse at {} along x", contact(c)), "N s"),
-        Unknown::ContactY(c) => (format!("impulse at {} along y", contact(c)), "N s"),
-        Unknown::ContactNormal(c) => (format!("impulse at {} along the normal", contact(c)), "N s"),
-        Unknown::Blow(b) => (
-            format!("size of the applied impulse {}", scene.blows[b].name),
-            "N s",
-        ),
-    }
+    let words = match unknown {
+        Unknown::Velocity(b, axis) => {
+            return (
+                format!("velocity of {} along {}", body(b), AXES[axis]),
+                "m/s",
+            );
+        }
+        Unknown::Spin(b) => return (format!("spin of {}", body(b)), "rad/s"),
+        Unknown::Hinge(h, axis) => {
+            let hinge = &scene.hinges[h].name;
+            format!("impulse at hinge {hinge} along {}", AXES[axis])
+        }
+        Unknown::Contact(c, axis) => format!("impulse at {} along {}", contact(c), AXES[axis]),
+        Unknown::ContactNormal(c) => format!("impulse at {} along the normal", contact(c)),
+        Unknown::Blow(b) => format!("size of the applied impulse {}", scene.blows[b].name),
+    };
+    (words, "N s")
 }

@@ -76,8 +76,8 @@ type Carrier = [usize; 3];
 fn carriers(given: &Given<f64>, system: &System<f64>) -> Option<Vec<Carrier>> {
     let joints = system.laws.iter().enumerate();
     let joints = joints.filter_map(|(row, law)| match *law {
-        Law::HingeX(h) => Some((row, given.hinges[h].bodies, Unknown::HingeX(h))),
-        Law::StickingX(c) => Some((row, given.contacts[c].joint.bodies, Unknown::ContactX(c))),
+        Law::Hinge(h, 0) => Some((row, given.hinges[h].bodies, Unknown::Hinge(h, 0))),
+        Law::Sticking(c, 0) => Some((row, given.contacts[c].joint.bodies, Unknown::Contact(c, 0))),
         _ => None,
     });
     let joints: Vec<_> = joints.collect();
@@ -100,7 +100,7 @@ fn carriers(given: &Given<f64>, system: &System<f64>) -> Option<Vec<Carrier>> {
         placed[body] = true;
         found.push([
             row,
-            system.column(Unknown::VelocityX(body))?,
+            system.column(Unknown::Velocity(body, 0))?,
             system.column(impulse)?,
         ]);
     }

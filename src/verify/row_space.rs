@@ -199,12 +199,8 @@ fn law_row(place: &Place, i: usize) -> Vec<Rational> {
 
 /// The contact laws and givens that some printed row repeats.
 fn stated(place: &Place, rows: &[PrintedRow]) -> Vec<usize> {
-    let closing = |law: &Law| {
-        matches!(
-            law,
-            Law::Restitution(_) | Law::StickingX(_) | Law::StickingY(_) | Law::Known(_)
-        )
-    };
+    let closing =
+        |law: &Law| matches!(law, Law::Restitution(_) | Law::Sticking(..) | Law::Known(_));
     let candidates = (0..place.laws.laws.len()).filter(|i| closing(&place.laws.laws[*i]));
     candidates
         .filter(|i| {
@@ -307,8 +303,8 @@ fn column(
                 None => given.bodies[*body].center.clone(),
             };
             let arm = given.bodies[*body].arm(&place);
-            let moving = add(Unknown::VelocityX(*body), d[0].clone());
-            add(Unknown::VelocityY(*body), d[1].clone());
+            let moving = add(Unknown::Velocity(*body, 0), d[0].clone());
+            add(Unknown::Velocity(*body, 1), d[1].clone());
             add(Unknown::Spin(*body), &arm[0] * &d[1] - &arm[1] * &d[0]);
             if !moving {
                 let v = given.bodies[*body].velocity_before(&place);
@@ -326,11 +322,11 @@ fn column(
             let (second, parts) = match from {
                 ImpulseAt::Hinge(h) => (
                     given.hinges[*h].bodies[1],
-                    [Unknown::HingeX(*h), Unknown::HingeY(*h)],
+                    [Unknown::Hinge(*h, 0), Unknown::Hinge(*h, 1)],
                 ),
                 ImpulseAt::Contact(c) => (
                     given.contacts[*c].joint.bodies[1],
-                    [Unknown::ContactX(*c), Unknown::ContactY(*c)],
+                    [Unknown::Contact(*c, 0), Unknown::Contact(*c, 1)],
                 ),
                 ImpulseAt::Blow(_) => {
                     return Err(format!(

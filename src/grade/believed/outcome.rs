@@ -175,13 +175,13 @@ fn alter<T: Number>(
             hinge,
             axis,
             instead,
-        } => none([Unknown::HingeX, Unknown::HingeY][*axis](*hinge), *instead),
+        } => none(Unknown::Hinge(*hinge, *axis), *instead),
         Change::NoContactImpulse {
             contact,
             axis,
             instead,
         } => {
-            let unknown = [Unknown::ContactX, Unknown::ContactY][*axis](*contact);
+            let unknown = Unknown::Contact(*contact, *axis);
             none(unknown, *instead)
         }
         Change::MomentsIgnored {
@@ -234,8 +234,8 @@ fn moments_ignored<T: Number>(
         let body = &given.bodies[b];
         let r = [body.center[0].minus(&o[0]), body.center[1].minus(&o[1])];
         let m = &body.mass;
-        entries.push((Unknown::VelocityX(b), m.times(&r[1]).negated()));
-        entries.push((Unknown::VelocityY(b), m.times(&r[0])));
+        entries.push((Unknown::Velocity(b, 0), m.times(&r[1]).negated()));
+        entries.push((Unknown::Velocity(b, 1), m.times(&r[0])));
         let [vx, vy] = &body.velocity;
         right = right.plus(&m.times(&r[0].times(vy).minus(&r[1].times(vx))));
         if body.freedom == Freedom::Rigid {
@@ -269,8 +269,8 @@ fn centers_bounce<T: Number>(
         if body.freedom == Freedom::Fixed {
             right = right.minus(&before);
         } else {
-            entries.push((Unknown::VelocityX(b), normal[0].times(&sign)));
-            entries.push((Unknown::VelocityY(b), normal[1].times(&sign)));
+            entries.push((Unknown::Velocity(b, 0), normal[0].times(&sign)));
+            entries.push((Unknown::Velocity(b, 1), normal[1].times(&sign)));
         }
     }
     put(system, Law::Restitution(contact), &entries, right)
@@ -298,8 +298,8 @@ fn whole_bounce<T: Number>(
         false => gained,
     };
     for (law, unknown, value) in [
-        (Law::MomentumX(body), Unknown::VelocityX(body), x),
-        (Law::MomentumY(body), Unknown::VelocityY(body), y),
+        (Law::Momentum(body, 0), Unknown::Velocity(body, 0), x),
+        (Law::Momentum(body, 1), Unknown::Velocity(body, 1), y),
         (
             Law::Restitution(contact),
             Unknown::ContactNormal(contact),
@@ -353,20 +353,12 @@ pub(super) fn energy_kept<T: Number>(
 
 /// Whether hinges and sticking contacts leave the bodies one freedom.
 fn has_one_freedom(system: &System<f64>) -> bool {
-    let velocity = |u: &Unknown| {
-        matches!(
-            u,
-            Unknown::VelocityX(_) | Unknown::VelocityY(_) | Unknown::Spin(_)
-        )
-    };
+    let velocity = |u: &Unknown| matches!(u, Unknown::Velocity(..) | Unknown::Spin(_));
     let n = system.unknowns.len();
     let kinematic: Vec<usize> = (0..system.laws.len())
         .filter(|i| {
             use numeric::Law::*;
-            matches!(
-                system.laws[*i],
-                HingeX(_) | HingeY(_) | StickingX(_) | StickingY(_)
-            )
+            matches!(system.laws[*i], Hinge(..) | Sticking(..))
         })
         .collect();
     let columns: Vec<usize> = (0..n).filter(|c| velocity(&system.unknowns[*c])).collect();

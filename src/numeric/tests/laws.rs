@@ -70,8 +70,8 @@ impl View<'_> {
         };
         // A view may turn one loose component into a determined one; bodies and joints are compared whole.
         let body_known = |m: &Motion<Rational>, i| {
-            m.determines(Unknown::VelocityX(i))
-                && m.determines(Unknown::VelocityY(i))
+            m.determines(Unknown::Velocity(i, 0))
+                && m.determines(Unknown::Velocity(i, 1))
                 && m.determines(Unknown::Spin(i))
         };
         let bodies = (0..given.bodies.len()).all(|i| {
@@ -81,15 +81,15 @@ impl View<'_> {
         });
         let contacts = (0..given.contacts.len()).all(|i| {
             let loose = [
-                Unknown::ContactX(i),
-                Unknown::ContactY(i),
+                Unknown::Contact(i, 0),
+                Unknown::Contact(i, 1),
                 Unknown::ContactNormal(i),
             ];
             loose.iter().any(|u| !motion.determines(*u))
                 || seen.contact[i] == (self.impulse)(&motion.contact[i])
         });
         let hinges = (0..given.hinges.len()).all(|i| {
-            let loose = [Unknown::HingeX(i), Unknown::HingeY(i)];
+            let loose = [Unknown::Hinge(i, 0), Unknown::Hinge(i, 1)];
             loose.iter().any(|u| !motion.determines(*u))
                 || seen.hinge[i] == (self.impulse)(&motion.hinge[i])
         });

@@ -33,8 +33,8 @@ impl Table<'_> {
                 false => self.agreed(course, fitting, unknown, size),
             };
             body.velocity = [
-                component(Unknown::VelocityX(b), speed),
-                component(Unknown::VelocityY(b), speed),
+                component(Unknown::Velocity(b, 0), speed),
+                component(Unknown::Velocity(b, 1), speed),
             ];
             if freedom == Freedom::Rigid {
                 body.spin = component(Unknown::Spin(b), spin);
@@ -106,7 +106,10 @@ impl Table<'_> {
                     (GivenLaw::Frictionless(_), Some(n)) => {
                         along(n, agreed(Unknown::ContactNormal(k)))
                     }
-                    _ => [agreed(Unknown::ContactX(k)), agreed(Unknown::ContactY(k))],
+                    _ => [
+                        agreed(Unknown::Contact(k, 0)),
+                        agreed(Unknown::Contact(k, 1)),
+                    ],
                 },
             };
             contacts.push(Impulse {
@@ -133,7 +136,7 @@ impl Table<'_> {
             name: h.name.clone(),
             on: h.bodies[1],
             impulse: match place(1, i) {
-                Some(k) => [agreed(Unknown::HingeX(k)), agreed(Unknown::HingeY(k))],
+                Some(k) => [agreed(Unknown::Hinge(k, 0)), agreed(Unknown::Hinge(k, 1))],
                 None => needed(),
             },
         });

@@ -10,7 +10,7 @@ use crate::numeric::friction::{at_corner, happened, settle};
 use crate::numeric::given::{Freedom, Given, GivenContact, GivenImpulse, GivenLaw, Joint};
 use crate::numeric::number::{cross, dot};
 use crate::numeric::path::Event;
-use crate::numeric::system::{Law, System, Unknown, assemble};
+use crate::numeric::system::{Law, System, Unknown, assemble, motion_of};
 use crate::scene::Mode;
 
 /// The equations with one set of supports, solved.
@@ -115,12 +115,12 @@ impl Table<'_> {
             None => &self.one_sided[set[c - self.kept[0].len()]].name,
         };
         match law {
-            Law::MomentumX(b) | Law::MomentumY(b) => format!("momentum of `{}`", body(b)),
+            Law::Momentum(b, _) => format!("momentum of `{}`", body(b)),
             Law::AngularMomentum(b) => format!("angular momentum of `{}`", body(b)),
-            Law::HingeX(h) | Law::HingeY(h) => {
+            Law::Hinge(h, _) => {
                 format!("the hinge `{}`", course.scene.hinges[self.kept[1][h]].name)
             }
-            Law::StickingX(c) | Law::StickingY(c) => format!("sticking at `{}`", contact(c)),
+            Law::Sticking(c, _) => format!("sticking at `{}`", contact(c)),
             Law::Restitution(c) => format!("restitution at `{}`", contact(c)),
             Law::Condition(c, _) => format!("friction at `{}`", contact(c)),
             Law::Known(k) => format!("known value {}", k + 1),
@@ -190,12 +190,7 @@ impl Tried {
                 continue;
             }
             let lever = cross(&body.arm(&support.at), &n);
-            let all = [
-                Unknown::VelocityX(b),
-                Unknown::VelocityY(b),
-                Unknown::Spin(b),
-            ];
-            for (unknown, factor) in all.into_iter().zip([n[0], n[1], lever]) {
+            for (unknown, factor) in motion_of(b).into_iter().zip([n[0], n[1], lever]) {
                 terms.extend(self.column(unknown).map(|c| (c, factor)));
             }
         }
@@ -203,16 +198,11 @@ impl Tried {
     }
 
     pub(super) fn impulses(&self) -> impl Iterator<Item = f64> {
-        self.picked(|u| {
-            !matches!(
-                u,
-                Unknown::VelocityX(_) | Unknown::VelocityY(_) | Unknown::Spin(_)
-            )
-        })
+        self.picked(|u| !matches!(u, Unknown::Velocity(..) | Unknown::Spin(_)))
     }
 
     pub(super) fn speeds(&self) -> impl Iterator<Item = f64> {
-        let all = self.picked(|u| matches!(u, Unknown::VelocityX(_) | Unknown::VelocityY(_)));
+        let all = self.picked(|u| matches!(u, Unknown::Velocity(..)));
         all.map(f64::abs)
     }
 

@@ -56,13 +56,13 @@ fn random_impacts_agree_with_the_exact_solver_in_values_and_in_what_is_open() {
         let size = size.fold(1.0, f64::max);
         for (b, body) in passed.after.bodies.iter().enumerate() {
             held(
-                Unknown::VelocityX(b),
+                Unknown::Velocity(b, 0),
                 to_f64(&told.velocity[b][0]),
                 &body.velocity[0],
                 size,
             );
             held(
-                Unknown::VelocityY(b),
+                Unknown::Velocity(b, 1),
                 to_f64(&told.velocity[b][1]),
                 &body.velocity[1],
                 size,
@@ -81,13 +81,13 @@ fn random_impacts_agree_with_the_exact_solver_in_values_and_in_what_is_open() {
         let size = size.fold(1.0, f64::max);
         for (i, p) in impact.hinges.iter().enumerate() {
             held(
-                Unknown::HingeX(i),
+                Unknown::Hinge(i, 0),
                 to_f64(&told.hinge[i][0]),
                 &p.impulse[0],
                 size,
             );
             held(
-                Unknown::HingeY(i),
+                Unknown::Hinge(i, 1),
                 to_f64(&told.hinge[i][1]),
                 &p.impulse[1],
                 size,
@@ -95,13 +95,13 @@ fn random_impacts_agree_with_the_exact_solver_in_values_and_in_what_is_open() {
         }
         for (i, p) in impact.contacts.iter().enumerate() {
             held(
-                Unknown::ContactX(i),
+                Unknown::Contact(i, 0),
                 to_f64(&told.contact[i][0]),
                 &p.impulse[0],
                 size,
             );
             held(
-                Unknown::ContactY(i),
+                Unknown::Contact(i, 1),
                 to_f64(&told.contact[i][1]),
                 &p.impulse[1],
                 size,
