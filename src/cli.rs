@@ -21,7 +21,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand};
 
 use carom::command::{self, Format, Numbers, Output};
 use carom::render::pretty;
@@ -41,8 +41,8 @@ struct Cli {
 enum Command {
     /// Derive the closed forms a scene asks for, and prove them
     Derive {
-        /// Scene file, `-` for standard input
-        scene: PathBuf,
+        #[command(flatten)]
+        input: SceneArgs,
         /// Output format
         #[arg(long, value_enum, default_value_t = Format::Text)]
         format: Format,
@@ -52,20 +52,14 @@ enum Command {
         /// Only the impact of this stage, with the motion that goes into it
         #[arg(long, value_name = "NAME")]
         stage: Option<String>,
-        /// Give a parameter a value, such as v=2 or theta=acos(3/5); may be repeated
-        #[arg(long = "set", value_name = "NAME=VALUE")]
-        set: Vec<String>,
     },
     /// Solve a scene in numbers, from its geometry alone; a scene with stages is followed from one to the next
     Solve {
-        /// Scene file, `-` for standard input
-        scene: PathBuf,
+        #[command(flatten)]
+        input: SceneArgs,
         /// Output format
         #[arg(long, value_enum, default_value_t = Format::Text)]
         format: Format,
-        /// Give a parameter a value, such as v=2 or theta=acos(3/5); may be repeated
-        #[arg(long = "set", value_name = "NAME=VALUE")]
-        set: Vec<String>,
         /// Exact fractions instead of doubles
         #[arg(long)]
         exact: bool,
@@ -129,6 +123,22 @@ enum Command {
     },
 }
 
+/// A scene, and values put into it.
+#[derive(Args)]
+struct SceneArgs {
+    /// Scene file, `-` for standard input
+    scene: PathBuf,
+    /// Give a parameter a value, such as v=2 or theta=acos(3/5); may be repeated
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    set: Vec<String>,
+}
+
+impl SceneArgs {
+    fn read(&self) -> Result<scene::Scene, Failure> {
+        read_scene(&self.scene, &self.set)
+    }
+}
+
 /// Why a command ended without a result.
 enum Failure {
     /// Unusable input: the message is complete.
@@ -141,26 +151,17 @@ enum Failure {
 pub fn run() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Derive {
-            scene,
+            input,
             format,
             matrix,
             stage,
-            set,
-        } => derive_command(&scene, format, (matrix, stage.as_deref()), &set),
+        } => derive_command(&input, format, matrix, stage.as_deref()),
         Command::Solve {
-            scene,
+            input,
             format,
-            set,
             exact,
             certify,
-        } => {
-            let numbers = match (exact, certify) {
-                (_, true) => Numbers::Certified,
-                (true, _) => Numbers::Exact,
-                _ => Numbers::Doubles,
-            };
-            solve_command(&scene, format, &set, numbers)
-        }
+        } => solve_command(&input, format, exact, certify),
         Command::Compare(args) => friction::run(&args),
         Command::Draw(args) => draw::run(&args),
         Command::Emit(args) => emit::run(&args),
@@ -197,12 +198,12 @@ pub fn run() -> ExitCode {
 }
 
 fn derive_command(
-    path: &Path,
+    input: &SceneArgs,
     format: Format,
-    (matrix, stage): (bool, Option<&str>),
-    set: &[String],
+    matrix: bool,
+    stage: Option<&str>,
 ) -> Result<u8, Failure> {
-    let mut scene = read_scene(path, set)?;
+    let (path, mut scene) = (&input.scene, input.read()?);
     if matrix || stage.is_some() {
         scene = impact_of(&scene, path, stage)?;
     }
@@ -219,13 +220,20 @@ fn derive_command(
 }
 
 fn solve_command(
-    path: &Path,
+    input: &SceneArgs,
     format: Format,
-    set: &[String],
-    numbers: Numbers,
+    exact: bool,
+    certify: bool,
 ) -> Result<u8, Failure> {
-    let scene = read_scene(path, set)?;
-    print_output(path, command::solve(&scene, numbers, format))
+    let numbers = match (exact, certify) {
+        (_, true) => Numbers::Certified,
+        (true, _) => Numbers::Exact,
+        _ => Numbers::Doubles,
+    };
+    print_output(
+        &input.scene,
+        command::solve(&input.read()?, numbers, format),
+    )
 }
 
 /// Why a command has no result for the scene of a file.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::solution::plots;
-use super::{Failure, files, of_stage, print, read_scene, refused, work_out};
+use super::{Failure, SceneArgs, files, of_stage, print, refused, work_out};
 use carom::figure::{self, Chapter, Drawing, Subject, Which};
 use carom::scene::Scene;
 use carom::verify::friction::settled;
@@ -14,8 +14,8 @@ use carom::worked;
 /// Arguments of `carom draw`.
 #[derive(Args)]
 pub struct DrawArgs {
-    /// Scene file, `-` for standard input
-    scene: PathBuf,
+    #[command(flatten)]
+    input: SceneArgs,
     /// Which picture
     #[arg(long, value_enum, default_value_t = Picture::All)]
     which: Picture,
@@ -31,9 +31,6 @@ pub struct DrawArgs {
     /// File to write, `.svg` or `.png`; without it the SVG goes to standard output
     #[arg(short, long)]
     output: Option<PathBuf>,
-    /// Give a parameter a value for the drawing, such as theta=pi/6; may be repeated
-    #[arg(long = "set", value_name = "NAME=VALUE")]
-    set: Vec<String>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -50,20 +47,20 @@ enum Picture {
 
 /// Draws a scene.
 pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
-    let mut scene = read_scene(&args.scene, &args.set)?;
+    let mut scene = args.input.read()?;
     if let Some(name) = &args.plot {
         return write(args, &plotted(args, &mut scene, name)?);
     }
     let all = match scene.has_stages() {
         true => {
             let told = worked::to_draw(&scene, args.stage.as_deref());
-            let told = told.map_err(|why| refused(&args.scene, why))?;
+            let told = told.map_err(|why| refused(&args.input.scene, why))?;
             told.chapters()
         }
         false => vec![(String::new(), Chapter::Impact(scene.clone()))],
     };
     // One impact by itself has the pictures of a collision.
-    match of_stage(&args.scene, all, args.stage.as_deref())?.as_slice() {
+    match of_stage(&args.input.scene, all, args.stage.as_deref())?.as_slice() {
         [(_, Chapter::Impact(impact))] => scene = impact.clone(),
         all => return write(args, &figure::chapters(&scene, all)),
     }
@@ -72,7 +69,7 @@ pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
         match settled(&scene) {
             Ok(settled) => scene = settled,
             Err(why) if matches!(args.which, Picture::After) => {
-                return Err(refused(&args.scene, why));
+                return Err(refused(&args.input.scene, why));
             }
             Err(_) => scene = worked::first_case(&scene).unwrap_or(scene),
         }
@@ -80,18 +77,12 @@ pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
     let subject = match &args.body {
         None => Subject::System,
         Some(name) => {
-            let known = || {
-                scene
-                    .bodies
-                    .iter()
-                    .map(|b| b.name.as_str())
-                    .collect::<Vec<_>>()
-                    .join(", ")
-            };
-            let found = scene.bodies.iter().position(|b| b.name == *name);
+            let names: Vec<&str> = scene.bodies.iter().map(|b| b.name.as_str()).collect();
+            let found = names.iter().position(|known| known == name);
             Subject::Body(found.ok_or_else(|| {
-                let why = format!("no body {name}\nhint: the scene has {}", known());
-                refused(&args.scene, why)
+                let known = names.join(", ");
+                let why = format!("no body {name}\nhint: the scene has {known}");
+                refused(&args.input.scene, why)
             })?)
         }
     };
@@ -106,7 +97,7 @@ pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
 
 /// One plot of the scene.
 fn plotted(args: &DrawArgs, scene: &mut Scene, name: &str) -> Result<Drawing, Failure> {
-    let refused = |why: String| refused(&args.scene, why);
+    let refused = |why: String| refused(&args.input.scene, why);
     let names: Vec<String> = scene.plots.iter().map(|p| p.name.clone()).collect();
     scene.plots.retain(|p| p.name == name);
     if scene.plots.is_empty() {
@@ -116,17 +107,17 @@ fn plotted(args: &DrawArgs, scene: &mut Scene, name: &str) -> Result<Drawing, Fa
         };
         return Err(refused(format!("no plot {name}\nhint: {hint}")));
     }
-    let worked = work_out(&args.scene, scene)?;
+    let worked = work_out(&args.input.scene, scene)?;
     let graphs = worked.graphs().map_err(|why| refused(why.to_string()))?;
-    let drawn = plots(&worked.scene, &graphs)?.into_iter().next();
-    drawn
-        .map(|(picture, _)| Drawing {
-            svg: picture.svg,
-            tikz: picture.tikz,
-            caption: picture.caption,
-            alternative: picture.alternative,
-        })
-        .ok_or_else(|| refused(format!("no plot {name}")))
+    let (picture, _) = plots(&worked.scene, &graphs)?
+        .pop()
+        .ok_or_else(|| refused(format!("no plot {name}")))?;
+    Ok(Drawing {
+        svg: picture.svg,
+        tikz: picture.tikz,
+        caption: picture.caption,
+        alternative: picture.alternative,
+    })
 }
 
 /// Writes a drawing where it belongs.
@@ -142,15 +133,12 @@ fn write(args: &DrawArgs, drawing: &Drawing) -> Result<u8, Failure> {
     let bytes = match kind.as_deref() {
         Some("svg") => drawing.svg.clone().into_bytes(),
         #[cfg(feature = "png")]
-        Some("png") => figure::png(&drawing.svg)
-            .map_err(|fault| Failure::Input(format!("{}: {fault}", output.display())))?,
+        Some("png") => figure::png(&drawing.svg).map_err(|fault| refused(output, fault))?,
         _ => {
-            return Err(Failure::Input(format!(
-                "{}: unknown picture format\nhint: name the file .svg or .png",
-                output.display()
-            )));
+            let why = "unknown picture format\nhint: name the file .svg or .png";
+            return Err(refused(output, why));
         }
     };
-    files::save(output, &bytes, &[&args.scene])?;
+    files::save(output, &bytes, &[&args.input.scene])?;
     Ok(0)
 }

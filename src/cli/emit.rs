@@ -59,27 +59,20 @@ pub fn run(args: &EmitArgs) -> Result<u8, Failure> {
         return Ok(1);
     }
     let (mut found, without) = functions(&scene, &derivation);
-    if let Some(unknown) = args
-        .quantity
-        .iter()
-        .find(|q| !found.iter().any(|f| f.name == **q))
-    {
-        let all: Vec<&str> = found.iter().map(|f| f.name.as_str()).collect();
-        return Err(Failure::Input(format!(
-            "{name}: no number {unknown}\nhint: there are {}",
-            all.join(", ")
-        )));
+    let all: Vec<&str> = found.iter().map(|f| f.name.as_str()).collect();
+    if let Some(unknown) = args.quantity.iter().find(|q| !all.contains(&q.as_str())) {
+        let why = format!("no number {unknown}\nhint: there are {}", all.join(", "));
+        return Err(refused(&args.scene, why));
     }
     found.retain(|f| args.quantity.is_empty() || args.quantity.contains(&f.name));
     if found.is_empty() {
-        return Err(Failure::Input(format!(
-            "{name}: asks for no number with a closed form\nhint: add a question for a velocity, a spin, an impulse or an energy"
-        )));
+        let why = "asks for no number with a closed form\nhint: add a question for a velocity, a spin, an impulse or an energy";
+        return Err(refused(&args.scene, why));
     }
     if args.quantity.is_empty() && !without.is_empty() {
+        let without = without.join(", ");
         complain(&format!(
-            "{name}: no function for {}: no closed form in numbers",
-            without.join(", ")
+            "{name}: no function for {without}: no closed form in numbers"
         ));
     }
     if args.plain {

@@ -12,33 +12,29 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use signal_hook::SigId;
 use signal_hook::consts::{SIGINT, SIGTERM};
 
-use super::Failure;
+use super::{Failure, refused};
 
 /// Links followed before they count as a circle.
 const LINKS: usize = 40;
 
 /// Reads a text, `-` for standard input. No more is read than `limit` bytes and one, whatever else would come.
 pub(super) fn read(path: &Path, limit: usize) -> Result<String, Failure> {
-    let name = path.display();
-    let unreadable = |e: std::io::Error| Failure::Input(format!("{name}: cannot be read: {e}"));
+    let unreadable = |e: std::io::Error| refused(path, format!("cannot be read: {e}"));
     let source: Box<dyn Read> = match path.to_str() {
         Some("-") => Box::new(std::io::stdin().lock()),
         _ => Box::new(File::open(path).map_err(unreadable)?),
     };
     let mut bytes = Vec::new();
     let most = (limit as u64).saturating_add(1);
-    source
-        .take(most)
-        .read_to_end(&mut bytes)
-        .map_err(unreadable)?;
+    let read = source.take(most).read_to_end(&mut bytes);
+    read.map_err(unreadable)?;
     if bytes.len() > limit {
-        return Err(Failure::Input(format!(
-            "{name}: too long: at most {limit} bytes are read"
-        )));
+        let why = format!("too long: at most {limit} bytes are read");
+        return Err(refused(path, why));
     }
     String::from_utf8(bytes).map_err(|e| {
         let at = e.utf8_error().valid_up_to();
-        Failure::Input(format!("{name}: cannot be read: no UTF-8 at byte {at}"))
+        refused(path, format!("cannot be read: no UTF-8 at byte {at}"))
     })
 }
 
@@ -48,34 +44,27 @@ pub(super) fn save(path: &Path, bytes: &[u8], read: &[&Path]) -> Result<(), Fail
         return through(std::io::stdout().lock(), path, bytes);
     }
     writable(path, read)?;
-    let refused = |e: std::io::Error| unwritable(path, &e);
-    let target = followed(path).map_err(refused)?;
+    let unwritable = |e: std::io::Error| unwritable(path, &e);
+    let target = followed(path).map_err(unwritable)?;
     let old = std::fs::metadata(&target).ok();
     let in_place = old.as_ref().is_some_and(|m| !m.is_file() || has_names(m));
     if in_place {
         let is_file = old.is_some_and(|m| m.is_file());
-        let file = OpenOptions::new()
-            .write(true)
-            .truncate(is_file)
-            .open(&target);
-        return through(file.map_err(refused)?, path, bytes);
+        let mut file = OpenOptions::new();
+        let file = file.write(true).truncate(is_file).open(&target);
+        return through(file.map_err(unwritable)?, path, bytes);
     }
-    let draft = match target.parent().filter(|p| !p.as_os_str().is_empty()) {
-        Some(folder) => folder.join(draft_name()),
-        None => PathBuf::from(draft_name()),
-    };
+    let draft = target.with_file_name(format!(".carom-{}.part", std::process::id()));
     let held = Held::new();
     let made = OpenOptions::new().write(true).create_new(true).open(&draft);
-    let mut file = made.map_err(refused)?;
+    let mut file = made.map_err(unwritable)?;
     let written = file
         .write_all(bytes)
         .and_then(|()| old.map_or(Ok(()), |m| file.set_permissions(m.permissions())));
     drop(file);
     let outcome = match held.signal() {
         Some(_) => Ok(false),
-        None => written
-            .and_then(|()| std::fs::rename(&draft, &target))
-            .map(|()| true),
+        None => written.and_then(|()| std::fs::rename(&draft, &target).map(|()| true)),
     };
     if !matches!(outcome, Ok(true)) {
         // Nothing half-written stays behind; that the draft may not exist any more is fine.
@@ -91,10 +80,8 @@ pub(super) fn save(path: &Path, bytes: &[u8], read: &[&Path]) -> Result<(), Fail
 /// Refuses a place that cannot be written, or that is one of the files in `read`.
 pub(super) fn writable(path: &Path, read: &[&Path]) -> Result<(), Failure> {
     if read.iter().any(|input| is_same(path, input)) {
-        return Err(Failure::Input(format!(
-            "{}: is what was read, and would be lost\nhint: name another file",
-            path.display()
-        )));
+        let why = "is what was read, and would be lost\nhint: name another file";
+        return Err(refused(path, why));
     }
     match std::fs::metadata(path) {
         Ok(found) if found.is_dir() => Err(unwritable(path, &ErrorKind::IsADirectory.into())),
@@ -114,7 +101,7 @@ pub(super) fn writable(path: &Path, read: &[&Path]) -> Result<(), Failure> {
 }
 
 fn unwritable(path: &Path, e: &std::io::Error) -> Failure {
-    Failure::Input(format!("{}: cannot be written: {e}", path.display()))
+    refused(path, format!("cannot be written: {e}"))
 }
 
 /// Writes to what stays where it is. Whoever reads the other end of a pipe may have seen enough.
@@ -125,10 +112,6 @@ fn through(mut out: impl Write, path: &Path, bytes: &[u8]) -> Result<(), Failure
         }
         _ => Ok(()),
     }
-}
-
-fn draft_name() -> String {
-    format!(".carom-{}.part", std::process::id())
 }
 
 /// Where a path leads, through links, whether something stands there or not.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Failure, Format, files, impacts, only, pretty, print, read_scene, refused};
+use super::{Failure, Format, SceneArgs, files, impacts, only, pretty, print, refused};
 use carom::scene::{ContactLaw, Scene};
 use carom::verify::compare::{NoComparison, compare};
 use carom::{numeric, plot, render};
@@ -12,17 +12,14 @@ use carom::{numeric, plot, render};
 /// Arguments of `carom compare`.
 #[derive(Args)]
 pub struct CompareArgs {
-    /// Scene file, `-` for standard input
-    scene: PathBuf,
+    #[command(flatten)]
+    input: SceneArgs,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
     /// The impact, by the name of its stage, where a scene has several
     #[arg(long, value_name = "NAME")]
     stage: Option<String>,
-    /// Give a parameter a value, such as v=2 or theta=acos(3/5); may be repeated
-    #[arg(long = "set", value_name = "NAME=VALUE")]
-    set: Vec<String>,
     /// Draw the plane of impulses into this SVG file: friction cone, path, the end by each law
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -30,10 +27,10 @@ pub struct CompareArgs {
 
 /// Lays the laws of contact side by side.
 pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
-    let scene = read_scene(&args.scene, &args.set)?;
-    let all = undecided(impacts(&args.scene, &scene)?);
-    let scene = only(&args.scene, all, args.stage.as_deref())?;
-    let refused = |reason: String| refused(&args.scene, reason);
+    let scene = args.input.read()?;
+    let all = undecided(impacts(&args.input.scene, &scene)?);
+    let scene = only(&args.input.scene, all, args.stage.as_deref())?;
+    let refused = |reason: String| refused(&args.input.scene, reason);
     if scene.friction().is_none() && scene.contacts.len() > 1 {
         return several(&scene, args, &refused);
     }
@@ -41,7 +38,7 @@ pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
     if let Some(path) = &args.output {
         let plane = plot::draw(&render::compare::plane(&scene, &found));
         let plane = plane.map_err(|why| refused(why.to_string()))?;
-        files::save(path, plane.svg.as_bytes(), &[&args.scene])?;
+        files::save(path, plane.svg.as_bytes(), &[&args.input.scene])?;
     }
     print(&match args.format {
         Format::Text => render::compare::text(&scene, &found),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
-use super::{Failure, Format, complain, files, pretty, print, read_scene};
+use super::{Failure, Format, complain, files, pretty, print, read_scene, refused};
 use carom::grade::entry;
 use carom::grade::sheet::Sheet;
 use carom::grade::{Form, Given, Options, Question, Strength, Verdict};
@@ -40,8 +40,8 @@ pub struct GradeArgs {
     #[arg(long, requires = "batch")]
     pub(super) jobs: Option<usize>,
     /// How strong a proof of equality has to be
-    #[arg(long, value_enum, default_value_t = ProofArg::Identity)]
-    proof: ProofArg,
+    #[arg(long, value_enum, default_value_t = Strength::Identity)]
+    proof: Strength,
     /// How far a number may be off, such as 2%
     #[arg(long)]
     tolerance: Option<String>,
@@ -92,14 +92,6 @@ pub struct VerifyArgs {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum ProofArg {
-    /// Random points modulo a prime where no root occurs; the bound of error is stated
-    Fast,
-    /// An identity
-    Identity,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum SlashArg {
     /// 3v/2l is 3v/(2l), 1/2mv² is half of mv²; an answer may mean the other
     Usual,
@@ -120,34 +112,27 @@ pub fn run(args: &GradeArgs) -> Result<u8, Failure> {
     let grade = match (&args.scene, &args.expected) {
         (Some(path), _) => {
             let sheet = open(path)?;
-            let name = args
-                .quantity
-                .clone()
-                .or_else(|| command::only_quantity(&sheet))
-                .ok_or_else(|| {
-                    Failure::Input(format!(
-                        "--quantity is missing: one of {}",
-                        sheet.quantities().join(", ")
-                    ))
-                })?;
+            let name = args.quantity.clone();
+            let name = name.or_else(|| command::only_quantity(&sheet));
+            let name = name.ok_or_else(|| {
+                let all = sheet.quantities().join(", ");
+                Failure::Input(format!("--quantity is missing: one of {all}"))
+            })?;
             let entry = sheet.entry(&name).map_err(Failure::Input)?;
             sheet.judge(&entry, answer, &options)
         }
         (None, Some(expected)) => {
             let grade = grade::judge(expected, answer, &question(args)?, &options);
             if grade.note == "INVALID_EXPECTED" {
-                let shown = grade
-                    .error
-                    .as_ref()
-                    .map_or(String::new(), |f| f.show(expected));
+                let shown = grade.error.as_ref();
+                let shown = shown.map_or(String::new(), |f| f.show(expected));
                 return Err(Failure::Input(format!("--expected: {shown}")));
             }
             grade
         }
         (None, None) => {
-            return Err(Failure::Input(
-                "give a scene and --quantity, or --expected".into(),
-            ));
+            let why = "give a scene and --quantity, or --expected";
+            return Err(Failure::Input(why.into()));
         }
     };
     print(&match args.format {
@@ -169,10 +154,9 @@ pub(super) fn open(path: &Path) -> Result<Sheet, Failure> {
 
 /// What was found of a file, its notes told on the way.
 fn told<T>(path: &Path, found: Result<(T, Vec<String>), String>) -> Result<T, Failure> {
-    let named = |words: String| format!("{}: {words}", path.display());
-    let (found, notes) = found.map_err(|why| Failure::Input(named(why)))?;
+    let (found, notes) = found.map_err(|why| refused(path, why))?;
     for note in notes {
-        complain(&named(note));
+        complain(&format!("{}: {note}", path.display()));
     }
     Ok(found)
 }
@@ -187,32 +171,23 @@ fn steps(scene: &Path, file: &Path, args: &GradeArgs, options: &Options) -> Resu
     if let Some(name) = &args.quantity {
         sheet.entry(name).map_err(Failure::Input)?;
         worked.finals.retain(|(asked, _)| {
-            asked == name
-                || asked
-                    .strip_prefix(name.as_str())
-                    .is_some_and(|axis| axis.starts_with('_'))
+            let axis = asked.strip_prefix(name.as_str());
+            axis.is_some_and(|axis| axis.is_empty() || axis.starts_with('_'))
         });
     }
     print(&match args.format {
         Format::Text => render::grade::steps_text(&worked),
         Format::Json => pretty(&render::grade::steps_json(&worked)),
     })?;
-    let wrong = |l: &grade::steps::Line| {
-        matches!(
-            l.status,
-            grade::steps::Status::Wrong | grade::steps::Status::Carried(_)
-        )
-    };
+    use grade::steps::{Line, Status};
+    let wrong = |l: &Line| matches!(l.status, Status::Wrong | Status::Carried(_));
     Ok(u8::from(worked.lines.iter().any(wrong)))
 }
 
 fn options(args: &GradeArgs) -> Result<Options, Failure> {
     let mut options = Options {
         strict_slash: args.slash == SlashArg::Strict,
-        strength: match args.proof {
-            ProofArg::Fast => Strength::Fast,
-            ProofArg::Identity => Strength::Identity,
-        },
+        strength: args.proof,
         ..Options::default()
     };
     if let Some(text) = &args.tolerance {
@@ -295,10 +270,9 @@ pub fn verify(args: &VerifyArgs) -> Result<u8, Failure> {
         }
     }
     if args.format == Format::Json {
-        print(&pretty(&if all.len() == 1 {
-            all.remove(0)
-        } else {
-            Value::Array(all)
+        print(&pretty(&match all.len() {
+            1 => all.remove(0),
+            _ => Value::Array(all),
         }))?;
     }
     Ok(worst)

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::{Failure, Format, complain, files, impact_of, pretty, print, read_scene};
+use super::{Failure, Format, complain, files, impact_of, pretty, print, read_scene, refused};
 use carom::report::{Effort, Report, Row, measure};
 use carom::{derive, numeric, render};
 
@@ -80,10 +80,9 @@ pub fn run(args: &ReportArgs) -> Result<u8, Failure> {
     for (path, scene) in &scenes {
         let name = path.display();
         if let Err(numeric::NoPoint::Missing(symbols)) = numeric::values(scene) {
-            complain(&format!(
-                "{name}: no value for {}; measured at seeded points of the domains",
-                symbols.join(", ")
-            ));
+            let symbols = symbols.join(", ");
+            let how = "measured at seeded points of the domains";
+            complain(&format!("{name}: no value for {symbols}; {how}"));
         }
         let derivation = derive::derive(scene);
         if let Err(why) = &derivation {
@@ -103,7 +102,7 @@ pub fn run(args: &ReportArgs) -> Result<u8, Failure> {
             failed.is_none() && !(handled && stop.load(Ordering::SeqCst))
         };
         let report = measure(scene, derivation.as_ref().ok(), effort.clone(), &mut on_row)
-            .map_err(|why| Failure::Input(format!("{name}: {why}")))?;
+            .map_err(|why| refused(path, why))?;
         bar.finish_and_clear();
         if let Some(error) = failed {
             return Err(Failure::Output(error.to_string()));
@@ -134,8 +133,7 @@ pub fn run(args: &ReportArgs) -> Result<u8, Failure> {
 
 fn create(path: &Path, inputs: &[&Path]) -> Result<File, Failure> {
     files::writable(path, inputs)?;
-    File::create(path)
-        .map_err(|e| Failure::Input(format!("{}: cannot be written: {e}", path.display())))
+    File::create(path).map_err(|e| refused(path, format!("cannot be written: {e}")))
 }
 
 fn bar(title: &str) -> ProgressBar {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Failure, complain, files, pretty, print};
+use super::{Failure, SceneArgs, complain, files, pretty, print};
 use carom::{scene, serve};
 
 /// Arguments of `carom serve`.
@@ -28,11 +28,8 @@ pub struct ServeArgs {
 /// Arguments of `carom describe`.
 #[derive(Args)]
 pub struct DescribeArgs {
-    /// Scene file, `-` for standard input
-    scene: PathBuf,
-    /// Give a parameter a value; may be repeated
-    #[arg(long = "set", value_name = "NAME=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    input: SceneArgs,
     /// Tell how this formula is read; may be repeated
     #[arg(long, allow_hyphen_values = true)]
     formula: Vec<String>,
@@ -75,8 +72,8 @@ pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
 
 /// Describes a scene for pages and editors.
 pub fn describe(args: &DescribeArgs) -> Result<u8, Failure> {
-    let text = files::read(&args.scene, scene::LONGEST)?;
-    let each = args.set.iter().map(|assignment| {
+    let text = files::read(&args.input.scene, scene::LONGEST)?;
+    let each = args.input.set.iter().map(|assignment| {
         let (name, value) = assignment.split_once('=').unwrap_or((assignment, ""));
         (name.trim().to_string(), value.trim().to_string())
     });

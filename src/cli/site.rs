@@ -42,15 +42,12 @@ const DOCUMENTS: [(&str, &str, &str, &str); 2] = [
 
 /// Writes the site; status 1 where a scene has no sound solution.
 pub fn run(args: &SiteArgs) -> Result<u8, Failure> {
-    let named = |e: std::io::Error| Failure::Input(format!("{}: {e}", args.folder.display()));
     let mut scenes = Vec::new();
-    collect(&args.folder, &mut scenes).map_err(named)?;
+    collect(&args.folder, &mut scenes).map_err(|e| refused(&args.folder, e))?;
     scenes.sort();
     if scenes.is_empty() {
-        return Err(Failure::Input(format!(
-            "{}: no scenes\nhint: name a folder with scene files (.json), such as derivations",
-            args.folder.display()
-        )));
+        let why = "no scenes\nhint: name a folder with scene files (.json), such as derivations";
+        return Err(refused(&args.folder, why));
     }
     let pages: Vec<Result<(site::Listed, bool), Failure>> =
         scenes.par_iter().map(|path| page(args, path)).collect();
@@ -77,10 +74,8 @@ pub fn run(args: &SiteArgs) -> Result<u8, Failure> {
     let documents = DOCUMENTS.iter().map(|d| (d.0.into(), d.2.into()));
     let known: Vec<(String, String)> = documents.chain(shipped).collect();
     for (_, title, page, text) in DOCUMENTS {
-        save(
-            &args.output.join(page),
-            &site::document(title, text, &known),
-        )?;
+        let document = site::document(title, text, &known);
+        save(&args.output.join(page), &document)?;
     }
     save(&args.output.join("index.html"), &site::index(&listed))?;
     Ok(status)
@@ -100,11 +95,7 @@ fn page(args: &SiteArgs, path: &Path) -> Result<(site::Listed, bool), Failure> {
     let scene = command::scene(&path.display().to_string(), &text, &[]).map_err(Failure::Input)?;
     let below = path.strip_prefix(&args.folder).unwrap_or(path);
     let target = args.output.join(below);
-    let name = below
-        .file_name()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned();
+    let name = below.file_name().unwrap_or_default().to_string_lossy();
     let up = "../".repeat(below.components().count() - 1);
     let (above, file) = (site::above(&up), site::source(&name, &text));
     let worked = worked::in_cases(&scene).map_err(|why| refused(path, why))?;
@@ -114,10 +105,8 @@ fn page(args: &SiteArgs, path: &Path) -> Result<(site::Listed, bool), Failure> {
     let svg = pictures.first().map(|p| p.svg.clone()).unwrap_or_default();
     save(&target, &text)?;
     save(&target.with_extension("html"), &html)?;
-    let folder = below
-        .parent()
-        .map(|p| p.display().to_string())
-        .unwrap_or_default();
+    let folder = below.parent().map(|p| p.display().to_string());
+    let folder = folder.filter(|f| !f.is_empty());
     let words: Vec<&str> = [scene.statement.as_str(), &name]
         .into_iter()
         .chain(scene.bodies.iter().map(|b| b.name.as_str()))
@@ -125,11 +114,7 @@ fn page(args: &SiteArgs, path: &Path) -> Result<(site::Listed, bool), Failure> {
         .collect();
     let listed = site::Listed {
         page: address(&below.with_extension("html")),
-        folder: if folder.is_empty() {
-            String::from("scenes")
-        } else {
-            folder
-        },
+        folder: folder.unwrap_or_else(|| String::from("scenes")),
         title: scene.title.clone(),
         source: scene.source.clone(),
         words: words.join(" "),

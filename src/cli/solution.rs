@@ -5,7 +5,7 @@ use std::process::Command;
 
 use clap::{Args, ValueEnum};
 
-use super::{Failure, files, pretty, print, read_scene_text, refused};
+use super::{Failure, SceneArgs, files, pretty, print, read_scene_text, refused};
 use carom::figure::{self, Which};
 use carom::render::html::Picture;
 use carom::solution::{Detail, Slot};
@@ -15,23 +15,20 @@ use carom::{answer, check, render, scene::Scene};
 /// Arguments of `carom solution`.
 #[derive(Args)]
 pub struct SolutionArgs {
-    /// Scene file, `-` for standard input
-    scene: PathBuf,
+    #[command(flatten)]
+    input: SceneArgs,
     /// Output format, if the name after -o does not tell it; latex is a document that compiles, latex-fragment goes into one of yours
     #[arg(long, value_enum)]
     format: Option<FormatArg>,
     /// How much is shown: the key equations, what a textbook shows, or every line of algebra
-    #[arg(long, value_enum, default_value_t = DetailArg::Normal)]
-    detail: DetailArg,
+    #[arg(long, value_enum, default_value_t = Detail::Normal)]
+    detail: Detail,
     /// Write here instead of to standard output; .html, .md, .tex, .pdf, .json and .txt name their formats
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// With -o and markdown, write the figures beside the output and link them; the other formats hold theirs
     #[arg(long, requires = "output")]
     figures: bool,
-    /// Give a parameter a value, such as v=2 or theta=acos(3/5); may be repeated
-    #[arg(long = "set", value_name = "NAME=VALUE")]
-    set: Vec<String>,
 }
 
 /// Arguments of `carom check`.
@@ -52,32 +49,22 @@ enum FormatArg {
     Json,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum DetailArg {
-    Brief,
-    Normal,
-    Full,
-}
-
 /// Writes the worked solution of a scene.
 pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
     if let Some(output) = &args.output {
-        files::writable(output, &[&args.scene])?;
+        files::writable(output, &[&args.input.scene])?;
     }
     let format = format(args)?;
-    let (scene, text) = read_scene_text(&args.scene, &args.set)?;
-    let detail = match args.detail {
-        DetailArg::Brief => Detail::Brief,
-        DetailArg::Normal => Detail::Normal,
-        DetailArg::Full => Detail::Full,
-    };
-    let worked = worked::in_cases(&scene).map_err(|why| refused(&args.scene, why))?;
-    let solution = &worked.solution(detail);
-    let drawn = drawn(&args.scene, &worked)?;
+    let (scene, text) = read_scene_text(&args.input.scene, &args.input.set)?;
+    let worked = worked::in_cases(&scene).map_err(|why| refused(&args.input.scene, why))?;
+    let solution = &worked.solution(args.detail);
+    let drawn = drawn(&args.input.scene, &worked)?;
     let holds = worked.holds();
     let held = || drawn.iter().map(|d| d.0.clone()).collect::<Vec<_>>();
     let linked = match (args.figures, &args.output) {
-        (true, Some(path)) if format == FormatArg::Markdown => link(path, &args.scene, &drawn)?,
+        (true, Some(path)) if format == FormatArg::Markdown => {
+            link(path, &args.input.scene, &drawn)?
+        }
         (true, _) if !matches!(format, FormatArg::Latex | FormatArg::LatexFragment) => {
             return Err(Failure::Input(String::from(
                 "--figures: this format links no files\nhint: markdown does; pages and LaTeX documents hold their figures",
@@ -91,16 +78,16 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
         FormatArg::Latex => render::latex_document::document(solution, &held()),
         FormatArg::LatexFragment => render::latex_document::fragment(solution, &held()),
         FormatArg::Html => render::html::page(solution, &held()),
-        FormatArg::Json => pretty(&render::steps::solution(solution, &text, &args.set)),
+        FormatArg::Json => pretty(&render::steps::solution(solution, &text, &args.input.set)),
         FormatArg::Pdf => {
             let document = render::latex_document::document(solution, &held());
             let path = args.output.as_deref().unwrap_or(Path::new("solution.pdf"));
-            files::save(path, &typeset(&document)?, &[&args.scene])?;
+            files::save(path, &typeset(&document)?, &[&args.input.scene])?;
             return Ok(u8::from(!holds));
         }
     };
     match &args.output {
-        Some(path) => files::save(path, output.as_bytes(), &[&args.scene])?,
+        Some(path) => files::save(path, output.as_bytes(), &[&args.input.scene])?,
         None => print(&output)?,
     }
     Ok(u8::from(!holds))
@@ -113,14 +100,13 @@ fn drawn(path: &Path, worked: &Worked) -> Result<Vec<(Picture, String)>, Failure
     for (i, (name, chapter)) in worked.chapters().iter().enumerate() {
         for (drawing, which) in figure::chapter(name, chapter) {
             let file = which.map_or_else(|| String::from("motion"), figure::file_name);
-            let named = match (which, worked.told.alone()) {
+            drawn.push(match (which, worked.told.alone()) {
                 (Some(which), Some(_)) => (picture(slot(which), drawing), file),
                 _ => (
                     picture(Slot::Stage(i), drawing),
                     format!("{}-{file}", i + 1),
                 ),
-            };
-            drawn.push(named);
+            });
         }
     }
     drawn.extend(plots(&worked.scene, &graphs)?);
@@ -150,20 +136,19 @@ fn format(args: &SolutionArgs) -> Result<FormatArg, Failure> {
         (Some(FormatArg::Pdf), _, None) => Err(Failure::Input(String::from(
             "--format pdf: a file is needed\nhint: name it with -o, such as -o solution.pdf",
         ))),
-        (Some(format), ..) => Ok(format),
-        (None, Some(format), _) => Ok(format),
+        (Some(format), ..) | (None, Some(format), _) => Ok(format),
         (None, None, None) => Ok(FormatArg::Text),
-        (None, None, Some(path)) => Err(Failure::Input(format!(
-            "{}: the name does not tell a format\nhint: end it with .html, .md, .tex, .pdf, .json or .txt, or say --format",
-            path.display()
-        ))),
+        (None, None, Some(path)) => Err(refused(
+            path,
+            "the name does not tell a format\nhint: end it with .html, .md, .tex, .pdf, .json or .txt, or say --format",
+        )),
     }
 }
 
 /// A LaTeX document as PDF, by a typesetter that is installed here.
 fn typeset(document: &str) -> Result<Vec<u8>, Failure> {
     let folder = std::env::temp_dir().join(format!("carom-{}", std::process::id()));
-    let failed = |e: std::io::Error| Failure::Input(format!("{}: {e}", folder.display()));
+    let failed = |e: std::io::Error| refused(&folder, e);
     std::fs::create_dir_all(&folder).map_err(failed)?;
     let made = std::fs::write(folder.join("solution.tex"), document).map_err(failed);
     let made = made.and_then(|()| {
@@ -250,10 +235,9 @@ fn link(
 
 /// Replays a solution file.
 pub fn check(args: &CheckArgs) -> Result<u8, Failure> {
-    let name = args.file.display().to_string();
     let text = files::read(&args.file, check::LONGEST)?;
-    let report = check::check(&text)
-        .map_err(|check::Unusable(message)| Failure::Input(format!("{name}: {message}")))?;
+    let report =
+        check::check(&text).map_err(|check::Unusable(message)| refused(&args.file, message))?;
     let mut out = String::new();
     for failure in &report.failed {
         out.push_str(&format!(

@@ -80,7 +80,7 @@ pub struct Options {
 }
 
 /// How strong a proof of equality has to be.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, clap::ValueEnum)]
 pub enum Strength {
     /// An identity in the normal form, and a counterexample with every refutation.
     #[default]

@@ -41,7 +41,7 @@ use crate::scene::{ContactLaw, Mode, Scene};
 use crate::story::{Case, Told};
 
 /// How much is shown.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, clap::ValueEnum)]
 pub enum Detail {
     /// The answers with their key equations.
     Brief,
