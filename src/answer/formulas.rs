@@ -26,11 +26,9 @@ pub fn about<'a>(
     let mut answers = Vec::new();
     for question in questions {
         let Some(new) = formulas(scene, question, &known)? else {
-            return Err(Refused::question(
-                &question.name,
-                String::from("it asks about a stage, and there are none"),
-                String::from("add \"stages\", or ask about a formula"),
-            ));
+            let why = "it asks about a stage, and there are none";
+            let hint = "add \"stages\", or ask about a formula";
+            return Err(Refused::question(&question.name, why, hint));
         };
         remember(scene, &new, &mut known);
         answers.extend(new);
@@ -50,6 +48,9 @@ pub(super) fn remember(scene: &Scene, answers: &[Answer], known: &mut Known) {
     }
 }
 
+/// Why what is asked is the same as its value.
+const SUBSTITUTED: &str = "with the results substituted";
+
 /// Longest formula that is worked on, in nodes.
 pub const LONGEST: usize = 20_000;
 
@@ -60,24 +61,28 @@ pub fn formulas(
     known: &Known,
 ) -> Result<Option<Vec<Answer>>, Refused> {
     let of = match &question.ask {
-        Ask::Value { formula, .. } => formula,
-        Ask::Limit { of, .. } | Ask::Approximate { of, .. } => of,
-        Ask::Condition { .. } | Ask::Maximum { .. } | Ask::Show { .. } => {
-            return one(scene, question, question.name.clone(), None, known).map(Some);
-        }
+        Ask::Value { formula, .. } => Some(formula),
+        Ask::Limit { of, .. } | Ask::Approximate { of, .. } => Some(of),
+        Ask::Condition { .. } | Ask::Maximum { .. } | Ask::Show { .. } => None,
         _ => return Ok(None),
     };
-    // The name of a vector alone asks for both components.
-    let parts = of.as_symbol().and_then(|s| components(s, known));
-    let Some(parts) = parts else {
-        return one(scene, question, question.name.clone(), None, known).map(Some);
+    let work = |name: &str, of: Option<&Expr>| {
+        let work = Work {
+            scene,
+            question,
+            name,
+            known,
+        };
+        work.answers(of)
     };
-    let mut out = Vec::new();
-    for (part, axis) in parts.iter().zip(["x", "y"]) {
-        let name = format!("{}_{axis}", question.name);
-        let of = Expr::symbol(part);
-        out.extend(one(scene, question, name, Some(&of), known)?);
-    }
+    // The name of a vector alone asks for both components.
+    let parts = of.and_then(|of| components(of.as_symbol()?, known));
+    let Some([x, y]) = parts else {
+        return work(&question.name, None).map(Some);
+    };
+    let name = &question.name;
+    let mut out = work(&format!("{name}_x"), Some(&Expr::symbol(&x)))?;
+    out.extend(work(&format!("{name}_y"), Some(&Expr::symbol(&y)))?);
     Ok(Some(out))
 }
 
@@ -98,36 +103,24 @@ pub(super) fn put(
     e: &Expr,
     with: &[(Symbol, Expr)],
 ) -> Result<Expr, Refused> {
-    let refused = |reason: String, hint: &str| Refused::question(name, reason, hint);
-    let open = e
-        .symbols()
-        .into_iter()
-        .find(|s| !known.contains_key(s) && s.as_ref() != "pi" && !is_parameter(scene, s));
-    if let Some(open) = open {
-        return Err(match components(&open, known) {
-            Some([x, y]) => refused(
-                format!("`{open}` is a vector"),
-                &format!("its components are {x} and {y}"),
+    let is_parameter = |s: &Symbol| scene.parameters.iter().any(|p| p.name == *s);
+    let is_open = |s: &Symbol| !known.contains_key(s) && s.as_ref() != "pi" && !is_parameter(s);
+    if let Some(open) = e.symbols().into_iter().find(is_open) {
+        let (reason, hint) = match components(&open, known) {
+            Some([x, y]) => ("is a vector", format!("its components are {x} and {y}")),
+            None => (
+                "has no single value that could be substituted",
+                String::from("name an earlier answer that is a formula"),
             ),
-            None => refused(
-                format!("`{open}` has no single value that could be substituted"),
-                "name an earlier answer that is a formula",
-            ),
-        });
+        };
+        return Err(Refused::question(name, format!("`{open}` {reason}"), hint));
     }
-    let with: Known = with
-        .iter()
-        .map(|(s, v)| (s.clone(), v.substitute(known)))
-        .collect();
-    let e = e.substitute(known).substitute(&with);
+    let with = with.iter().map(|(s, v)| (s.clone(), v.substitute(known)));
+    let e = e.substitute(known).substitute(&with.collect());
     if e.size() > LONGEST {
         return Err(Refused::uncalculated(name, "too long"));
     }
     tidy(&e, &scene.domains).map_err(|stop| Refused::uncalculated(name, stop))
-}
-
-fn is_parameter(scene: &Scene, name: &Symbol) -> bool {
-    scene.parameters.iter().any(|p| p.name == *name)
 }
 
 /// A question about formulas on its way to an answer.
@@ -140,72 +133,50 @@ struct Work<'a> {
     known: &'a Known,
 }
 
-/// One answer, of `of` in place of what the question names where a component is asked; a maximum also tells its place.
-fn one(
-    scene: &Scene,
-    question: &Question,
-    name: String,
-    of: Option<&Expr>,
-    known: &Known,
-) -> Result<Vec<Answer>, Refused> {
-    let work = Work {
-        scene,
-        question,
-        name: &name,
-        known,
-    };
-    let out = match &question.ask {
-        Ask::Value {
-            formula,
-            with,
-            meaning,
-        } => work.value(of.unwrap_or(formula), with, meaning)?,
-        Ask::Condition {
-            parameter,
-            left,
-            relation,
-            right,
-            with,
-        } => {
-            let sides = [work.put(left, with)?, work.put(right, with)?];
-            let statement = statement(left, *relation, right);
-            same_kind(
-                scene,
-                &name,
-                &statement,
-                [left, right],
-                [&sides[0], &sides[1]],
-            )?;
-            condition(
-                scene, question, &statement, parameter, *relation, sides, with,
-            )?
-        }
-        Ask::Maximum { of, over } => return work.maximum(of, over),
-        Ask::Limit {
-            of: whole,
-            parameter,
-            to,
-        } => work.limit(of.unwrap_or(whole), parameter, to.as_ref())?,
-        Ask::Approximate {
-            of: whole,
-            parameter,
-            to,
-            order,
-        } => work.approximate(of.unwrap_or(whole), parameter, to, *order)?,
-        Ask::Show {
-            left,
-            relation,
-            right,
-            with,
-            unless,
-            claim,
-        } => work.show((left, *relation, right), with, unless, claim)?,
-        _ => return Ok(Vec::new()),
-    };
-    Ok(vec![out])
-}
+/// An equation or inequality, as it is asked.
+type Stated<'e> = (&'e Expr, Relation, &'e Expr);
 
 impl Work<'_> {
+    /// The answers, of `of` in place of what the question names where a component is asked; a maximum also tells its place.
+    fn answers(&self, of: Option<&Expr>) -> Result<Vec<Answer>, Refused> {
+        let one = match &self.question.ask {
+            Ask::Value {
+                formula,
+                with,
+                meaning,
+            } => self.value(of.unwrap_or(formula), with, meaning),
+            Ask::Condition {
+                parameter,
+                left,
+                relation,
+                right,
+                with,
+            } => self.condition(parameter, (left, *relation, right), with),
+            Ask::Maximum { of, over } => return self.maximum(of, over),
+            Ask::Limit {
+                of: whole,
+                parameter,
+                to,
+            } => self.limit(of.unwrap_or(whole), parameter, to.as_ref()),
+            Ask::Approximate {
+                of: whole,
+                parameter,
+                to,
+                order,
+            } => self.approximate(of.unwrap_or(whole), parameter, to, *order),
+            Ask::Show {
+                left,
+                relation,
+                right,
+                with,
+                unless,
+                claim,
+            } => self.show((left, *relation, right), with, unless, claim),
+            _ => return Ok(Vec::new()),
+        };
+        Ok(vec![one?])
+    }
+
     /// A formula in parameters alone, with some of them at given values.
     fn put(&self, e: &Expr, with: &[(Symbol, Expr)]) -> Result<Expr, Refused> {
         put(self.scene, self.name, self.known, e, with)
@@ -227,26 +198,24 @@ impl Work<'_> {
         with: &[(Symbol, Expr)],
         meaning: &str,
     ) -> Result<Answer, Refused> {
-        let (scene, known, name) = (self.scene, self.known, self.name);
         let mut out = self.blank(match meaning {
             "" => format!("value of {}", write_plain(formula)),
             meaning => meaning.to_string(),
         });
         let value = self.put(formula, with)?;
-        put_in_fits(scene, known, with, name)?;
-        out.dimension = match stated_dimension(scene, known, formula, name)? {
+        self.put_in_fits(with)?;
+        out.dimension = match self.stated_dimension(formula)? {
             Some(stated) => stated,
-            None if with.is_empty() => dimension_of(scene, &value, name)?,
+            None if with.is_empty() => self.dimension_of(&value)?,
             None => Dimension::none(),
         };
         let raw = self.raw(formula, with);
         out.checks.push(Check::new(
             "identity",
             "with the results substituted, the difference is zero in the normal form",
-            is_zero(&(&raw.substitute(known) - &value), &scene.domains),
+            is_zero(&(&raw.substitute(self.known) - &value), &self.scene.domains),
         ));
-        out.put_in
-            .push((raw, value.clone(), "with the results substituted"));
+        out.put_in.push((raw, value.clone(), SUBSTITUTED));
         out.form = Form::value(value);
         out.text.extend(with_words(with));
         Ok(out)
@@ -277,7 +246,7 @@ impl Work<'_> {
         let domains = &self.scene.domains;
         limit::fill(&mut out, &value, parameter, to.as_ref(), domains);
         if let Some(formula) = out.formula() {
-            out.dimension = dimension_of(self.scene, formula, self.name)?;
+            out.dimension = self.dimension_of(formula)?;
         }
         Ok(out)
     }
@@ -289,10 +258,9 @@ impl Work<'_> {
         to: &Expr,
         order: Option<u32>,
     ) -> Result<Answer, Refused> {
-        let near = if to.is_zero() {
-            format!("small {parameter}")
-        } else {
-            format!("{parameter} near {}", write_plain(to))
+        let near = match to.is_zero() {
+            true => format!("small {parameter}"),
+            false => format!("{parameter} near {}", write_plain(to)),
         };
         let words = match order {
             Some(order) => format!("{} for {near}, to order {order}", write_plain(of)),
@@ -300,7 +268,7 @@ impl Work<'_> {
         };
         let mut out = self.blank(words);
         let value = self.put(of, &[])?;
-        out.dimension = dimension_of(self.scene, &value, self.name)?;
+        out.dimension = self.dimension_of(&value)?;
         let to = self.put(to, &[])?;
         let domains = &self.scene.domains;
         limit::approximate(&mut out, &value, parameter, &to, order, domains);
@@ -309,18 +277,39 @@ impl Work<'_> {
 
     fn show(
         &self,
-        asked: (&Expr, Relation, &Expr),
+        asked: Stated,
         with: &[(Symbol, Expr)],
         unless: &[Symbol],
         claim: &str,
     ) -> Result<Answer, Refused> {
-        let sides = [self.put(asked.0, with)?, self.put(asked.2, with)?];
-        let values = sides.clone();
-        let mut out = show(self.scene, self.question, asked, claim, sides)?;
-        for (asked, value) in [asked.0, asked.2].into_iter().zip(values) {
+        let domains = &self.scene.domains;
+        let [left, right] = self.sides(asked, with)?;
+        let words = match claim {
+            "" => statement(asked),
+            claim => claim.to_string(),
+        };
+        let mut out = self.blank(format!("to be shown: {words}"));
+        out.dimension = self.dimension_of(&left)?;
+        for (asked, value) in [(asked.0, &left), (asked.2, &right)] {
             let raw = self.raw(asked, with);
-            out.put_in
-                .push((raw, value, "with the results substituted"));
+            out.put_in.push((raw, value.clone(), SUBSTITUTED));
+        }
+        if asked.1 == Relation::Equal {
+            let check = identity(&left, &right, domains);
+            let equation = sentence![asked.0, " = ", asked.2];
+            out.text.push(match check.holds {
+                Some(true) => sentence![equation, ": both are ", &left],
+                Some(false) => sentence![equation, " does not hold: ", &left, " against ", &right],
+                None => sentence![equation, " could not be decided"],
+            });
+            out.checks.push(check);
+            out.form = Form::Equation { left, right };
+        } else {
+            let gap = tidy(&(&left - &right), domains);
+            let gap = gap.map_err(|stop| Refused::uncalculated(self.name, stop))?;
+            let (text, check) = inequality::shown(&gap, asked.1, domains);
+            out.text.push(text);
+            out.checks.push(check);
         }
         out.text.extend(with_words(with));
         for name in unless {
@@ -329,9 +318,114 @@ impl Work<'_> {
             for part in parts {
                 square = &square + &self.put(&Expr::symbol(&part), with)?.powi(2);
             }
-            out.text.push(vanishing(name, &square, &self.scene.domains));
+            out.text.push(vanishing(name, &square, domains));
         }
         Ok(out)
+    }
+
+    fn condition(
+        &self,
+        parameter: &Symbol,
+        asked: Stated,
+        with: &[(Symbol, Expr)],
+    ) -> Result<Answer, Refused> {
+        let relation = asked.1;
+        let [left, right] = self.sides(asked, with)?;
+        let what = match relation {
+            Relation::Equal => "value",
+            _ => "threshold",
+        };
+        let mut out = self.blank(format!("{what} of {parameter} for {}", statement(asked)));
+        out.text.extend(with_words(with));
+        out.stated = Some((left.clone(), relation, right.clone()));
+        threshold::fill(&mut out, parameter, &left, relation, &right, self.scene);
+        if let Some(root) = out.formula() {
+            // What stands in the equation and not in its solution plays no part, which is worth saying.
+            let used = root.symbols();
+            let all: BTreeSet<Symbol> = left.symbols().union(&right.symbols()).cloned().collect();
+            let is_idle = |s: &&Symbol| *s != parameter && s.as_ref() != "pi" && !used.contains(*s);
+            let idle: Vec<Sentence> = all.iter().filter(is_idle).map(Sentence::from).collect();
+            if let [first @ .., last] = idle.as_slice() {
+                let lead = Sentence::join(first.iter().cloned(), ", ");
+                let or = if first.is_empty() { "" } else { " or " };
+                let words = sentence!["it does not depend on ", lead, or, last];
+                out.text.push(words);
+            }
+        }
+        out.dimension = self.dimension_of(&Expr::symbol(parameter))?;
+        Ok(out)
+    }
+
+    /// Both sides of a statement in parameters alone. Quantities of different kinds are not compared: a plain number counts in SI
+    /// units, and what came out of plain numbers is of the kind that was asked for.
+    fn sides(&self, asked: Stated, with: &[(Symbol, Expr)]) -> Result<[Expr; 2], Refused> {
+        let stated = [asked.0, asked.2];
+        let put = [self.put(asked.0, with)?, self.put(asked.2, with)?];
+        if stated.iter().any(|side| side.is_constant()) || put.iter().any(Expr::is_zero) {
+            return Ok(put);
+        }
+        let kinds = stated.map(|side| dimension::of(side, &|name| kind_of(self.scene, name)));
+        if let [Ok(Some(l)), Ok(Some(r))] = &kinds
+            && l == r
+        {
+            return Ok(put);
+        }
+        let (l, r) = (self.dimension_of(&put[0])?, self.dimension_of(&put[1])?);
+        if l == r {
+            return Ok(put);
+        }
+        let reason = format!("the sides of {} are {l} and {r}", statement(asked));
+        let hint = "compare quantities of the same kind";
+        Err(Refused::question(self.name, reason, hint))
+    }
+
+    fn dimension_of(&self, e: &Expr) -> Result<Dimension, Refused> {
+        dimension_of(self.scene, e, self.name)
+    }
+
+    /// Dimension of a formula of parameters and earlier answers, as it is stated: what is put in for a parameter may be a plain
+    /// number in its unit.
+    fn stated_dimension(&self, e: &Expr) -> Result<Option<Dimension>, Refused> {
+        let (scene, known) = (self.scene, self.known);
+        let parameter = |name: &str| dimension_of_parameter(scene, name);
+        let of_answer = |answer: &Expr| dimension::of(answer, &parameter).ok().flatten();
+        let of = |name: &str| match known.get(name) {
+            Some(answer) => of_answer(answer),
+            None => parameter(name),
+        };
+        let asked = |name: &str| match known.contains_key(name) {
+            true => kind_of(scene, name).or_else(|| of(name)),
+            false => of(name),
+        };
+        let is_plain = |s: &Symbol| known.get(s).is_some_and(Expr::is_constant);
+        if e.symbols().iter().any(is_plain)
+            && !has_number(e)
+            && let Ok(by_kind) = dimension::of(e, &asked)
+        {
+            return Ok(by_kind);
+        }
+        // Of an answer that is 0 nothing can be told: it stands for itself.
+        let plain = known.iter().filter(|(_, v)| of_answer(v).is_none());
+        let plain: Known = plain.map(|(s, v)| (s.clone(), v.clone())).collect();
+        dimension::of(&e.substitute(&plain), &of).or_else(|clash| {
+            let by_kind = dimension::of(e, &asked);
+            by_kind.map_err(|_| clashes(self.name, clash.message(&write_plain)))
+        })
+    }
+
+    /// What is put in for a parameter has its dimension, or is a number.
+    fn put_in_fits(&self, with: &[(Symbol, Expr)]) -> Result<(), Refused> {
+        for (name, value) in with.iter().filter(|(_, v)| !v.is_constant()) {
+            let own = self.stated_dimension(&Expr::symbol(name))?;
+            let put = self.stated_dimension(value)?;
+            if let (Some(own), Some(put)) = (own, put)
+                && own != put
+            {
+                let reason = format!("{name} is {own}, and what is put in for it {put}");
+                return Err(clashes(self.name, reason));
+            }
+        }
+        Ok(())
     }
 }
 
@@ -362,122 +456,9 @@ fn gathered(e: &Expr) -> Expr {
     Expr::product(bases.into_iter().map(|(base, k)| base.power(k)))
 }
 
-fn statement(left: &Expr, relation: Relation, right: &Expr) -> String {
-    format!(
-        "{} {} {}",
-        write_plain(left),
-        relation.sign(),
-        write_plain(right)
-    )
-}
-
-fn condition(
-    scene: &Scene,
-    question: &Question,
-    statement: &str,
-    parameter: &Symbol,
-    relation: Relation,
-    [left, right]: [Expr; 2],
-    with: &[(Symbol, Expr)],
-) -> Result<Answer, Refused> {
-    let name = question.name.as_str();
-    let what = if relation == Relation::Equal {
-        "value"
-    } else {
-        "threshold"
-    };
-    let mut out = Answer::blank(
-        question,
-        name,
-        format!("{what} of {parameter} for {statement}"),
-    );
-    out.text.extend(with_words(with));
-    out.stated = Some((left.clone(), relation, right.clone()));
-    threshold::fill(&mut out, parameter, &left, relation, &right, scene);
-    if let Some(root) = out.formula() {
-        // What stands in the equation and not in its solution plays no part, which is worth saying.
-        let used = root.symbols();
-        let all: BTreeSet<Symbol> = left.symbols().union(&right.symbols()).cloned().collect();
-        let idle: Vec<Sentence> = all
-            .iter()
-            .filter(|s| *s != parameter && s.as_ref() != "pi" && !used.contains(*s))
-            .map(Sentence::from)
-            .collect();
-        if let [first @ .., last] = idle.as_slice() {
-            let lead = Sentence::join(first.iter().cloned(), ", ");
-            let or = if first.is_empty() { "" } else { " or " };
-            out.text
-                .push(sentence!["it does not depend on ", lead, or, last]);
-        }
-    }
-    out.dimension = dimension_of(scene, &Expr::symbol(parameter), name)?;
-    Ok(out)
-}
-
-/// Refuses to compare quantities of different kinds. A plain number counts in SI units, and what came out of plain numbers is of
-/// the kind that was asked for.
-fn same_kind(
-    scene: &Scene,
-    name: &str,
-    statement: &str,
-    stated: [&Expr; 2],
-    put: [&Expr; 2],
-) -> Result<(), Refused> {
-    if stated.iter().any(|side| side.is_constant()) || put.iter().any(|side| side.is_zero()) {
-        return Ok(());
-    }
-    let kinds = stated.map(|side| dimension::of(side, &|name| kind_of(scene, name)));
-    if let [Ok(Some(l)), Ok(Some(r))] = &kinds
-        && l == r
-    {
-        return Ok(());
-    }
-    let [l, r] = put.map(|side| dimension_of(scene, side, name));
-    let (l, r) = (l?, r?);
-    if l == r {
-        return Ok(());
-    }
-    Err(Refused::question(
-        name,
-        format!("the sides of {statement} are {l} and {r}"),
-        String::from("compare quantities of the same kind"),
-    ))
-}
-
-fn show(
-    scene: &Scene,
-    question: &Question,
-    shown: (&Expr, Relation, &Expr),
-    claim: &str,
-    [left, right]: [Expr; 2],
-) -> Result<Answer, Refused> {
-    let name = question.name.as_str();
-    let (_, relation, _) = shown;
-    let equation = statement(shown.0, relation, shown.2);
-    same_kind(scene, name, &equation, [shown.0, shown.2], [&left, &right])?;
-    let words = match claim {
-        "" => equation,
-        claim => claim.to_string(),
-    };
-    let mut out = Answer::blank(question, name, format!("to be shown: {words}"));
-    out.dimension = dimension_of(scene, &left, name)?;
-    if relation != Relation::Equal {
-        let gap = tidy(&(&left - &right), &scene.domains);
-        let gap = gap.map_err(|stop| Refused::uncalculated(name, stop))?;
-        let (text, check) = inequality::shown(&gap, relation, &scene.domains);
-        out.text.push(text);
-        out.checks.push(check);
-        return Ok(out);
-    }
-    out.checks.push(identity(&left, &right, &scene.domains));
-    let equation = sentence![shown.0, " = ", shown.2];
-    out.text.push(match out.checks[0].holds {
-        Some(true) => sentence![equation, ": both are ", &left],
-        Some(false) => sentence![equation, " does not hold: ", &left, " against ", &right],
-        None => sentence![equation, " could not be decided"],
-    });
-    out.form = Form::Equation { left, right };
-    Ok(out)
+fn statement((left, relation, right): Stated) -> String {
+    let [left, right] = [left, right].map(write_plain);
+    format!("{left} {} {right}", relation.sign())
 }
 
 /// Where a quantity vanishes whose square this is.
@@ -490,34 +471,26 @@ fn vanishing(name: &Symbol, square: &Expr, domains: &Domains) -> Sentence {
         return sentence![name, " is nowhere zero"];
     }
     let places = Sentence::join(places, " or ");
-    sentence![
-        "the exception is ",
-        places,
-        ": there ",
-        name,
-        " is zero and the statement is empty"
-    ]
+    let empty = " is zero and the statement is empty";
+    sentence!["the exception is ", places, ": there ", name, empty]
 }
 
 /// An identity, decided.
 pub(super) fn identity(left: &Expr, right: &Expr, domains: &Domains) -> Check {
-    let decision = equality::decide(left, right, domains).equality;
-    let (words, holds) = match decision {
+    let (words, holds) = match equality::decide(left, right, domains).equality {
         Equality::Same {
             how: How::Identity { .. },
-        } => (
-            String::from("identity: the difference is zero in the normal form"),
-            Some(true),
-        ),
+        } => {
+            let words = "identity: the difference is zero in the normal form";
+            (words.into(), Some(true))
+        }
         Equality::Same {
             how: How::OnBranch { elsewhere, .. },
-        } => (
-            format!(
-                "holds on a part of the domain only, not at {}",
-                elsewhere.at.words()
-            ),
-            Some(false),
-        ),
+        } => {
+            let at = elsewhere.at.words();
+            let words = format!("holds on a part of the domain only, not at {at}");
+            (words, Some(false))
+        }
         Equality::Different(point) => (format!("different at {}", point.at.words()), Some(false)),
         _ => (String::from("not decided"), None),
     };
@@ -528,40 +501,6 @@ fn with_words(with: &[(Symbol, Expr)]) -> Vec<Sentence> {
     with.iter()
         .map(|(s, v)| sentence!["taken at ", s, " = ", v])
         .collect()
-}
-
-/// Dimension of a formula of parameters and earlier answers, as it is stated: what is put in for a parameter may be a plain
-/// number in its unit.
-fn stated_dimension(
-    scene: &Scene,
-    known: &Known,
-    e: &Expr,
-    at: &str,
-) -> Result<Option<Dimension>, Refused> {
-    let parameter = |name: &str| dimension_of_parameter(scene, name);
-    let of_answer = |answer: &Expr| dimension::of(answer, &parameter).ok().flatten();
-    let of = |name: &str| match known.get(name) {
-        Some(answer) => of_answer(answer),
-        None => parameter(name),
-    };
-    let asked = |name: &str| match known.contains_key(name) {
-        true => kind_of(scene, name).or_else(|| of(name)),
-        false => of(name),
-    };
-    let is_plain = |s: &Symbol| known.get(s).is_some_and(Expr::is_constant);
-    if e.symbols().iter().any(is_plain)
-        && !has_number(e)
-        && let Ok(by_kind) = dimension::of(e, &asked)
-    {
-        return Ok(by_kind);
-    }
-    // Of an answer that is 0 nothing can be told: it stands for itself.
-    let plain = known.iter().filter(|(_, v)| of_answer(v).is_none());
-    let plain: Known = plain.map(|(s, v)| (s.clone(), v.clone())).collect();
-    dimension::of(&e.substitute(&plain), &of).or_else(|clash| {
-        let by_kind = dimension::of(e, &asked);
-        by_kind.map_err(|_| clashes(at, clash.message(&write_plain)))
-    })
 }
 
 fn dimension_of_parameter(scene: &Scene, name: &str) -> Option<Dimension> {
@@ -594,32 +533,9 @@ fn has_number(e: &Expr) -> bool {
     }
 }
 
-/// What is put in for a parameter has its dimension, or is a number.
-fn put_in_fits(
-    scene: &Scene,
-    known: &Known,
-    with: &[(Symbol, Expr)],
-    at: &str,
-) -> Result<(), Refused> {
-    for (name, value) in with.iter().filter(|(_, v)| !v.is_constant()) {
-        let own = stated_dimension(scene, known, &Expr::symbol(name), at)?;
-        let put = stated_dimension(scene, known, value, at)?;
-        if let (Some(own), Some(put)) = (own, put)
-            && own != put
-        {
-            let reason = format!("{name} is {own}, and what is put in for it {put}");
-            return Err(clashes(at, reason));
-        }
-    }
-    Ok(())
-}
-
 fn clashes(at: &str, reason: String) -> Refused {
-    Refused::question(
-        at,
-        reason,
-        String::from("both sides of a sum or relation have the same dimension"),
-    )
+    let hint = "both sides of a sum or relation have the same dimension";
+    Refused::question(at, reason, hint)
 }
 
 /// Dimension of an expression in the scene's parameters.
