@@ -118,6 +118,22 @@ impl Field {
         }
     }
 
+    /// A field that knows a formula, and its element.
+    pub fn of(domains: &Domains, e: &Expr) -> Result<(Field, Element), Stop> {
+        let mut field = Field::new(domains);
+        field.prepare([e]);
+        let x = field.element(e)?;
+        Ok((field, x))
+    }
+
+    /// A field that knows two formulas, and their elements.
+    pub fn pair(domains: &Domains, a: &Expr, b: &Expr) -> Result<(Field, Element, Element), Stop> {
+        let mut field = Field::new(domains);
+        field.prepare([a, b]);
+        let (x, y) = (field.element(a)?, field.element(b)?);
+        Ok((field, x, y))
+    }
+
     /// Everything from now on together may take so much work, counted in products of terms; then each operation ends with
     /// [`Stop::TooLarge`].
     pub fn limit(&self, work: u64) {

@@ -70,10 +70,20 @@ impl std::error::Error for Stop {}
 
 /// The expression as a person would write it.
 pub fn tidy(e: &Expr, domains: &Domains) -> Result<Expr, Stop> {
-    let mut field = Field::new(domains);
-    field.prepare([e]);
-    let x = field.element(e)?;
+    let (field, x) = Field::of(domains, e)?;
     Ok(field.expr(&x))
+}
+
+/// The sign of an expression, where it has one on the whole domain.
+pub fn sign(e: &Expr, domains: &Domains) -> Option<Sign> {
+    let (field, x) = Field::of(domains, e).ok()?;
+    field.sign(&x)
+}
+
+/// A quotient as a person would write it.
+pub fn quotient(a: &Expr, b: &Expr, domains: &Domains) -> Result<Expr, Stop> {
+    let (field, x, y) = Field::pair(domains, a, b)?;
+    Ok(field.expr(&field.div(&x, &y)?))
 }
 
 /// A sign that holds at every point of the domain.
@@ -106,17 +116,20 @@ impl Sign {
     /// The sign of a product.
     pub fn times(self, other: Sign) -> Sign {
         use Sign::{NotNegative, Positive, Zero};
-        let strict = |s: Sign| matches!(s, Sign::Negative | Positive);
         if self == Zero || other == Zero {
             return Zero;
         }
         let minus = !self.is_not_negative() ^ !other.is_not_negative();
-        let sign = if strict(self) && strict(other) {
-            Positive
-        } else {
-            NotNegative
+        let sign = match self.is_strict() && other.is_strict() {
+            true => Positive,
+            false => NotNegative,
         };
         if minus { sign.flip() } else { sign }
+    }
+
+    /// Whether a value of this sign is nowhere zero.
+    pub fn is_strict(self) -> bool {
+        matches!(self, Sign::Negative | Sign::Positive)
     }
 
     /// Whether a value of this sign is nowhere below zero.

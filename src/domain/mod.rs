@@ -287,6 +287,17 @@ impl Domains {
         }
         (all, assumed)
     }
+
+    /// The domain with every symbol of some formulas declared.
+    pub fn of(&self, formulas: &[&Expr]) -> Domains {
+        self.completed(&roles(formulas)).0
+    }
+
+    /// The first points at which some formulas may be tried.
+    pub fn points(&self, formulas: &[&Expr], count: usize) -> Vec<Sample> {
+        let roles = roles(formulas);
+        samples(&roles, &self.completed(&roles).0, count)
+    }
 }
 
 /// Order of two fractions; by cross multiplication where they are small, which nearly all are.

@@ -7,7 +7,7 @@
 
 use super::Ground;
 use super::proof::{Proof, compare};
-use crate::algebra::{Field, Sign};
+use crate::algebra::{Sign, sign};
 use crate::domain::{Domains, Limit};
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Function, Node, Point, Rational};
@@ -156,9 +156,7 @@ fn range(atom: &Expr, domains: &Domains) -> Option<[f64; 2]> {
     }
     match atom.node() {
         Node::Call(function, argument) => {
-            let mut field = Field::new(domains);
-            field.prepare([argument]);
-            let sign = field.element(argument).ok().and_then(|x| field.sign(&x));
+            let sign = sign(argument, domains);
             let positive = matches!(sign, Some(Sign::Positive | Sign::NotNegative | Sign::Zero));
             let negative = matches!(sign, Some(Sign::Negative | Sign::NotPositive | Sign::Zero));
             let (low, high) = (
@@ -198,21 +196,16 @@ fn exponentials(e: &Expr, domains: &Domains) -> Expr {
             Node::Call(Function::Exp, inner) => inner.clone(),
             _ => e,
         },
-        Node::Power(base, k) if k.as_number().is_none() => {
-            let mut field = Field::new(domains);
-            field.prepare([base]);
-            let sign = field.element(base).ok().and_then(|x| field.sign(&x));
-            match sign {
-                Some(Sign::Positive) => {
-                    let ln = match base.node() {
-                        Node::Call(Function::Exp, inner) => inner.clone(),
-                        _ => Expr::call(Function::Ln, base.clone()),
-                    };
-                    exp(k * &ln)
-                }
-                _ => e,
+        Node::Power(base, k) if k.as_number().is_none() => match sign(base, domains) {
+            Some(Sign::Positive) => {
+                let ln = match base.node() {
+                    Node::Call(Function::Exp, inner) => inner.clone(),
+                    _ => Expr::call(Function::Ln, base.clone()),
+                };
+                exp(k * &ln)
             }
-        }
+            _ => e,
+        },
         _ => e,
     }
 }

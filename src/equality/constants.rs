@@ -27,9 +27,7 @@ pub(super) fn prove(a: &Expr, b: &Expr, domains: &Domains) -> Option<Proof> {
     if a.is_constant() && b.is_constant() {
         return vanishes(&(a - b)).then(|| Proof::Equal(Vec::new(), Ground::Bound));
     }
-    let mut field = Field::new(domains);
-    field.prepare([a, b]);
-    let (x, y) = (field.element(a).ok()?, field.element(b).ok()?);
+    let (field, x, y) = Field::pair(domains, a, b).ok()?;
     let difference = field.sub(&x, &y).ok()?;
     let coefficients = field.constants(&difference)?;
     let equal = coefficients.iter().all(vanishes);

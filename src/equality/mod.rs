@@ -69,6 +69,26 @@ pub enum Equality {
     },
 }
 
+impl Equality {
+    /// Whether the two are equal, and be it on a part of the domain.
+    pub fn is_same(&self) -> bool {
+        matches!(self, Equality::Same { .. })
+    }
+
+    /// Whether they are equal on the whole domain.
+    pub fn is_identity(&self) -> bool {
+        let Equality::Same { how } = self else {
+            return false;
+        };
+        matches!(how, How::Identity { .. })
+    }
+
+    /// Whether a point tells them apart.
+    pub fn is_different(&self) -> bool {
+        matches!(self, Equality::Different(_))
+    }
+}
+
 /// How equality is known.
 #[derive(Clone, PartialEq, Debug)]
 pub enum How {
@@ -217,6 +237,16 @@ pub fn decide(a: &Expr, b: &Expr, domains: &Domains) -> Decision {
         equality: decide_on(a, b, &domains, &roles, size),
         assumed,
     }
+}
+
+/// Whether an expression is zero, and be it on a part of the domain.
+pub fn vanishes(e: &Expr, domains: &Domains) -> bool {
+    decide(e, &Expr::zero(), domains).equality.is_same()
+}
+
+/// Whether two formulas are proved equal on the whole domain.
+pub fn identical(a: &Expr, b: &Expr, domains: &Domains) -> bool {
+    decide(a, b, domains).equality.is_identity()
 }
 
 /// Compares two formulas at random points modulo a prime alone, with the domains assumed, in words. `None` where they are

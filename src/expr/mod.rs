@@ -270,6 +270,14 @@ impl Expr {
         }
     }
 
+    /// Replaces one symbol throughout.
+    pub fn put(&self, name: &str, value: &Expr) -> Expr {
+        match self.node() {
+            Node::Symbol(own) if **own == *name => value.clone(),
+            _ => self.map_parts(|part| part.put(name, value)),
+        }
+    }
+
     /// Replaces one part throughout.
     pub fn replace(&self, old: &Expr, new: &Expr) -> Expr {
         match self == old {

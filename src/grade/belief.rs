@@ -8,6 +8,7 @@ mod motions;
 mod slips;
 
 use crate::expr::{Expr, Vector, minus};
+use crate::numeric::Unknown;
 use crate::scene::{ContactLaw, Scene, Shape};
 pub(super) use motions::in_stages;
 use slips::{

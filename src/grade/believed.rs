@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 
 use super::Diagnosis;
 use super::belief::{BELIEFS, Belief, Slip};
-use crate::algebra::Field;
+use crate::algebra::tidy;
 use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::numeric;
 use crate::scene::{Ask, Scene};
@@ -117,12 +117,7 @@ pub fn answers(asked: &Written) -> Vec<Believed> {
 
 /// Whether two closed forms are one function, as far as the normal form tells.
 fn is_same(asked: &Written, a: &Expr, b: &Expr) -> bool {
-    let difference = a - b;
-    let mut field = Field::new(&asked.scene.domains);
-    field.prepare([&difference]);
-    field
-        .element(&difference)
-        .is_ok_and(|found| field.is_zero(&found))
+    tidy(&(a - b), &asked.scene.domains).is_ok_and(|gap| gap.is_zero())
 }
 
 /// The beliefs that give exactly the written answer, single ones before pairs where these are evidence.

@@ -9,8 +9,8 @@ use super::{
     several, show, unit,
 };
 use crate::dimension::Dimension;
-use crate::domain::{Sample, roles, samples};
-use crate::equality::{self, Equality};
+use crate::domain::Sample;
+use crate::equality::{self};
 use crate::expr::{Expr, Node, Symbol, ratio};
 use crate::formula::{self, Content, Reading, Relation, write_unicode};
 use crate::interval::{Interval, Outcome, evaluate};
@@ -408,15 +408,13 @@ fn may_hold(ctx: &Context, sides: &[Content], name: &Symbol, value: &Content) ->
     let (Some(left), Some(right)) = (left.expr(), right.expr()) else {
         return true;
     };
-    let there = BTreeMap::from([(name.clone(), value.clone())]);
-    let difference = (left - right).substitute(&there);
-    let uses = roles(&[&difference]);
-    let (domains, _) = ctx.key.question.domains.completed(&uses);
+    let difference = (left - right).put(name, value);
+    let points = ctx.key.question.domains.points(&[&difference], POINTS);
     let is_zero = |sample: &Sample| match evaluate::<Interval>(&difference, &sample.point(true)) {
         Outcome::Value(value) => value.low <= 0.0 && value.high >= 0.0,
         _ => true,
     };
-    samples(&uses, &domains, POINTS).iter().all(is_zero)
+    points.iter().all(is_zero)
 }
 
 pub(super) fn kind(words: &str) -> Finding {
@@ -461,7 +459,7 @@ fn apart<'a>(ctx: &Context, sides: &'a [Content], signs: &[Relation]) -> Option<
     let exprs: Vec<&Expr> = sides[1..].iter().filter_map(Content::expr).collect();
     let differ = |pair: &&[&Expr]| {
         let decision = equality::decide(pair[0], pair[1], &ctx.key.question.domains);
-        matches!(decision.equality, Equality::Different(_))
+        decision.equality.is_different()
     };
     let pair = exprs.windows(2).find(differ)?;
     Some([pair[0], pair[1]])

@@ -1,6 +1,7 @@
 //! Demands on the way an answer is written: simplified, factored, in given symbols, to so many digits, with a unit.
 
 use super::{Diagnosis, Key};
+use crate::algebra::{Field, tidy};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Content, Reading, Shape, Written};
 
@@ -67,13 +68,10 @@ fn check(form: &Form, key: &Key, answer: &Reading) -> Option<(&'static str, &'st
                 .content
                 .each(&mut |e| shortest = shortest.min(e.size()));
             answer.content.answer().each(&mut |e| {
-                let mut field = crate::algebra::Field::new(&key.question.domains);
-                field.prepare([e]);
-                let tidy = field
-                    .element(e)
-                    .ok()
-                    .filter(|x| x.terms() <= super::compare::WRITTEN)
-                    .map_or(usize::MAX, |x| field.expr(&x).size())
+                let read = Field::of(&key.question.domains, e).ok();
+                let tidy = read
+                    .filter(|(_, x)| x.terms() <= super::compare::WRITTEN)
+                    .map_or(usize::MAX, |(field, x)| field.expr(&x).size())
                     .min(shortest);
                 long |= tidy != usize::MAX && 2 * e.size() > 3 * tidy + 4 || repeats(e);
             });
@@ -176,12 +174,8 @@ fn reducible(w: &Written) -> bool {
 /// Whether no sum at the top or in a factor has more than one factor in its normal form.
 fn factored(e: &Expr, key: &Key) -> bool {
     let irreducible = |sum: &Expr| {
-        let mut field = crate::algebra::Field::new(&key.question.domains);
-        field.prepare([sum]);
-        let Ok(element) = field.element(sum) else {
-            return true;
-        };
-        matches!(field.expr(&element).node(), Node::Sum(_))
+        let tidy = tidy(sum, &key.question.domains);
+        tidy.is_err() || tidy.is_ok_and(|e| matches!(e.node(), Node::Sum(_)))
     };
     match e.node() {
         Node::Sum(_) => irreducible(e),

@@ -10,8 +10,7 @@ use num_traits::Signed;
 use super::compare::{Context, is_short, same_number};
 use super::{Diagnosis, fraction, number};
 use crate::dimension::{self, Clash, Dimension};
-use crate::domain::Domains;
-use crate::equality::{self, Equality, How};
+use crate::equality::identical as proved;
 use crate::expr::{Expr, Function, Node, Symbol, ratio};
 use trial::Trial;
 
@@ -195,16 +194,6 @@ pub(crate) fn vectors(
     let mut more = diagnose(ctx, &expected[first], &answer[first]);
     found.append(&mut more);
     found
-}
-
-/// Whether an identity is proved.
-pub(crate) fn proved(a: &Expr, b: &Expr, domains: &Domains) -> bool {
-    matches!(
-        equality::decide(a, b, domains).equality,
-        Equality::Same {
-            how: How::Identity { .. }
-        }
-    )
 }
 
 /// A factor so common that a number off by it is told: any other would be met by chance too often.

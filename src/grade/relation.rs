@@ -21,7 +21,7 @@ use std::slice::from_ref;
 
 use super::compare::{Context, Finding};
 use super::{Apart, Diagnosis, Proof, Verdict};
-use crate::algebra::{Field, Sign};
+use crate::algebra::{self, Field, Sign};
 use crate::domain::{Coordinate, Domain, Domains, Sample, roles, samples};
 use crate::expr::{Expr, Function, Node, Point, Rational, Symbol, ratio};
 use crate::formula::{Content, Join, Relation, is_angle_name, write_plain};
@@ -229,8 +229,7 @@ fn rooted(difference: Expr) -> Expr {
 fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     let mut finding = as_written(ctx, expected, answer);
     let mut pair = [expected.clone(), answer.clone()];
-    let (domains, _) =
-        (ctx.key.question.domains).completed(&roles(&[&expected.difference, &answer.difference]));
+    let domains = (ctx.key.question.domains).of(&[&expected.difference, &answer.difference]);
     let mut given = Vec::new();
     for step in undone::STEPS {
         if finding.verdict != Verdict::Undecided {
@@ -335,13 +334,15 @@ fn equation(e: &Expr) -> Normal {
     }
 }
 
+/// The sign of a formula on the domain.
+fn sign_of(e: &Expr, domains: &Domains) -> Option<Sign> {
+    algebra::sign(e, &domains.of(&[e]))
+}
+
 /// Whether the quotient of the differences is positive (true) or negative (false) on the whole domain.
 fn same_sign(expected: &Normal, answer: &Normal, domains: &Domains) -> Option<bool> {
-    let (domains, _) = domains.completed(&roles(&[&expected.difference, &answer.difference]));
-    let mut field = Field::new(&domains);
-    field.prepare([&expected.difference, &answer.difference]);
-    let e = field.element(&expected.difference).ok()?;
-    let a = field.element(&answer.difference).ok()?;
+    let pair = [&expected.difference, &answer.difference];
+    let (mut field, e, a) = Field::pair(&domains.of(&pair), pair[0], pair[1]).ok()?;
     if field.is_zero(&e) || field.is_zero(&a) {
         return (field.is_zero(&e) && field.is_zero(&a)).then_some(true);
     }

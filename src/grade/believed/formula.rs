@@ -4,7 +4,7 @@
 
 use super::super::belief::{Change, Slip};
 use super::{POINTS, Written, outcome};
-use crate::algebra::{Field, Row, solve};
+use crate::algebra::{self, Field, Row, solve};
 use crate::domain::Domains;
 use crate::expr::{Expr, Function, Point, Rational, Scalar};
 use crate::numeric::{self, Number, Solution, System};
@@ -95,10 +95,8 @@ pub(in crate::grade) fn formulas(written: &Written, slip: &Slip) -> Option<Vec<E
         false => outcome::outcome(written, slip, &point, |s| solved(s, domains))?,
     };
     let tidy = |value: Symbolic| {
-        let mut field = Field::new(domains);
-        field.prepare([&value.0]);
-        let value = field.element(&value.0).ok()?;
-        Some(field.expr(&value)).filter(|e| e.size() <= LARGEST)
+        let value = algebra::tidy(&value.0, domains).ok();
+        value.filter(|e| e.size() <= LARGEST)
     };
     let values: Vec<Expr> = values.into_iter().map(tidy).collect::<Option<_>>()?;
     meets_doubles(written, slip, &values).then_some(values)

@@ -7,9 +7,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::super::belief::{self, Belief, Slip};
 use super::super::compare::{Context, quotient};
-use super::super::{Diagnosis, Key, Options, partial};
+use super::super::{Diagnosis, Key, Options};
 use super::{COINCIDENCE, FACTORS, NAMED, in_decade, words};
 use crate::answer::{Answer, Form};
+use crate::equality::identical;
 use crate::expr::{Expr, Point};
 use crate::scene::Scene;
 
@@ -118,7 +119,7 @@ impl Story {
             values.len() == written.len()
                 && pairs.all(|(value, mine)| match rounding {
                     Some(room) => near(value, mine, room) == Some(true),
-                    None => partial::proved(value, mine, domains),
+                    None => identical(value, mine, domains),
                 })
         };
         let mut found: Vec<Diagnosis> = Vec::new();

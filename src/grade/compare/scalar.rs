@@ -277,12 +277,7 @@ pub(crate) fn quotient(a: &Expr, b: &Expr, ctx: &Context) -> Option<Expr> {
     if !is_short(a, b) {
         return None;
     }
-    let mut field = Field::new(&ctx.key.question.domains);
-    field.prepare([a, b]);
-    let (x, y) = (field.element(a).ok()?, field.element(b).ok()?);
-    if field.is_zero(&y) {
-        return None;
-    }
+    let (field, x, y) = Field::pair(&ctx.key.question.domains, a, b).ok()?;
     let q = field.div(&x, &y).ok()?;
     if q.terms() > WRITTEN {
         return None;

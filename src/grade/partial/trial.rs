@@ -8,8 +8,10 @@ use num_traits::Signed;
 
 use super::super::compare::{Context, quotient};
 use super::super::{Diagnosis, fraction, number};
-use super::{GLANCES, proved, simple, swap};
+use super::{GLANCES, simple, swap};
+use crate::algebra::Field;
 use crate::domain::{Coordinate, Domains, Roles, Sample, roles, samples};
+use crate::equality::identical as proved;
 use crate::expr::{Expr, Function, Node, Point, Scalar, Symbol, Table, ratio};
 use crate::formula::write_plain;
 use crate::interval::{Interval, Outcome, evaluate};
@@ -201,12 +203,7 @@ impl<'a> Trial<'a> {
         if self.expected.is_zero() || self.answer.is_zero() || !self.may_be_factor() {
             return None;
         }
-        let mut field = crate::algebra::Field::new(self.domains);
-        field.prepare([self.answer, self.expected]);
-        let (a, e) = (
-            field.element(self.answer).ok()?,
-            field.element(self.expected).ok()?,
-        );
+        let (field, a, e) = Field::pair(self.domains, self.answer, self.expected).ok()?;
         let q = field.div(&a, &e).ok()?;
         if !q.is_monomial() {
             return None;
@@ -339,10 +336,7 @@ impl<'a> Trial<'a> {
         }
         let right = Expr::pi() * Expr::ratio(1, 2);
         angles.iter().find_map(|name| {
-            let turned = self.answer.substitute(&BTreeMap::from([(
-                Symbol::clone(name),
-                &right - &Expr::symbol(name),
-            )]));
+            let turned = self.answer.put(name, &(&right - &Expr::symbol(name)));
             self.mends(&turned).then(|| {
                 Diagnosis::new(
                     "SIN_COS",
@@ -479,10 +473,7 @@ impl<'a> Trial<'a> {
                 if value.is_one() && !number {
                     continue;
                 }
-                let special = self
-                    .expected
-                    .substitute(&BTreeMap::from([(name.clone(), value.clone())]));
-                if self.is(&special) {
+                if self.is(&self.expected.put(&name, &value)) {
                     let (code, words) = match turning && value.is_zero() {
                         true => (
                             "SMALL_ANGLE",
@@ -505,10 +496,7 @@ impl<'a> Trial<'a> {
                 if ctx.dimension_of(a).is_none() || ctx.dimension_of(a) != ctx.dimension_of(b) {
                     continue;
                 }
-                if self.is(&self
-                    .expected
-                    .substitute(&BTreeMap::from([(b.clone(), Expr::symbol(a))])))
-                {
+                if self.is(&self.expected.put(b, &Expr::symbol(a))) {
                     return Some(Diagnosis::new(
                         "SPECIAL_CASE",
                         format!("right only for {b} = {a}"),
@@ -531,7 +519,7 @@ impl<'a> Trial<'a> {
             .map(|(name, _)| name.clone())
             .collect();
         for name in angles {
-            let at_zero = |e: &Expr| e.substitute(&BTreeMap::from([(name.clone(), Expr::zero())]));
+            let at_zero = |e: &Expr| e.put(&name, &Expr::zero());
             let (mut e, mut a) = (self.expected.clone(), self.answer.clone());
             for _ in 0..3 {
                 let (e0, a0) = (at_zero(&e), at_zero(&a));

@@ -4,7 +4,6 @@
 //! values are cut where what they are taken of changes sign: on each part they are that or its negative.
 
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
 
 use num_traits::{Signed, Zero};
 
@@ -91,8 +90,7 @@ fn under_root(
     (name, inside): (&Symbol, &Expr),
     domains: &Domains,
 ) -> Option<Along> {
-    let zero = BTreeMap::from([(name.clone(), Expr::zero())]);
-    let constant = inside.substitute(&zero).as_number()?.clone();
+    let constant = inside.put(name, &Expr::zero()).as_number()?.clone();
     let slope = inside.derivative(name).as_number()?.clone();
     let domain = domains.symbols.get(name)?;
     let (low, high) = match slope.is_positive() {
@@ -124,9 +122,8 @@ fn under_root(
     let root: Symbol = write_plain(&inside.sqrt()).into();
     let s = Expr::symbol(&root);
     let back = (s.powi(2) - Expr::from(constant.clone())) * Expr::from(slope.recip());
-    let there = BTreeMap::from([(name.clone(), back)]);
     let put = |n: &Normal| Normal {
-        difference: rootless(&n.difference, inside, &s).substitute(&there),
+        difference: rootless(&n.difference, inside, &s).put(name, &back),
         relation: n.relation,
     };
     let each = |cases: &Cases, change: &dyn Fn(&Normal) -> Normal| {
@@ -295,8 +292,7 @@ pub(super) fn holds(relation: Relation, sign: Option<Ordering>) -> bool {
 fn words(cell: &Cell, name: &Symbol, all: &[&Expr]) -> String {
     let twelve = ratio(12, 1);
     let root = (&cell.around[1] * &twelve).floor() / twelve;
-    let there = BTreeMap::from([(name.clone(), Expr::from(root.clone()))]);
-    let vanishes = |e: &&Expr| e.substitute(&there).is_zero();
+    let vanishes = |e: &&Expr| e.put(name, &Expr::from(root.clone())).is_zero();
     if cell.single && root >= cell.around[0] && all.iter().any(vanishes) {
         return format!("{name} = {root}");
     }

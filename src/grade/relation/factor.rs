@@ -3,7 +3,7 @@
 use super::super::compare::WRITTEN;
 use super::{Normal, same_sign};
 use crate::algebra::{Element, Field, Sign};
-use crate::domain::{Domains, roles};
+use crate::domain::Domains;
 use crate::expr::{Expr, Node, ratio};
 use crate::formula::Relation;
 
@@ -33,10 +33,7 @@ pub(super) struct Factor {
 
 /// The quotient of two differences, where its sign is known.
 pub(super) fn factor(f: &Expr, g: &Expr, domains: &Domains) -> Option<Factor> {
-    let (domains, _) = domains.completed(&roles(&[f, g]));
-    let mut field = Field::new(&domains);
-    field.prepare([f, g]);
-    let (x, y) = (field.element(f).ok()?, field.element(g).ok()?);
+    let (field, x, y) = Field::pair(&domains.of(&[f, g]), f, g).ok()?;
     if field.is_zero(&x) || field.is_zero(&y) {
         return None;
     }
@@ -46,7 +43,7 @@ pub(super) fn factor(f: &Expr, g: &Expr, domains: &Domains) -> Option<Factor> {
         let sign = field.sign(&quotient)?;
         Some((quotient, sign))
     })?;
-    let strict = |x: &Element| matches!(field.sign(x), Some(Sign::Positive | Sign::Negative));
+    let strict = |x: &Element| field.sign(x).is_some_and(Sign::is_strict);
     let below = field.below(&quotient).ok()?;
     let parts = [field.zeros(&quotient), field.zeros(&below)].concat();
     let weak = parts.iter().filter(|x| !strict(x));
@@ -67,7 +64,7 @@ pub(super) fn unrooted(n: &Normal, domains: &Domains) -> Option<Normal> {
     let mut parts = n.difference.parts();
     let (root, inside) = parts.find_map(|part| Some((part, is_root(part)?)))?;
     let other = n.difference.replace(root, &-root);
-    let (domains, _) = domains.completed(&roles(&[&other]));
+    let domains = domains.of(&[&other]);
     let mut field = Field::new(&domains);
     field.prepare([&n.difference, &other]);
     let sign = |field: &mut Field, e: &Expr| {

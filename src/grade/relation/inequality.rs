@@ -6,23 +6,18 @@ use super::factor::{Factor, factor};
 use super::locus::{self, Extent};
 use super::solved::lies_in;
 use super::{
-    Normal, REALS, apart_at_points, over_reals, same_solutions, says_nothing, solve_for, sought_in,
-    undecided, unknowns, unrooted,
+    Normal, REALS, apart_at_points, over_reals, same_solutions, says_nothing, sign_of, solve_for,
+    sought_in, undecided, unknowns, unrooted,
 };
-use crate::algebra::{Field, Sign};
-use crate::domain::{Domains, Sample, roles, samples};
+use crate::algebra::Sign;
+use crate::domain::{Domains, Sample};
 use crate::expr::Expr;
 use crate::formula::{Relation, write_plain};
 use crate::interval::{Big, Outcome, evaluate};
 
 /// Where a relation `difference < 0` or `≤ 0` holds on a domain, as far as the sign of its difference tells.
 pub(super) fn extent(n: &Normal, domains: &Domains) -> Extent {
-    let (domains, _) = domains.completed(&roles(&[&n.difference]));
-    let mut field = Field::new(&domains);
-    field.prepare([&n.difference]);
-    let sign = field.element(&n.difference).ok();
-    let sign = sign.and_then(|x| field.sign(&x));
-    match (sign, n.relation) {
+    match (sign_of(&n.difference, domains), n.relation) {
         (Some(Sign::Negative), _) => Extent::All,
         (Some(Sign::NotPositive | Sign::Zero), Relation::LessEqual) => Extent::All,
         (Some(Sign::Positive), _) => Extent::None,
@@ -189,15 +184,13 @@ fn other_bound(ctx: &Context, f: &Expr, g: &Expr) -> Option<Finding> {
     };
     unknowns(f, g).iter().find_map(|name| {
         let (a, b) = (solve_for(f, name, domains)?, solve_for(g, name, domains)?);
-        let uses = roles(&[&a, &b]);
-        let (all, _) = domains.completed(&uses);
         let inside = |bound: &Expr, sample: &Sample| {
             let Outcome::Value(value) = evaluate::<Big<200>>(bound, &sample.point(true)) else {
                 return false;
             };
             lies_in(&value.0, name, domains)
         };
-        let mut points = samples(&uses, &all, 12).into_iter();
+        let mut points = domains.points(&[&a, &b], 12).into_iter();
         if !points.any(|sample| inside(&a, &sample) || inside(&b, &sample)) {
             return None;
         }

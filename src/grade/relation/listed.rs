@@ -1,12 +1,10 @@
 //! Values that one side lists, `x = 2` or `x = 1 ± √2`, held against an equation: each is put in, and they are counted.
 
-use std::collections::BTreeMap;
-
 use super::super::Diagnosis;
 use super::super::compare::{Context, Finding};
 use super::solved::{lies_in, solve_for};
 use super::{Normal, cells, same_solutions};
-use crate::domain::{Domains, roles, samples};
+use crate::domain::Domains;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Content, Relation, write_plain};
@@ -23,10 +21,9 @@ pub(super) fn beyond(ctx: &Context, expected: &[Normal], mine: &[Content]) -> Op
     let outside =
         |value: &&Expr| number(value, domains).is_some_and(|v| !lies_in(&v, name, domains));
     let value = values.iter().find(outside)?;
-    let there = BTreeMap::from([(name.clone(), value.clone())]);
     let (mut missed, zero) = (false, Expr::zero());
     for n in expected {
-        let left = n.difference.substitute(&there);
+        let left = n.difference.put(name, value);
         missed |= match equality::decide(&left, &zero, domains).equality {
             Equality::Same { .. } => false,
             Equality::Different(_) | Equality::Invalid { .. } => true,
@@ -44,9 +41,7 @@ pub(super) fn beyond(ctx: &Context, expected: &[Normal], mine: &[Content]) -> Op
 
 /// The value of a formula, in symbols at some point of the domain.
 fn number(value: &Expr, domains: &Domains) -> Option<Enclosure> {
-    let uses = roles(&[value]);
-    let (all, _) = domains.completed(&uses);
-    let point = samples(&uses, &all, 1).into_iter().next()?;
+    let point = domains.points(&[value], 1).into_iter().next()?;
     match evaluate::<Big<200>>(value, &point.point(true)) {
         Outcome::Value(v) => Some(v.0),
         _ => None,
@@ -87,8 +82,7 @@ pub(super) fn values(expected: &Normal, answer: &Normal, domains: &Domains) -> O
         if !lies_in(&place, &name, domains) {
             continue;
         }
-        let there = BTreeMap::from([(name.clone(), value.clone())]);
-        let left = other.difference.substitute(&there);
+        let left = other.difference.put(&name, &value);
         match equality::decide(&left, &Expr::zero(), domains).equality {
             Equality::Same { .. } if inside.iter().all(|v| v.is_disjoint(&place)) => {
                 inside.push(place);

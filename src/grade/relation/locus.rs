@@ -6,9 +6,10 @@
 use super::solved::{rounded, solution_apart, solve_for, unknowns, words_at};
 use crate::algebra::{Element, Field, Sign};
 use crate::domain::{Domains, roles, samples};
-use crate::equality::{self, Equality, How, zero_apart};
+use crate::equality::identical;
+use crate::equality::zero_apart;
 use crate::expr::{Expr, Symbol};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// A point in words, with the value there of the difference that does not vanish.
 pub(super) type Point = (String, Expr);
@@ -51,10 +52,8 @@ pub(super) struct Compared {
 
 /// Compares the solutions of `f = 0` and `g = 0`; `None` where their normal forms cannot be found.
 pub(super) fn compare(f: &Expr, g: &Expr, domains: &Domains) -> Option<Compared> {
-    let (domains, _) = domains.completed(&roles(&[f, g]));
-    let mut field = Field::new(&domains);
-    field.prepare([f, g]);
-    let (x, y) = (field.element(f).ok()?, field.element(g).ok()?);
+    let domains = domains.of(&[f, g]);
+    let (field, x, y) = Field::pair(&domains, f, g).ok()?;
     let zero = [field.is_zero(&x), field.is_zero(&y)];
     if zero != [false, false] {
         let extents = [&x, &y].map(|x| match field.is_zero(x) {
@@ -88,7 +87,7 @@ pub(super) fn compare(f: &Expr, g: &Expr, domains: &Domains) -> Option<Compared>
         }
     }
     let part = |(element, expr): (Element, Expr), other: &Expr| {
-        if matches!(field.sign(&element), Some(Sign::Positive | Sign::Negative)) {
+        if field.sign(&element).is_some_and(Sign::is_strict) {
             return None;
         }
         if covered(&expr, other, &domains) {
@@ -126,7 +125,7 @@ fn written(field: &Field, parts: &[Element]) -> Vec<(Element, Expr)> {
 
 /// Whether a product of parts vanishes somewhere on the domain.
 fn extent(field: &Field, parts: &[(Element, Expr)], domains: &Domains) -> Extent {
-    let strict = |x: &Element| matches!(field.sign(x), Some(Sign::Positive | Sign::Negative));
+    let strict = |x: &Element| field.sign(x).is_some_and(Sign::is_strict);
     let mut left = parts.iter().filter(|(x, _)| !strict(x)).peekable();
     if left.peek().is_none() {
         return Extent::None;
@@ -144,18 +143,15 @@ fn covered(part: &Expr, other: &Expr, domains: &Domains) -> bool {
     if part.symbols().is_disjoint(&other.symbols()) {
         return false;
     }
-    let mut field = Field::new(domains);
-    field.prepare([part, other]);
-    let pieces = |field: &mut Field| {
-        let (x, y) = (field.element(part).ok()?, field.element(other).ok()?);
-        let plain = squared(field, &x)?;
-        let [left, _, _] = field.split_zeros(&plain, &y).ok()?;
-        Some(left)
+    let pieces = || {
+        let (field, x, y) = Field::pair(domains, part, other).ok()?;
+        let [left, _, _] = field.split_zeros(&squared(&field, &x)?, &y).ok()?;
+        Some((field, left))
     };
-    let Some(left) = pieces(&mut field) else {
+    let Some((field, left)) = pieces() else {
         return false;
     };
-    let strict = |x: &Element| matches!(field.sign(x), Some(Sign::Positive | Sign::Negative));
+    let strict = |x: &Element| field.sign(x).is_some_and(Sign::is_strict);
     left.iter()
         .all(|x| strict(x) || solved(&field.expr(x), other, domains))
 }
@@ -163,15 +159,8 @@ fn covered(part: &Expr, other: &Expr, domains: &Domains) -> bool {
 /// Whether `part = 0`, solved for some symbol in which it is linear, turns `other` into zero identically.
 fn solved(part: &Expr, other: &Expr, domains: &Domains) -> bool {
     unknowns(part, part).iter().any(|name| {
-        solve_for(part, name, domains).is_some_and(|root| {
-            let there = other.substitute(&BTreeMap::from([(name.clone(), root)]));
-            matches!(
-                equality::decide(&there, &Expr::zero(), domains).equality,
-                Equality::Same {
-                    how: How::Identity { .. }
-                }
-            )
-        })
+        let root = solve_for(part, name, domains);
+        root.is_some_and(|root| identical(&other.put(name, &root), &Expr::zero(), domains))
     })
 }
 

@@ -3,12 +3,10 @@
 //! In: a difference that vanishes and the domains. Out: the value of the symbol, points where another difference does not
 //! vanish, and whether two equations fix an angle alike.
 
-use std::collections::BTreeMap;
-
 use super::super::compare::WRITTEN;
 use super::super::number;
 use crate::algebra::Field;
-use crate::domain::{Domain, Domains, Limit, Sample, roles, samples};
+use crate::domain::{Domain, Domains, Limit, Sample, roles};
 use crate::equality::{self, Equality};
 use crate::expr::angle::angle;
 use crate::expr::number::to_f64;
@@ -21,8 +19,7 @@ pub(crate) fn solve_for(f: &Expr, name: &Symbol, domains: &Domains) -> Option<Ex
         return None;
     }
     let slope = f.derivative(name);
-    let (all, _) = domains.completed(&roles(&[f, &slope]));
-    let mut field = Field::new(&all);
+    let mut field = Field::new(&domains.of(&[f, &slope]));
     field.prepare([f, &slope]);
     let slope = field.element(&slope).ok()?;
     if field.is_zero(&slope)
@@ -31,9 +28,7 @@ pub(crate) fn solve_for(f: &Expr, name: &Symbol, domains: &Domains) -> Option<Ex
     {
         return None;
     }
-    let constant = field
-        .element(&f.substitute(&BTreeMap::from([(name.clone(), Expr::zero())])))
-        .ok()?;
+    let constant = field.element(&f.put(name, &Expr::zero())).ok()?;
     let root = field.neg(&field.div(&constant, &slope).ok()?);
     if root.terms() > WRITTEN {
         return None;
@@ -51,13 +46,8 @@ pub(super) fn unknowns(f: &Expr, g: &Expr) -> Vec<Symbol> {
 /// Whether `f = 0`, solved for some symbol, turns `g` into zero identically.
 pub(super) fn solved_in(f: &Expr, g: &Expr, domains: &Domains) -> bool {
     unknowns(f, g).iter().any(|name| {
-        solve_for(f, name, domains).is_some_and(|root| {
-            let put_in = g.substitute(&BTreeMap::from([(name.clone(), root)]));
-            matches!(
-                equality::decide(&put_in, &Expr::zero(), domains).equality,
-                Equality::Same { .. }
-            )
-        })
+        let root = solve_for(f, name, domains);
+        root.is_some_and(|root| equality::vanishes(&g.put(name, &root), domains))
     })
 }
 
@@ -89,7 +79,7 @@ pub(super) fn solution_apart(f: &Expr, g: &Expr, domains: &Domains) -> Option<(S
         let Some(root) = solve_for(f, &name, &domains) else {
             continue;
         };
-        for sample in samples(&roles(&[f, g, &root]), &domains, 12) {
+        for sample in domains.points(&[f, g, &root], 12) {
             let point = sample.point::<Big<200>>(true);
             let Outcome::Value(value) = evaluate(&root, &point) else {
                 continue;
@@ -146,9 +136,7 @@ pub(super) fn same_angle(f: &Expr, g: &Expr, domains: &Domains) -> Option<bool> 
             angle_of(g, name, domain, &all)?,
         );
         match equality::decide(&a, &b, &all).equality {
-            Equality::Same {
-                how: equality::How::Identity { .. },
-            } => Some(true),
+            same if same.is_identity() => Some(true),
             Equality::Different(apart) => [a, b]
                 .iter()
                 .any(|root| within(root, &apart.at, domain))

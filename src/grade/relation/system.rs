@@ -8,7 +8,7 @@ use super::{
     Normal, REALS, apart_at_points, differences, link, over_reals, same_solutions, says_nothing,
     undecided,
 };
-use crate::domain::{Domain, Domains, Limit, roles, samples};
+use crate::domain::{Domain, Domains, Limit, roles};
 use crate::equality::{self, Equality, How};
 use crate::expr::{Expr, Function, Node, Symbol, ratio};
 use crate::formula::{Relation, write_plain};
@@ -88,11 +88,9 @@ pub(super) fn scaled(
     let unit = uses.symbols.keys().find(positive)?;
     let other = uses.symbols.keys().find(|name| *name != unit)?;
     let scale = Expr::symbol(unit);
-    let multiple = BTreeMap::from([(other.clone(), &scale * &Expr::symbol(other))]);
-    let one = BTreeMap::from([(unit.clone(), Expr::one())]);
     let fixed = |n: &Normal| {
-        let difference = n.difference.substitute(&one);
-        let there = n.difference.substitute(&multiple);
+        let difference = n.difference.put(unit, &Expr::one());
+        let there = n.difference.put(other, &(&scale * &Expr::symbol(other)));
         let power = |k: i64| {
             let same = equality::decide(&there, &(&difference * &scale.powi(k)), &domains);
             matches!(same.equality, Equality::Same { how: How::Identity { assumptions, .. } }
@@ -283,10 +281,7 @@ fn fulfilled(system: &[Normal], other: &[Normal], domains: &Domains) -> Option<R
     let mut known: BTreeMap<Symbol, Expr> = BTreeMap::new();
     for n in system {
         let left = n.difference.substitute(&known);
-        if matches!(
-            equality::decide(&left, &Expr::zero(), domains).equality,
-            Equality::Same { .. }
-        ) {
+        if equality::vanishes(&left, domains) {
             continue;
         }
         // What may have any value is solved for first: its value lies in the domain.
@@ -295,18 +290,15 @@ fn fulfilled(system: &[Normal], other: &[Normal], domains: &Domains) -> Option<R
         let (name, root) = names
             .into_iter()
             .find_map(|name| Some((name.clone(), solve_for(&left, &name, domains)?)))?;
-        let one = BTreeMap::from([(name.clone(), root.clone())]);
         for value in known.values_mut() {
-            *value = value.substitute(&one);
+            *value = value.put(&name, &root);
         }
         known.insert(name, root);
     }
     for n in other {
         let there = n.difference.substitute(&known);
         match equality::decide(&there, &Expr::zero(), domains).equality {
-            Equality::Same {
-                how: How::Identity { .. },
-            } => {}
+            same if same.is_identity() => {}
             Equality::Different(_) => return point_of(&known, &there, domains).map(Err),
             _ => return None,
         }
@@ -318,9 +310,9 @@ fn fulfilled(system: &[Normal], other: &[Normal], domains: &Domains) -> Option<R
 /// A point of the domain among the solutions at which an expression is not zero.
 fn point_of(known: &BTreeMap<Symbol, Expr>, not_zero: &Expr, domains: &Domains) -> Option<At> {
     let all: Vec<&Expr> = known.values().chain([not_zero]).collect();
-    let uses = roles(&all);
-    let (domains, _) = domains.completed(&uses);
-    samples(&uses, &domains, 24).into_iter().find_map(|sample| {
+    let points = domains.points(&all, 24).into_iter();
+    let domains = domains.of(&all);
+    points.into_iter().find_map(|sample| {
         let point = sample.point::<Big<200>>(true);
         let mut words = vec![sample.words()];
         for (name, root) in known {

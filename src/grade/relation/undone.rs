@@ -3,14 +3,12 @@
 //! `ln a = ln b` is `a = b` where both have logarithms, `a³ < b³` is `a < b`, `a = arctan b` is `tan a = b` for an angle
 //! between −π/2 and π/2. What the new relation needs beside is told, or, where it may not be told, the relation is kept.
 
-use std::collections::BTreeMap;
-
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
-use super::Normal;
-use crate::algebra::{Field, Sign};
-use crate::domain::{Domains, Limit, roles};
+use super::{Normal, sign_of};
+use crate::algebra::Sign;
+use crate::domain::{Domains, Limit};
 use crate::expr::angle::angle as combination;
 use crate::expr::number::from_f64;
 use crate::expr::{Expr, Function, Int, Node, Rational, Symbol, ratio};
@@ -29,27 +27,18 @@ pub(super) type Step = fn(&Normal, &Domains) -> Option<Undone>;
 /// The ways, in the order in which they are tried: each works on what the one before leaves.
 pub(super) const STEPS: [Step; 5] = [logarithms, arcs, turns, powers, exponents];
 
-/// The sign of a formula on the domain.
-fn sign(e: &Expr, domains: &Domains) -> Option<Sign> {
-    let (domains, _) = domains.completed(&roles(&[e]));
-    let mut field = Field::new(&domains);
-    field.prepare([e]);
-    let x = field.element(e).ok()?;
-    field.sign(&x)
-}
-
 /// Whether a formula is positive wherever it has a value.
 fn is_positive(e: &Expr, domains: &Domains) -> bool {
     match e.node() {
         Node::Product(parts) => parts.iter().all(|p| is_positive(p, domains)),
         Node::Power(base, _) if is_positive(base, domains) => true,
         Node::Call(Function::Exp, _) => true,
-        _ => sign(e, domains) == Some(Sign::Positive),
+        _ => sign_of(e, domains) == Some(Sign::Positive),
     }
 }
 
 fn is_not_negative(e: &Expr, domains: &Domains) -> bool {
-    sign(e, domains).is_some_and(Sign::is_not_negative)
+    sign_of(e, domains).is_some_and(Sign::is_not_negative)
 }
 
 fn terms(e: &Expr) -> &[Expr] {
@@ -71,7 +60,7 @@ fn two_sides(n: &Normal, domains: &Domains) -> Option<[Expr; 2]> {
     let [one, two] = terms(&n.difference) else {
         return None;
     };
-    let first = sign(one, domains).or_else(|| sign(two, domains).map(Sign::flip));
+    let first = sign_of(one, domains).or_else(|| sign_of(two, domains).map(Sign::flip));
     Some(match first.is_some_and(|s| !s.is_not_negative()) {
         true => [two.clone(), -one],
         false => [one.clone(), -two],
@@ -169,7 +158,7 @@ fn called(n: &Normal, functions: &[Function]) -> Option<(Expr, Function, Expr, R
     let linear = n.difference.replace(&call, &Expr::symbol(&letter));
     let k = linear.derivative(&letter);
     let k = k.as_number().filter(|k| !k.is_zero())?.clone();
-    let rest = linear.substitute(&BTreeMap::from([(letter, Expr::zero())]));
+    let rest = linear.put(&letter, &Expr::zero());
     let other = rest * Expr::from(-k.recip());
     Some((call, function, inside, k, other))
 }
@@ -269,7 +258,7 @@ fn ends(angle: &Expr, domains: &Domains) -> Option<[(Rational, bool); 2]> {
     let Some((name, factor)) = read.symbols.first_key_value() else {
         return Some([(read.pi.clone(), true), (read.pi, true)]);
     };
-    let (all, _) = domains.completed(&roles(&[&Expr::symbol(name).sin()]));
+    let all = domains.of(&[&Expr::symbol(name).sin()]);
     let domain = all.symbols.get(name)?;
     let end = |limit: &Limit| {
         let value = (limit.of_pi || limit.value.is_zero()).then(|| &limit.value * factor)?;

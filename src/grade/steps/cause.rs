@@ -8,7 +8,7 @@ use super::link::Link;
 use super::{Desk, MOST_CAUSES, MOST_STATED};
 use crate::dimension::Dimension;
 use crate::domain::Domains;
-use crate::equality::{self, Equality};
+use crate::equality::{self};
 use crate::expr::{Expr, Symbol, Vector};
 use crate::formula::{Content, Reading};
 use crate::laws::{self, Geometry, Kinematics, Law, Unknown};
@@ -23,8 +23,7 @@ impl Desk<'_> {
         let differences = &link.differences;
         // A name that was defined with a slip, had it been defined without.
         let slipped = self.slipped.iter().rev().map(|(cause, name, value)| {
-            let meant = BTreeMap::from([(name.clone(), value.clone())]);
-            let meant: Vec<Expr> = differences.iter().map(|d| d.substitute(&meant)).collect();
+            let meant: Vec<Expr> = differences.iter().map(|d| d.put(name, value)).collect();
             (cause, meant)
         });
         let none = BTreeMap::new();
@@ -82,24 +81,21 @@ impl Desk<'_> {
             ),
             None => one.clone(),
         };
-        let is_zero = |e: &Expr| {
-            let decided = equality::decide(e, &Expr::zero(), domains).equality;
-            matches!(decided, Equality::Same { .. })
-        };
         let mut causes: Vec<usize> = self.stated.iter().filter_map(|(c, _)| *c).collect();
         causes.sort_unstable();
         causes.dedup();
         causes.reverse();
         causes.truncate(MOST_CAUSES);
-        let reduced = |e: &Expr, rules: &[BTreeMap<Symbol, Expr>]| {
-            rules.iter().fold(e.clone(), |e, rule| e.substitute(rule))
+        let reduced = |e: &Expr, rules: &[(Symbol, Expr)]| {
+            let rules = rules.iter();
+            rules.fold(e.clone(), |e, (name, root)| e.put(name, root))
         };
         let follows = |cause: usize, laws: &[&Expr]| {
             let of = |wanted: Option<usize>| {
                 let stated = self.stated.iter().filter(move |(c, _)| *c == wanted);
                 stated.map(|(_, line)| line)
             };
-            let mut rules: Vec<BTreeMap<Symbol, Expr>> = Vec::new();
+            let mut rules: Vec<(Symbol, Expr)> = Vec::new();
             for line in of(Some(cause)).chain(of(None)).chain(laws.iter().copied()) {
                 let line = reduced(line, &rules);
                 // What says nothing new, or contradicts those before, gives no rule.
@@ -108,11 +104,11 @@ impl Desk<'_> {
                 let rule = names.find_map(|name| {
                     let root = solve_for(&line, name, domains);
                     let root = root.or_else(|| size_in(&line, name, domains))?;
-                    Some(BTreeMap::from([(name.clone(), root)]))
+                    Some((name.clone(), root))
                 });
                 rules.extend(rule);
             }
-            is_zero(&reduced(one, &rules))
+            equality::vanishes(&reduced(one, &rules), domains)
         };
         let mut all = causes.iter().copied();
         let found = all.find(|cause| follows(*cause, &[]));
@@ -180,12 +176,12 @@ impl Desk<'_> {
         let Some(speed) = self.incoming() else {
             return;
         };
-        let faster = BTreeMap::from([(speed.clone(), &Expr::symbol(&speed) * &ratio)]);
+        let faster = &Expr::symbol(&speed) * &ratio;
         for other in self.later() {
             if let Some(value) = self.closed.get(&other) {
                 values
                     .entry(other)
-                    .or_insert_with(|| value.substitute(&faster));
+                    .or_insert_with(|| value.put(&speed, &faster));
             }
         }
     }
@@ -201,9 +197,8 @@ impl Desk<'_> {
         let mut given = scene.parameters.iter().filter(|p| per_time(&p.dimension));
         let found = given.find(|p| {
             let twice = &Expr::symbol(&p.name) * &Expr::from(2);
-            let twice = BTreeMap::from([(p.name.clone(), twice)]);
             moving.iter().all(|part| {
-                let doubled = &part.substitute(&twice) - &(*part * &Expr::from(2));
+                let doubled = &part.put(&p.name, &twice) - &(*part * &Expr::from(2));
                 self.all_zero(&[doubled], &BTreeMap::new()) == Some(true)
             })
         });

@@ -6,7 +6,7 @@ use super::super::relation::{proportional, solve_for};
 use super::super::sheet::{Entry, Sheet};
 use super::super::{Diagnosis, Options, Verdict};
 use super::{Desk, Final, Status};
-use crate::algebra::{Field, Sign};
+use crate::algebra::{self, Sign};
 use crate::answer::Answer;
 use crate::expr::{Expr, Function, Symbol};
 use crate::formula::{Content, Reading, Relation};
@@ -246,9 +246,8 @@ impl Desk<'_> {
         let Some(root) = self.value_of(sought) else {
             return false;
         };
-        let root = BTreeMap::from([(sought.parameter.clone(), root)]);
         let there = link.differences.iter();
-        let there = there.map(|d| self.put_in(d, &none).substitute(&root));
+        let there = there.map(|d| self.put_in(d, &none).put(&sought.parameter, &root));
         self.all_zero(&there.collect::<Vec<_>>(), &none) == Some(true)
     }
 
@@ -257,11 +256,10 @@ impl Desk<'_> {
         let Some(root) = self.value_of(sought) else {
             return true;
         };
-        let root = BTreeMap::from([(sought.parameter.clone(), root)]);
         let symbols = line.symbols();
         let mut found = symbols.iter().filter_map(|name| self.closed.get(name));
         found.any(|value| {
-            let there = [value.substitute(&root)];
+            let there = [value.put(&sought.parameter, &root)];
             self.all_zero(&there, &BTreeMap::new()) != Some(false)
         })
     }
@@ -365,11 +363,8 @@ impl Desk<'_> {
                 continue;
             }
             let difference = self.put_in(&plain, &none);
-            let mut field = Field::new(domains);
-            field.prepare([&difference]);
-            let element = field.element(&difference).ok();
-            let zero = element.as_ref().is_some_and(|e| field.is_zero(e));
-            let proved = element.and_then(|e| field.sign(&e));
+            let proved = algebra::sign(&difference, domains);
+            let zero = proved == Some(Sign::Zero);
             let holds = match (sign, proved) {
                 (Relation::Equal | Relation::Approximately, _) => zero.then_some(true),
                 (Relation::LessEqual | Relation::GreaterEqual, _) if zero => Some(true),

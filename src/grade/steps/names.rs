@@ -6,7 +6,7 @@ use super::super::relation::solve_for;
 use super::cause::size_in;
 use super::link::Weighed;
 use super::{Desk, Diagnosis, Options, Status};
-use crate::equality::{self, Equality};
+use crate::equality::{self};
 use crate::expr::{Expr, Symbol, dot};
 use crate::formula::{self, Content, Reading, Remark, Symbols};
 use crate::scene::{Ask, Body};
@@ -209,7 +209,7 @@ impl Desk<'_> {
                 .filter(|(k, _)| chosen >> k & 1 == 1);
             let total = Expr::sum(parts.map(|(_, e)| e.clone()).collect::<Vec<_>>());
             let decision = equality::decide(&value, &total, &scene.domains);
-            matches!(decision.equality, Equality::Different(_))
+            decision.equality.is_different()
         });
         others.then(|| each.into_iter().next()).flatten()
     }

@@ -7,7 +7,7 @@ use num_traits::Signed;
 use super::super::{Tolerance, believed, fraction, number};
 use super::Desk;
 use super::link::Link;
-use crate::algebra::Field;
+use crate::algebra::quotient;
 use crate::expr::{Expr, Rational, Symbol};
 
 impl Desk<'_> {
@@ -47,10 +47,7 @@ impl Desk<'_> {
 
     /// The constant factor between two formulas.
     pub(super) fn share(&self, a: &Expr, b: &Expr) -> Option<Expr> {
-        let mut field = Field::new(&self.sheet.scene.domains);
-        field.prepare([a, b]);
-        let (a, b) = (field.element(a).ok()?, field.element(b).ok()?);
-        let share = field.expr(&field.div(&b, &a).ok()?);
+        let share = quotient(b, a, &self.sheet.scene.domains).ok()?;
         share.is_constant().then_some(share)
     }
 }
