@@ -91,7 +91,7 @@ fn keeps_energy(
         return None;
     }
     let truth = Slip {
-        changes: Vec::new(),
+        change: None,
         ..slip.clone()
     };
     let lost = Ask::Energy {

@@ -12,8 +12,8 @@ use crate::numeric::Unknown;
 use crate::scene::{ContactLaw, Scene, Shape};
 pub(super) use motions::in_stages;
 use slips::{
-    all_places, changed, frictionless, inertia, lengths, movable, other_shapes, places,
-    restitution, rigid, shifted, slip, spins, velocities,
+    about_places, all_places, at, changed, each, frictionless, inertia, lengths, movable, of,
+    other_shapes, places, positions, restitution, rigid, spins, sticking, velocities,
 };
 
 /// A belief.
@@ -35,7 +35,7 @@ pub struct Slip {
     /// The scene as believed.
     pub scene: Scene,
     /// What is done to its equations.
-    pub changes: Vec<Change>,
+    pub change: Option<Change>,
     /// Where it shows, in words; may be empty.
     pub place: String,
 }
@@ -53,21 +53,10 @@ pub enum Change {
         /// Index of the body that loses its own equation.
         instead: usize,
     },
-    /// A hinge has no impulse along an axis; the moment equation of a body gives way.
-    NoHingeImpulse {
-        /// Index of the hinge.
-        hinge: usize,
-        /// 0 for x, 1 for y.
-        axis: usize,
-        /// Index of the body that loses its moment equation.
-        instead: usize,
-    },
-    /// A sticking contact has no impulse along an axis; the moment equation of a body gives way.
-    NoContactImpulse {
-        /// Index of the contact.
-        contact: usize,
-        /// 0 for x, 1 for y.
-        axis: usize,
+    /// A hinge or a sticking contact has no impulse along an axis; the moment equation of a body gives way.
+    NoImpulse {
+        /// The unknown component.
+        of: Unknown,
         /// Index of the body that loses its moment equation.
         instead: usize,
     },
@@ -96,27 +85,13 @@ pub const BELIEFS: &[Belief] = &[
         code: "INERTIA_ABOUT_POINT",
         belief: "the moment of inertia about the hinge or contact point stands where the one about the center of mass belongs",
         hint: "about which point is your moment of inertia, and about which point do you take moments?",
-        slips: |s| {
-            inertia(s, &|s, b| {
-                places(s, b)
-                    .into_iter()
-                    .map(|(at, name)| (shifted(s, b, &at, Expr::one()), format!("about {name}")))
-                    .collect()
-            })
-        },
+        slips: |s| inertia(s, &|s, b| about_places(s, b, 1)),
     },
     Belief {
         code: "PARALLEL_AXIS_DROPPED",
         belief: "the parallel-axis term m r² is left out: the moment of inertia about the center is used about another point",
         hint: "is the moment of inertia you use the one about the point you chose?",
-        slips: |s| {
-            inertia(s, &|s, b| {
-                places(s, b)
-                    .into_iter()
-                    .map(|(at, name)| (shifted(s, b, &at, Expr::from(-1)), format!("about {name}")))
-                    .collect()
-            })
-        },
+        slips: |s| inertia(s, &|s, b| about_places(s, b, -1)),
     },
     Belief {
         code: "INERTIA_OF_OTHER_SHAPE",
@@ -135,12 +110,8 @@ pub const BELIEFS: &[Belief] = &[
         belief: "kinetic energy is taken as conserved in a plastic impact",
         hint: "is kinetic energy conserved when bodies stick?",
         slips: |s| {
-            let plastic = s.contacts.iter().any(|c| c.law == ContactLaw::Sticking);
-            if plastic {
-                vec![changed(s, Change::EnergyKept, "")]
-            } else {
-                Vec::new()
-            }
+            let plastic = sticking(s).next().is_some();
+            Vec::from_iter(plastic.then(|| changed(s, Change::EnergyKept, "")))
         },
     },
     Belief {
@@ -172,15 +143,8 @@ pub const BELIEFS: &[Belief] = &[
         belief: "restitution is applied to the velocities of the centers of mass instead of the touching points",
         hint: "which points approach and separate?",
         slips: |s| {
-            frictionless(s)
-                .map(|c| {
-                    changed(
-                        s,
-                        Change::CentersBounce(c),
-                        &format!("at {}", s.contacts[c].name),
-                    )
-                })
-                .collect()
+            let bounce = |c| changed(s, Change::CentersBounce(c), at(s, c));
+            frictionless(s).map(bounce).collect()
         },
     },
     Belief {
@@ -188,16 +152,10 @@ pub const BELIEFS: &[Belief] = &[
         belief: "e is applied to the whole velocity, not only to the part along the normal",
         hint: "is there an impulse along the surface?",
         slips: |s| {
-            frictionless(s)
-                .flat_map(|contact| s.contacts[contact].bodies.map(|body| (contact, body)))
-                .filter(|(_, body)| !s.bodies[*body].is_fixed())
-                .map(|(contact, body)| {
-                    changed(
-                        s,
-                        Change::WholeBounce { contact, body },
-                        &format!("of {}", s.bodies[body].name),
-                    )
-                })
+            let all = frictionless(s).flat_map(|c| s.contacts[c].bodies.map(|b| (c, b)));
+            let free = all.filter(|(_, body)| !s.bodies[*body].is_fixed());
+            let whole = |(contact, body)| Change::WholeBounce { contact, body };
+            free.map(|(c, b)| changed(s, whole((c, b)), of(s, b)))
                 .collect()
         },
     },
@@ -206,13 +164,10 @@ pub const BELIEFS: &[Belief] = &[
         belief: "the touching points are taken to move together after, although the contact is frictionless",
         hint: "does the contact hold the points together, also along the surface?",
         slips: |s| {
-            frictionless(s)
-                .map(|c| {
-                    let mut scene = s.clone();
-                    scene.contacts[c].law = ContactLaw::Sticking;
-                    slip(scene, &format!("at {}", s.contacts[c].name))
-                })
-                .collect()
+            each(s, frictionless(s), |scene, c| {
+                scene.contacts[c].law = ContactLaw::Sticking;
+                Some(at(s, c))
+            })
         },
     },
     Belief {
@@ -220,20 +175,14 @@ pub const BELIEFS: &[Belief] = &[
         belief: "the impulse is taken along the normal only, although the bodies stick",
         hint: "can the contact push along the surface too?",
         slips: |s| {
-            let sticking =
-                (0..s.contacts.len()).filter(|c| s.contacts[*c].law == ContactLaw::Sticking);
             let axes = [[Expr::one(), Expr::zero()], [Expr::zero(), Expr::one()]];
-            sticking
-                .flat_map(|c| axes.clone().map(|axis| (c, axis)))
-                .map(|(c, axis)| {
-                    let mut scene = s.clone();
-                    scene.contacts[c].law = ContactLaw::Frictionless {
-                        restitution: Expr::zero(),
-                    };
-                    scene.contacts[c].normal.get_or_insert(axis);
-                    slip(scene, &format!("at {}", s.contacts[c].name))
-                })
-                .collect()
+            let all = sticking(s).flat_map(|c| axes.clone().map(|axis| (c, axis)));
+            each(s, all, |scene, (c, axis)| {
+                let restitution = Expr::zero();
+                scene.contacts[c].law = ContactLaw::Frictionless { restitution };
+                scene.contacts[c].normal.get_or_insert(axis);
+                Some(at(s, c))
+            })
         },
     },
     Belief {
@@ -241,13 +190,9 @@ pub const BELIEFS: &[Belief] = &[
         belief: "the hinge is left out: its impulse is forgotten and the body moves as if free",
         hint: "what holds the body at the hinge during the collision?",
         slips: |s| {
-            (0..s.hinges.len())
-                .map(|h| {
-                    let mut scene = s.clone();
-                    let name = scene.hinges.remove(h).name;
-                    slip(scene, &format!("at {name}"))
-                })
-                .collect()
+            each(s, 0..s.hinges.len(), |scene, h| {
+                Some(format!("at {}", scene.hinges.remove(h).name))
+            })
         },
     },
     Belief {
@@ -255,40 +200,20 @@ pub const BELIEFS: &[Belief] = &[
         belief: "linear momentum is taken as conserved although a hinge or the ground gives an impulse",
         hint: "which impulses act on the system from outside?",
         slips: |s| {
+            let held = |c: &usize| {
+                let mut bodies = s.contacts[*c].bodies.iter();
+                bodies.any(|b| s.bodies[*b].is_fixed())
+            };
             let mut found = Vec::new();
             for axis in 0..2 {
-                for (hinge, h) in s.hinges.iter().enumerate() {
-                    for instead in rigid(s) {
-                        found.push(changed(
-                            s,
-                            Change::NoHingeImpulse {
-                                hinge,
-                                axis,
-                                instead,
-                            },
-                            &format!("at {}", h.name),
-                        ));
-                    }
-                }
-                for (contact, c) in s
-                    .contacts
-                    .iter()
-                    .enumerate()
-                    .filter(|(_, c)| c.law == ContactLaw::Sticking)
-                {
-                    if c.bodies.iter().any(|b| s.bodies[*b].is_fixed()) {
-                        for instead in rigid(s) {
-                            found.push(changed(
-                                s,
-                                Change::NoContactImpulse {
-                                    contact,
-                                    axis,
-                                    instead,
-                                },
-                                &format!("at {}", c.name),
-                            ));
-                        }
-                    }
+                let hinges = s.hinges.iter().enumerate();
+                let hinges =
+                    hinges.map(|(h, on)| (Unknown::Hinge(h, axis), format!("at {}", on.name)));
+                let contacts = sticking(s).filter(held);
+                let contacts = contacts.map(|c| (Unknown::Contact(c, axis), at(s, c)));
+                for (of, place) in hinges.chain(contacts) {
+                    let change = |instead| Change::NoImpulse { of, instead };
+                    found.extend(rigid(s).map(|b| changed(s, change(b), place.clone())));
                 }
             }
             found
@@ -300,13 +225,9 @@ pub const BELIEFS: &[Belief] = &[
         hint: "does every impulse pass through the point about which you take moments?",
         slips: |s| {
             let mut found = Vec::new();
-            let moving: Vec<usize> = (0..s.bodies.len())
-                .filter(|b| !s.bodies[*b].is_fixed())
-                .collect();
+            let moving: Vec<usize> = movable(s).collect();
             let mut systems: Vec<Vec<usize>> = moving.iter().map(|b| vec![*b]).collect();
-            if moving.len() > 1 {
-                systems.push(moving);
-            }
+            systems.extend((moving.len() > 1).then_some(moving));
             for bodies in systems {
                 for (about, name) in all_places(s) {
                     for instead in rigid(s).filter(|b| bodies.contains(b)) {
@@ -315,7 +236,7 @@ pub const BELIEFS: &[Belief] = &[
                             about: about.clone(),
                             instead,
                         };
-                        found.push(changed(s, change, &format!("about {name}")));
+                        found.push(changed(s, change, format!("about {name}")));
                     }
                 }
             }
@@ -327,14 +248,10 @@ pub const BELIEFS: &[Belief] = &[
         belief: "a body is taken as immovable: its recoil is ignored",
         hint: "do all bodies change their motion in the collision?",
         slips: |s| {
-            movable(s)
-                .filter(|_| movable(s).count() > 1)
-                .map(|b| {
-                    let mut scene = s.clone();
-                    scene.bodies[b].shape = Shape::Fixed;
-                    slip(scene, &format!("of {}", s.bodies[b].name))
-                })
-                .collect()
+            each(s, movable(s), |scene, b| {
+                scene.bodies[b].shape = Shape::Fixed;
+                (movable(s).count() > 1).then(|| of(s, b))
+            })
         },
     },
     Belief {
@@ -342,15 +259,11 @@ pub const BELIEFS: &[Belief] = &[
         belief: "a body is taken as massless: its momentum is left out",
         hint: "which bodies carry momentum?",
         slips: |s| {
-            movable(s)
-                .filter(|_| movable(s).count() > 1)
-                .map(|b| {
-                    let mut scene = s.clone();
-                    scene.bodies[b].mass = Expr::zero();
-                    scene.bodies[b].inertia = Expr::zero();
-                    slip(scene, &format!("of {}", s.bodies[b].name))
-                })
-                .collect()
+            each(s, movable(s), |scene, b| {
+                scene.bodies[b].mass = Expr::zero();
+                scene.bodies[b].inertia = Expr::zero();
+                (movable(s).count() > 1).then(|| of(s, b))
+            })
         },
     },
     Belief {
@@ -382,26 +295,24 @@ pub const BELIEFS: &[Belief] = &[
         belief: "sine and cosine are exchanged in the geometry",
         hint: "from which line is the angle measured?",
         slips: |s| {
-            let swap = |v: &Vector| [super::partial::swap(&v[0]), super::partial::swap(&v[1])];
-            let mut all = s.clone();
-            let mut motion = s.clone();
-            let mut normals = s.clone();
-            for (b, body) in s.bodies.iter().enumerate() {
-                all.bodies[b].center = swap(&body.center);
-                motion.bodies[b].velocity = swap(&body.velocity);
-            }
-            for (c, contact) in s.contacts.iter().enumerate() {
-                all.contacts[c].at = swap(&contact.at);
-                normals.contacts[c].normal = contact.normal.as_ref().map(swap);
-            }
-            for (h, hinge) in s.hinges.iter().enumerate() {
-                all.hinges[h].at = swap(&hinge.at);
-            }
-            vec![
-                slip(all, "in the positions"),
-                slip(motion, "in the velocities before"),
-                slip(normals, "in the normal"),
-            ]
+            let swap = |v: &mut Vector| *v = v.each_ref().map(super::partial::swap);
+            let places = [
+                "in the positions",
+                "in the velocities before",
+                "in the normal",
+            ];
+            each(s, places, |scene, place| {
+                let bodies = scene.bodies.iter_mut();
+                match place {
+                    "in the positions" => positions(scene).for_each(swap),
+                    "in the normal" => {
+                        let contacts = scene.contacts.iter_mut();
+                        contacts.filter_map(|c| c.normal.as_mut()).for_each(swap);
+                    }
+                    _ => bodies.map(|b| &mut b.velocity).for_each(swap),
+                }
+                Some(place.to_string())
+            })
         },
     },
     Belief {
@@ -415,25 +326,17 @@ pub const BELIEFS: &[Belief] = &[
         belief: "the center of mass is put at the far end: l stands for l/2 in the arm",
         hint: "where is the center of mass?",
         slips: |s| {
-            let mut found = Vec::new();
-            for b in movable(s).filter(|b| !s.bodies[*b].is_particle()) {
-                for (at, name) in places(s, b) {
-                    for (k, words) in [(Expr::from(2), "twice"), (Expr::ratio(1, 2), "half")] {
-                        let mut scene = s.clone();
-                        let arm = minus(&s.bodies[b].center, &at);
-                        scene.bodies[b].center =
-                            [&at[0] + &(&arm[0] * &k), &at[1] + &(&arm[1] * &k)];
-                        found.push(slip(
-                            scene,
-                            &format!(
-                                "{words} the arm from {name} to the center of {}",
-                                s.bodies[b].name
-                            ),
-                        ));
-                    }
-                }
-            }
-            found
+            let bodies = movable(s).filter(|b| !s.bodies[*b].is_particle());
+            let arms = bodies.flat_map(|b| places(s, b).into_iter().map(move |at| (b, at)));
+            let all = arms.flat_map(|(b, at)| {
+                [(Expr::from(2), "twice"), (Expr::ratio(1, 2), "half")].map(|k| (b, at.clone(), k))
+            });
+            each(s, all, |scene, (b, (at, name), (k, words))| {
+                let arm = minus(&s.bodies[b].center, &at);
+                scene.bodies[b].center = [0, 1].map(|i| &at[i] + &(&arm[i] * &k));
+                let center = format!("the center {}", of(s, b));
+                Some(format!("{words} the arm from {name} to {center}"))
+            })
         },
     },
     Belief {
@@ -441,14 +344,11 @@ pub const BELIEFS: &[Belief] = &[
         belief: "the normal is taken along the surface",
         hint: "in which direction does a frictionless contact push?",
         slips: |s| {
-            frictionless(s)
-                .filter_map(|c| {
-                    let mut scene = s.clone();
-                    let [x, y] = s.contacts[c].normal.clone()?;
-                    scene.contacts[c].normal = Some([-y, x]);
-                    Some(slip(scene, &format!("at {}", s.contacts[c].name)))
-                })
-                .collect()
+            each(s, frictionless(s), |scene, c| {
+                let [x, y] = s.contacts[c].normal.clone()?;
+                scene.contacts[c].normal = Some([-y, x]);
+                Some(at(s, c))
+            })
         },
     },
     Belief {

@@ -27,6 +27,8 @@ const POINTS: u64 = 4;
 const PAIRS: usize = 6_000;
 /// Beliefs and quantities named at most.
 pub(super) const NAMED: usize = 4;
+/// What is said of an answer that is right but for its sign.
+const OPPOSITE: &str = ", with the opposite sign";
 /// Pairs of beliefs named at most.
 const PAIRS_NAMED: usize = 3;
 
@@ -42,6 +44,22 @@ pub struct Written<'a> {
     pub values: Vec<Expr>,
     /// For an answer in numbers: how far each may be off, the scene's values being given.
     pub rounding: Option<f64>,
+}
+
+impl<'a> Written<'a> {
+    /// The same of something else that is asked.
+    fn of<'b>(&self, ask: &'b Ask, component: Option<usize>, values: Vec<Expr>) -> Written<'b>
+    where
+        'a: 'b,
+    {
+        Written {
+            scene: self.scene,
+            ask,
+            component,
+            values,
+            rounding: self.rounding,
+        }
+    }
 }
 
 struct Trials {
@@ -123,11 +141,7 @@ fn is_same(asked: &Written, a: &Expr, b: &Expr) -> bool {
 /// The beliefs that give exactly the written answer, single ones before pairs where these are evidence.
 fn beliefs(written: &Written, trials: &Trials, paired: bool) -> Vec<Diagnosis> {
     // What is right, and wrong only in its unit or form, comes from no belief.
-    let truth = Slip {
-        scene: written.scene.clone(),
-        changes: Vec::new(),
-        place: String::new(),
-    };
+    let truth = Slip::none(written.scene);
     if trials.fits(written, &truth) {
         return Vec::new();
     }
@@ -162,16 +176,13 @@ fn beliefs(written: &Written, trials: &Trials, paired: bool) -> Vec<Diagnosis> {
 
 /// The belief whose answer is the written one with the other sign.
 fn opposite(written: &Written, trials: &Trials, slips: &[(&Belief, Slip)]) -> Vec<Diagnosis> {
-    let turned = Written {
-        values: written.values.iter().map(|v| -v).collect(),
-        ask: written.ask,
-        ..*written
-    };
+    let values = written.values.iter().map(|v| -v).collect();
+    let turned = written.of(written.ask, written.component, values);
     let mirrored = trials.times(-1.0);
     let hit = slips.iter().find(|(_, slip)| mirrored.fits(&turned, slip));
     hit.map(|(belief, slip)| {
         let mut d = words(belief, slip, written.rounding.is_some());
-        d.message.push_str(", with the opposite sign");
+        d.message.push_str(OPPOSITE);
         d.hint = format!("{} Check the sign too.", d.hint);
         vec![d]
     })
@@ -179,19 +190,16 @@ fn opposite(written: &Written, trials: &Trials, slips: &[(&Belief, Slip)]) -> Ve
 }
 
 pub(super) fn words(belief: &Belief, slip: &Slip, rounded: bool) -> Diagnosis {
-    let place = if slip.place.is_empty() {
-        String::new()
-    } else {
-        format!(" ({})", slip.place)
+    let place = match slip.place.as_str() {
+        "" => String::new(),
+        place => format!(" ({place})"),
     };
-    Diagnosis::new(
-        belief.code,
-        match rounded {
-            true => format!("what comes out, rounded, when {}{place}", belief.belief),
-            false => format!("exactly what comes out when {}{place}", belief.belief),
-        },
-        belief.hint,
-    )
+    let how = match rounded {
+        true => "what comes out, rounded,",
+        false => "exactly what comes out",
+    };
+    let message = format!("{how} when {}{place}", belief.belief);
+    Diagnosis::new(belief.code, message, belief.hint)
 }
 
 /// Two beliefs at a time: the second is applied to the scene of the first. Several pairs that explain the answer equally
@@ -203,7 +211,7 @@ fn pairs(written: &Written, trials: &Trials, slips: &[(&Belief, Slip)]) -> Vec<D
     for (i, (first, slip)) in slips.iter().enumerate() {
         // A change of the equations is combined as it is; one of the scene carries the second along.
         for second in BELIEFS.iter().filter(|b| b.code > first.code) {
-            if !slip.changes.is_empty() {
+            if slip.change.is_some() {
                 continue;
             }
             for other in (second.slips)(&slip.scene) {
@@ -289,11 +297,7 @@ impl Trials {
     /// The chance that an answer of this kind meets a hypothesis by coincidence; `None` for a formula that is no multiple
     /// of the right one: such a thing is not met by chance.
     fn evidence(&self, written: &Written, quantities: &[(Ask, String)]) -> Option<f64> {
-        let plain = Slip {
-            scene: written.scene.clone(),
-            changes: Vec::new(),
-            place: String::new(),
-        };
+        let plain = Slip::none(written.scene);
         let slips = BELIEFS.iter().flat_map(|b| (b.slips)(written.scene));
         let mut outcomes: Vec<Vec<Vec<f64>>> = Vec::new();
         let at = |written: &Written, slip: &Slip| -> Option<Vec<Vec<f64>>> {
@@ -320,13 +324,7 @@ impl Trials {
         outcomes.extend(slips.filter_map(|slip| at(written, &slip)));
         for (ask, _) in quantities {
             for component in [None, Some(0), Some(1)] {
-                let other = Written {
-                    scene: written.scene,
-                    ask,
-                    component,
-                    values: written.values.clone(),
-                    rounding: written.rounding,
-                };
+                let other = written.of(ask, component, written.values.clone());
                 outcomes.extend(at(&other, &plain));
             }
         }

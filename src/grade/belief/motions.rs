@@ -2,7 +2,7 @@
 //!
 //! In: a scene with stages. Out: the same scene as believed; the story is told again from there.
 
-use super::slips::slip;
+use super::slips::{each, slip};
 use super::{BELIEFS, Belief, Slip};
 use crate::expr::{Expr, dot, minus};
 use crate::scene::{Scene, Stage, StageKind, Turn};
@@ -97,11 +97,11 @@ pub(in crate::grade) fn in_stages(s: &Scene) -> Vec<(&'static Belief, Slip)> {
         for belief in BELIEFS.iter().filter(|b| ON_THE_WAY.contains(&b.code)) {
             // What changes equations and not the scene cannot be handed to the story.
             let slips = (belief.slips)(&stage.scene).into_iter();
-            found.extend(slips.filter(|slip| slip.changes.is_empty()).map(|one| {
+            found.extend(slips.filter(|slip| slip.change.is_none()).map(|one| {
                 let mut scene = s.clone();
                 scene.stages[k].scene = one.scene;
                 let place = [one.place.as_str(), "in", &stage.name].join(" ");
-                (belief, slip(scene, place.trim_start()))
+                (belief, slip(scene, place.trim_start().to_string()))
             }));
         }
     }
@@ -110,12 +110,9 @@ pub(in crate::grade) fn in_stages(s: &Scene) -> Vec<(&'static Belief, Slip)> {
 
 /// The scene with one motion changed, for each that `change` changes.
 fn motions(s: &Scene, change: &dyn Fn(&mut Stage) -> bool) -> Vec<Slip> {
-    let changed = |k: usize| {
-        let mut scene = s.clone();
-        let place = format!("in {}", s.stages[k].name);
-        change(&mut scene.stages[k]).then(|| slip(scene, &place))
-    };
-    (0..s.stages.len()).filter_map(changed).collect()
+    each(s, 0..s.stages.len(), |scene, k| {
+        change(&mut scene.stages[k]).then(|| format!("in {}", s.stages[k].name))
+    })
 }
 
 /// Where a motion has its gravity.

@@ -3,23 +3,59 @@
 //! In: a scene. Out: slips with the place they concern. Which belief makes which is the table's business.
 
 use super::{Change, Slip};
+use crate::dimension::Dimension;
 use crate::expr::{Expr, Vector, dot, minus};
 use crate::scene::{ContactLaw, Scene, Shape};
 
-pub(super) fn slip(scene: Scene, place: &str) -> Slip {
-    Slip {
-        scene,
-        changes: Vec::new(),
-        place: place.to_string(),
+impl Slip {
+    /// The scene as it is, without a slip.
+    pub fn none(scene: &Scene) -> Slip {
+        Slip {
+            scene: scene.clone(),
+            change: None,
+            place: String::new(),
+        }
     }
 }
 
-pub(super) fn changed(scene: &Scene, change: Change, place: &str) -> Slip {
+pub(super) fn slip(scene: Scene, place: String) -> Slip {
+    Slip {
+        scene,
+        change: None,
+        place,
+    }
+}
+
+pub(super) fn changed(scene: &Scene, change: Change, place: impl Into<String>) -> Slip {
     Slip {
         scene: scene.clone(),
-        changes: vec![change],
-        place: place.to_string(),
+        change: Some(change),
+        place: place.into(),
     }
+}
+
+/// One slip for each part of a scene that `change` changes; it gives the words for where that shows.
+pub(super) fn each<T>(
+    s: &Scene,
+    parts: impl IntoIterator<Item = T>,
+    change: impl Fn(&mut Scene, T) -> Option<String>,
+) -> Vec<Slip> {
+    let changed = |part| {
+        let mut scene = s.clone();
+        let place = change(&mut scene, part)?;
+        Some(slip(scene, place))
+    };
+    parts.into_iter().filter_map(changed).collect()
+}
+
+/// Where a contact is, in words.
+pub(super) fn at(s: &Scene, contact: usize) -> String {
+    format!("at {}", s.contacts[contact].name)
+}
+
+/// Whose a quantity of a body is, in words.
+pub(super) fn of(s: &Scene, body: usize) -> String {
+    format!("of {}", s.bodies[body].name)
 }
 
 pub(super) fn movable(s: &Scene) -> impl Iterator<Item = usize> + '_ {
@@ -34,88 +70,78 @@ pub(super) fn frictionless(s: &Scene) -> impl Iterator<Item = usize> + '_ {
     (0..s.contacts.len()).filter(|c| matches!(s.contacts[*c].law, ContactLaw::Frictionless { .. }))
 }
 
+pub(super) fn sticking(s: &Scene) -> impl Iterator<Item = usize> + '_ {
+    (0..s.contacts.len()).filter(|c| s.contacts[*c].law == ContactLaw::Sticking)
+}
+
+/// Every point at which something acts, with its name and the bodies it acts on.
+fn acting(s: &Scene) -> impl Iterator<Item = (&Vector, &String, [usize; 2])> {
+    let contacts = s.contacts.iter().map(|c| (&c.at, &c.name, c.bodies));
+    let hinges = s.hinges.iter().map(|h| (&h.at, &h.name, h.bodies));
+    let blows = s.blows.iter().map(|p| (&p.at, &p.name, [p.body; 2]));
+    contacts.chain(hinges).chain(blows)
+}
+
 /// The points at which something acts on a body, with names.
 pub(super) fn places(s: &Scene, b: usize) -> Vec<(Vector, String)> {
-    let contacts = s
-        .contacts
-        .iter()
-        .filter(|c| c.bodies.contains(&b))
-        .map(|c| (c.at.clone(), c.name.clone()));
-    let hinges = s
-        .hinges
-        .iter()
-        .filter(|h| h.bodies.contains(&b))
-        .map(|h| (h.at.clone(), h.name.clone()));
-    let blows = s
-        .blows
-        .iter()
-        .filter(|p| p.body == b)
-        .map(|p| (p.at.clone(), p.name.clone()));
-    contacts.chain(hinges).chain(blows).collect()
+    let own = acting(s).filter(|(.., bodies)| bodies.contains(&b));
+    own.map(|(at, name, _)| (at.clone(), name.clone()))
+        .collect()
 }
 
 /// Every point about which somebody might take moments.
 pub(super) fn all_places(s: &Scene) -> Vec<(Vector, String)> {
+    let points = s.points.iter().map(|p| (&p.at, p.name.clone()));
+    let center = |b: usize| (&s.bodies[b].center, format!("the center {}", of(s, b)));
+    let others = acting(s).map(|(at, name, _)| (at, name.clone()));
     let mut all: Vec<(Vector, String)> = Vec::new();
-    let mut add = |at: &Vector, name: &str| {
+    for (at, name) in points.chain(movable(s).map(center)).chain(others) {
         if !all.iter().any(|(known, _)| known == at) {
-            all.push((at.clone(), name.to_string()));
+            all.push((at.clone(), name));
         }
-    };
-    s.points.iter().for_each(|p| add(&p.at, &p.name));
-    movable(s).for_each(|b| {
-        add(
-            &s.bodies[b].center,
-            &format!("the center of {}", s.bodies[b].name),
-        )
-    });
-    s.contacts.iter().for_each(|c| add(&c.at, &c.name));
-    s.hinges.iter().for_each(|h| add(&h.at, &h.name));
-    s.blows.iter().for_each(|p| add(&p.at, &p.name));
+    }
     all.truncate(8);
     all
+}
+
+/// The places of bodies and of what acts on them.
+pub(super) fn positions(s: &mut Scene) -> impl Iterator<Item = &mut Vector> {
+    let bodies = s.bodies.iter_mut().map(|b| &mut b.center);
+    let contacts = s.contacts.iter_mut().map(|c| &mut c.at);
+    let hinges = s.hinges.iter_mut().map(|h| &mut h.at);
+    let blows = s.blows.iter_mut().map(|p| &mut p.at);
+    bodies.chain(contacts).chain(hinges).chain(blows)
 }
 
 pub(super) type Inertias<'a> = &'a dyn Fn(&Scene, usize) -> Vec<(Expr, String)>;
 
 /// Slips that give one body another moment of inertia.
 pub(super) fn inertia(s: &Scene, others: Inertias) -> Vec<Slip> {
-    let mut found = Vec::new();
-    for b in rigid(s) {
-        for (value, place) in others(s, b) {
-            if value == s.bodies[b].inertia {
-                continue;
-            }
-            let mut scene = s.clone();
-            scene.bodies[b].inertia = value;
-            let name = &s.bodies[b].name;
-            found.push(slip(
-                scene,
-                &if place.is_empty() {
-                    format!("of {name}")
-                } else {
-                    format!("of {name} {place}")
-                },
-            ));
-        }
-    }
-    found
+    let all = rigid(s).flat_map(|b| others(s, b).into_iter().map(move |other| (b, other)));
+    let other = all.filter(|(b, (value, _))| *value != s.bodies[*b].inertia);
+    each(s, other, |scene, (b, (value, place))| {
+        scene.bodies[b].inertia = value;
+        Some(format!("{} {place}", of(s, b)).trim_end().to_string())
+    })
 }
 
-/// I + k m r² with r from the center to a point.
-pub(super) fn shifted(s: &Scene, b: usize, at: &Vector, k: Expr) -> Expr {
-    let r = minus(at, &s.bodies[b].center);
-    &s.bodies[b].inertia + &(k * &s.bodies[b].mass * dot(&r, &r))
+/// I + k m r² for every point at which something acts, with r from the center to it.
+pub(super) fn about_places(s: &Scene, b: usize, k: i64) -> Vec<(Expr, String)> {
+    let shifted = |(at, name): (Vector, String)| {
+        let r = minus(&at, &s.bodies[b].center);
+        let k = Expr::from(k);
+        let value = &s.bodies[b].inertia + &(k * &s.bodies[b].mass * dot(&r, &r));
+        (value, format!("about {name}"))
+    };
+    places(s, b).into_iter().map(shifted).collect()
 }
 
 /// Moments of inertia a student might look up in place of the right one.
 pub(super) fn other_shapes(s: &Scene, b: usize) -> Vec<(Expr, String)> {
     let m = &s.bodies[b].mass;
     let of = |n: i64, d: i64, square: &Expr, words: &str| {
-        (
-            Expr::ratio(n, d) * m * square.powi(2),
-            format!("as if {words}"),
-        )
+        let value = Expr::ratio(n, d) * m * square.powi(2);
+        (value, format!("as if {words}"))
     };
     match &s.bodies[b].shape {
         Shape::Disk { radius } | Shape::Ring { radius } | Shape::Sphere { radius } => vec![
@@ -135,10 +161,8 @@ pub(super) fn other_shapes(s: &Scene, b: usize) -> Vec<(Expr, String)> {
         ],
         Shape::Rectangle { width, height } => {
             let sum = |n: i64, d: i64, words: &str| {
-                (
-                    Expr::ratio(n, d) * m * (width.powi(2) + height.powi(2)),
-                    format!("as if {words}"),
-                )
+                let value = Expr::ratio(n, d) * m * (width.powi(2) + height.powi(2));
+                (value, format!("as if {words}"))
             };
             vec![
                 of(1, 12, width, "a rod of its width"),
@@ -152,83 +176,65 @@ pub(super) fn other_shapes(s: &Scene, b: usize) -> Vec<(Expr, String)> {
 }
 
 pub(super) fn restitution(s: &Scene, other: &dyn Fn(&Expr) -> Expr) -> Vec<Slip> {
-    frictionless(s)
-        .filter_map(|c| {
-            let ContactLaw::Frictionless { restitution } = &s.contacts[c].law else {
-                return None;
-            };
-            let value = other(restitution);
-            if value == *restitution {
-                return None;
-            }
-            let mut scene = s.clone();
-            scene.contacts[c].law = ContactLaw::Frictionless { restitution: value };
-            Some(slip(scene, &format!("at {}", s.contacts[c].name)))
-        })
-        .collect()
+    each(s, frictionless(s), |scene, c| {
+        let ContactLaw::Frictionless { restitution } = &mut scene.contacts[c].law else {
+            return None;
+        };
+        let value = other(restitution);
+        if value == *restitution {
+            return None;
+        }
+        *restitution = value;
+        Some(at(s, c))
+    })
 }
 
 pub(super) fn velocities(s: &Scene, other: &dyn Fn(&Vector) -> Vector) -> Vec<Slip> {
-    (0..s.bodies.len())
-        .filter(|b| s.bodies[*b].velocity.iter().any(|v| !v.is_zero()))
-        .map(|b| {
-            let mut scene = s.clone();
-            scene.bodies[b].velocity = other(&s.bodies[b].velocity);
-            slip(scene, &format!("of {}", s.bodies[b].name))
-        })
-        .collect()
+    let moves = |b: &usize| s.bodies[*b].velocity.iter().any(|v| !v.is_zero());
+    each(s, (0..s.bodies.len()).filter(moves), |scene, b| {
+        scene.bodies[b].velocity = other(&s.bodies[b].velocity);
+        Some(of(s, b))
+    })
 }
 
-/// A parameter that is a length, doubled or halved: in the inertia alone, and everywhere.
+/// A parameter that is a length, doubled or halved: in the inertia alone, in the positions alone, and everywhere.
 pub(super) fn lengths(s: &Scene) -> Vec<Slip> {
-    let mut found = Vec::new();
-    let meter = crate::dimension::Dimension::new(0, 1, 0);
-    for p in s.parameters.iter().filter(|p| p.dimension == meter) {
-        for (k, words) in [(Expr::from(2), "twice"), (Expr::ratio(1, 2), "half")] {
-            let map =
-                std::collections::BTreeMap::from([(p.name.clone(), Expr::symbol(&p.name) * &k)]);
-            let place = format!("{words} {}", p.name);
-            let mut scene = s.clone();
-            for body in &mut scene.bodies {
-                body.inertia = body.inertia.substitute(&map);
+    let meter = Dimension::new(0, 1, 0);
+    let lengths = s.parameters.iter().filter(|p| p.dimension == meter);
+    let each_twice = lengths.flat_map(|p| {
+        let twice = (p, Expr::from(2), "twice");
+        [twice, (p, Expr::ratio(1, 2), "half")]
+    });
+    let all = each_twice.flat_map(|(p, k, words)| {
+        let value = Expr::symbol(&p.name) * k;
+        let where_put = [
+            (true, false, "in the moment of inertia"),
+            (false, true, "in the positions"),
+            (true, true, "everywhere"),
+        ];
+        where_put.map(|put| (p, value.clone(), words, put))
+    });
+    each(
+        s,
+        all,
+        |scene, (p, value, words, (inertia, arms, place))| {
+            let put = |e: &Expr| e.put(&p.name, &value);
+            for body in scene.bodies.iter_mut().filter(|_| inertia) {
+                body.inertia = put(&body.inertia);
             }
-            found.push(slip(
-                scene.clone(),
-                &format!("{place} in the moment of inertia"),
-            ));
-            let both = |v: &Vector| [v[0].substitute(&map), v[1].substitute(&map)];
-            let mut arms = s.clone();
-            for (b, body) in s.bodies.iter().enumerate() {
-                arms.bodies[b].center = both(&body.center);
-                scene.bodies[b].center = both(&body.center);
+            for at in positions(scene).filter(|_| arms) {
+                *at = at.each_ref().map(put);
             }
-            for (c, contact) in s.contacts.iter().enumerate() {
-                arms.contacts[c].at = both(&contact.at);
-                scene.contacts[c].at = both(&contact.at);
-            }
-            for (h, hinge) in s.hinges.iter().enumerate() {
-                arms.hinges[h].at = both(&hinge.at);
-                scene.hinges[h].at = both(&hinge.at);
-            }
-            for (i, blow) in s.blows.iter().enumerate() {
-                arms.blows[i].at = both(&blow.at);
-                scene.blows[i].at = both(&blow.at);
-            }
-            found.push(slip(arms, &format!("{place} in the positions")));
-            found.push(slip(scene, &format!("{place} everywhere")));
-        }
-    }
-    found
+            Some(format!("{words} {} {place}", p.name))
+        },
+    )
 }
 
 /// Every body that turns, with another spin before.
 pub(super) fn spins(s: &Scene, other: &dyn Fn(&Expr) -> Expr) -> Vec<Slip> {
-    (0..s.bodies.len())
-        .filter(|b| !s.bodies[*b].spin.is_zero())
-        .map(|b| {
-            let mut scene = s.clone();
-            scene.bodies[b].spin = other(&s.bodies[b].spin);
-            slip(scene, &format!("of {}", s.bodies[b].name))
-        })
-        .collect()
+    let turns = |b: &usize| !s.bodies[*b].spin.is_zero();
+    each(s, (0..s.bodies.len()).filter(turns), |scene, b| {
+        scene.bodies[b].spin = other(&s.bodies[b].spin);
+        Some(of(s, b))
+    })
 }

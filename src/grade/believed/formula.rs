@@ -89,10 +89,11 @@ pub(in crate::grade) fn formulas(written: &Written, slip: &Slip) -> Option<Vec<E
             .values
             .insert(p.name.clone(), Symbolic(Expr::symbol(&p.name)));
     }
-    let kept = slip.changes.iter().any(|c| matches!(c, Change::EnergyKept));
-    let values = match kept {
-        true => outcome::energy_kept(written, slip, &point, |_| true, |s| solved(s, domains))?,
-        false => outcome::outcome(written, slip, &point, |s| solved(s, domains))?,
+    let values = match slip.change {
+        Some(Change::EnergyKept) => {
+            outcome::energy_kept(written, slip, &point, |_| true, |s| solved(s, domains))?
+        }
+        _ => outcome::outcome(written, slip, &point, |s| solved(s, domains))?,
     };
     let tidy = |value: Symbolic| {
         let value = algebra::tidy(&value.0, domains).ok();

@@ -4,7 +4,7 @@
 
 use super::super::Diagnosis;
 use super::super::belief::Slip;
-use super::{Trials, Written};
+use super::{OPPOSITE, Trials, Written};
 use crate::expr::Expr;
 use crate::scene::{Ask, EnergyWhen, ImpulseAt};
 
@@ -12,89 +12,44 @@ use crate::scene::{Ask, EnergyWhen, ImpulseAt};
 pub(super) fn quantities(written: &Written) -> Vec<(Ask, String)> {
     let scene = written.scene;
     let mut asks: Vec<(Ask, String)> = Vec::new();
-    for (b, body) in scene
-        .bodies
-        .iter()
-        .enumerate()
-        .filter(|(_, b)| !b.is_fixed())
-    {
-        asks.push((
-            Ask::Velocity {
-                body: b,
-                point: None,
-                along: None,
-            },
-            format!("velocity of the center of {}", body.name),
-        ));
+    let velocity = |body, point| Ask::Velocity {
+        body,
+        point,
+        along: None,
+    };
+    let energies = |of: Option<usize>, whose: &str| {
+        use EnergyWhen::{After, Before, Lost};
+        let each = [(Before, "before"), (After, "after"), (Lost, "lost")];
+        each.map(|(when, words)| (Ask::Energy { when, of }, format!("{whose} {words}")))
+    };
+    let free = scene.bodies.iter().enumerate();
+    for (b, body) in free.filter(|(_, b)| !b.is_fixed()) {
+        let (name, clockwise) = (&body.name, false);
+        let center = format!("velocity of the center of {name}");
+        asks.push((velocity(b, None), center));
         if !body.is_particle() {
-            asks.push((
-                Ask::Spin {
-                    body: b,
-                    clockwise: false,
-                },
-                format!("spin of {}, counterclockwise", body.name),
-            ));
-            for p in &scene.points {
-                let at = Some((p.name.clone(), p.at.clone()));
-                asks.push((
-                    Ask::Velocity {
-                        body: b,
-                        point: at,
-                        along: None,
-                    },
-                    format!("velocity of {} moving with {}", p.name, body.name),
-                ));
-            }
+            let spin = Ask::Spin { body: b, clockwise };
+            asks.push((spin, format!("spin of {name}, counterclockwise")));
+            asks.extend(scene.points.iter().map(|p| {
+                let ask = velocity(b, Some((p.name.clone(), p.at.clone())));
+                (ask, format!("velocity of {} moving with {name}", p.name))
+            }));
         }
-        for (when, words) in [
-            (EnergyWhen::Before, "before"),
-            (EnergyWhen::After, "after"),
-            (EnergyWhen::Lost, "lost"),
-        ] {
-            asks.push((
-                Ask::Energy { when, of: Some(b) },
-                format!("energy of {} {words}", body.name),
-            ));
-        }
+        asks.extend(energies(Some(b), &format!("energy of {name}")));
     }
-    for (when, words) in [
-        (EnergyWhen::Before, "before"),
-        (EnergyWhen::After, "after"),
-        (EnergyWhen::Lost, "lost"),
-    ] {
-        asks.push((
-            Ask::Energy { when, of: None },
-            format!("total kinetic energy {words}"),
-        ));
-    }
+    asks.extend(energies(None, "total kinetic energy"));
+    let impulse = |from, on, along| Ask::Impulse { from, on, along };
     for (i, c) in scene.contacts.iter().enumerate() {
-        asks.push((
-            Ask::Impulse {
-                from: ImpulseAt::Contact(i),
-                on: c.bodies[1],
-                along: None,
-            },
-            format!("impulse at {}", c.name),
-        ));
+        let at = |along| impulse(ImpulseAt::Contact(i), c.bodies[1], along);
+        asks.push((at(None), format!("impulse at {}", c.name)));
         if let Some(n) = &c.normal {
-            let ask = Ask::Impulse {
-                from: ImpulseAt::Contact(i),
-                on: c.bodies[1],
-                along: Some(n.clone()),
-            };
-            asks.push((ask, format!("normal impulse at {}", c.name)));
+            asks.push((at(Some(n.clone())), format!("normal impulse at {}", c.name)));
         }
     }
-    for (i, h) in scene.hinges.iter().enumerate() {
-        asks.push((
-            Ask::Impulse {
-                from: ImpulseAt::Hinge(i),
-                on: h.bodies[1],
-                along: None,
-            },
-            format!("impulse at {}", h.name),
-        ));
-    }
+    asks.extend(scene.hinges.iter().enumerate().map(|(i, h)| {
+        let ask = impulse(ImpulseAt::Hinge(i), h.bodies[1], None);
+        (ask, format!("impulse at {}", h.name))
+    }));
     // What is asked for is no other quantity.
     let asked = format!("{:?}", written.ask);
     asks.retain(|(ask, _)| format!("{ask:?}") != asked);
@@ -107,12 +62,7 @@ pub(super) fn other_quantities(
     trials: &Trials,
     asks: Vec<(Ask, String)>,
 ) -> Vec<Diagnosis> {
-    let scene = written.scene;
-    let plain = Slip {
-        scene: scene.clone(),
-        changes: Vec::new(),
-        place: String::new(),
-    };
+    let plain = Slip::none(written.scene);
     let mut found = Vec::new();
     for (ask, words) in asks {
         let vector = matches!(
@@ -127,29 +77,16 @@ pub(super) fn other_quantities(
         };
         for component in components {
             for sign in [1, -1] {
-                let values: Vec<Expr> = written
-                    .values
-                    .iter()
-                    .map(|v| if sign < 0 { -v } else { v.clone() })
-                    .collect();
+                let turned = |v: &Expr| if sign < 0 { -v } else { v.clone() };
+                let values: Vec<Expr> = written.values.iter().map(turned).collect();
                 if values.iter().all(Expr::is_zero) {
                     continue;
                 }
-                let other = Written {
-                    scene,
-                    ask: &ask,
-                    component,
-                    values,
-                    rounding: written.rounding,
-                };
+                let other = written.of(&ask, component, values);
                 let mirrored = trials.times(f64::from(sign));
                 if mirrored.fits(&other, &plain) {
                     let axis = component.map_or("", |c| [" along x", " along y"][c]);
-                    let minus = if sign < 0 {
-                        ", with the opposite sign"
-                    } else {
-                        ""
-                    };
+                    let minus = if sign < 0 { OPPOSITE } else { "" };
                     let message = format!("this is the {words}{axis}{minus}");
                     found.push(Diagnosis::new(
                         "OTHER_QUANTITY",

@@ -15,14 +15,11 @@ pub(in crate::grade) fn doubles(
     slip: &Slip,
     point: &Point<f64>,
 ) -> Option<Vec<f64>> {
-    if slip.changes.iter().any(|c| matches!(c, Change::EnergyKept)) {
-        return energy_kept(written, slip, point, has_one_freedom, |system| {
-            numeric::solve_roughly(system).ok()
-        });
+    let solve = |system: &System<f64>| numeric::solve_roughly(system).ok();
+    match slip.change {
+        Some(Change::EnergyKept) => energy_kept(written, slip, point, has_one_freedom, solve),
+        _ => outcome(written, slip, point, solve),
     }
-    outcome(written, slip, point, |system| {
-        numeric::solve_roughly(system).ok()
-    })
 }
 
 pub(super) fn fractions(
@@ -30,12 +27,10 @@ pub(super) fn fractions(
     slip: &Slip,
     point: &Point<Rational>,
 ) -> Option<Vec<Rational>> {
-    if slip.changes.iter().any(|c| matches!(c, Change::EnergyKept)) {
-        return None;
+    match slip.change {
+        Some(Change::EnergyKept) => None,
+        _ => outcome(written, slip, point, |s| numeric::solve_exact(s).ok()),
     }
-    outcome(written, slip, point, |system| {
-        numeric::solve_exact(system).ok()
-    })
 }
 
 pub(super) fn outcome<T: Number>(
@@ -46,7 +41,7 @@ pub(super) fn outcome<T: Number>(
 ) -> Option<Vec<T>> {
     let given = numeric::given(&slip.scene, point).ok()?;
     let mut system = numeric::assemble(&given);
-    for change in &slip.changes {
+    if let Some(change) = &slip.change {
         alter(change, point, &given, &mut system)?;
     }
     let solution = solve(&system)?;
@@ -66,23 +61,19 @@ fn read_off<T: Number>(
             .then(|| in_formula(formula, written, slip, point, &given, motion))?;
     }
     let mut ask = written.ask.clone();
-    for change in &slip.changes {
-        match change {
-            Change::NoRotationEnergy | Change::NoTranslationEnergy => {
-                let Ask::Energy { when, of } = &ask else {
-                    return None;
-                };
-                return energies(change, *when, *of, &given, motion).map(|e| vec![e]);
-            }
-            Change::PointIsCenter => match &mut ask {
-                Ask::Velocity {
-                    point: at @ Some(_),
-                    ..
-                } => *at = None,
-                _ => return None,
-            },
-            _ => {}
+    match (&slip.change, &mut ask) {
+        (
+            Some(change @ (Change::NoRotationEnergy | Change::NoTranslationEnergy)),
+            Ask::Energy { when, of },
+        ) => return energies(change, *when, *of, &given, motion).map(|e| vec![e]),
+        (Some(Change::PointIsCenter), Ask::Velocity { point, .. }) if point.is_some() => {
+            *point = None;
         }
+        (
+            Some(Change::NoRotationEnergy | Change::NoTranslationEnergy | Change::PointIsCenter),
+            _,
+        ) => return None,
+        _ => {}
     }
     // Impulses of hinges that the belief removed have no value.
     if let Ask::Impulse {
@@ -119,13 +110,7 @@ fn in_formula<T: Number>(
         if !names.iter().any(|name| used.contains(name)) {
             continue;
         }
-        let inner = Written {
-            scene: written.scene,
-            ask: &question.ask,
-            component: None,
-            values: Vec::new(),
-            rounding: written.rounding,
-        };
+        let inner = written.of(&question.ask, None, Vec::new());
         let [whole, x, y] = names;
         match <[T; 2]>::try_from(read_off(&inner, slip, point, given.clone(), motion)?) {
             Ok(values) => there.values.extend([x, y].into_iter().zip(values)),
@@ -166,23 +151,10 @@ fn alter<T: Number>(
     given: &Given<T>,
     system: &mut System<T>,
 ) -> Option<()> {
-    let mut none = |unknown: Unknown, instead: usize| {
-        let law = Law::AngularMomentum(instead);
-        put(system, law, &[(unknown, T::one())], T::zero())
-    };
     match change {
-        Change::NoHingeImpulse {
-            hinge,
-            axis,
-            instead,
-        } => none(Unknown::Hinge(*hinge, *axis), *instead),
-        Change::NoContactImpulse {
-            contact,
-            axis,
-            instead,
-        } => {
-            let unknown = Unknown::Contact(*contact, *axis);
-            none(unknown, *instead)
+        Change::NoImpulse { of, instead } => {
+            let law = Law::AngularMomentum(*instead);
+            put(system, law, &[(*of, T::one())], T::zero())
         }
         Change::MomentsIgnored {
             bodies,
