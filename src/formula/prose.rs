@@ -70,7 +70,14 @@ pub(super) fn behind_words(text: &str, known: &dyn Fn(&str) -> bool) -> Option<u
     match text[at..].split_once(['=', '≈']) {
         _ if led && VERBS.contains(&&**last) => Some(at),
         Some(("", _)) if led => Some(*start),
-        Some((name, _)) if words.iter().any(surely) && !name.trim().contains(' ') => Some(at),
+        // `we get m v l cosθ/2 = …`: a product begins with the names at the end.
+        Some((name, _)) if words.iter().any(surely) => {
+            let names = words.iter().rev().take_while(|(_, word)| known(word));
+            match names.last() {
+                Some((start, _)) => Some(*start),
+                None => (!name.trim().contains(' ')).then_some(at),
+            }
+        }
         _ => None,
     }
 }

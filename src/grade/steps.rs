@@ -389,10 +389,18 @@ impl<'a> Desk<'a> {
                 let near = text::is_near(&fault, text);
                 match self.looked_ahead(text) {
                     Some(reading) => reading,
-                    None if !near && self.new_name(text).is_some() => {
+                    None if near => return (Status::Unreadable(fault), Vec::new()),
+                    None if self.new_name(text).is_some() => {
                         return (Status::Defines, Vec::new());
                     }
-                    None => return (Status::Unreadable(fault), Vec::new()),
+                    None if self.is_conservation(text) => return (Status::Comment, Vec::new()),
+                    None => {
+                        self.new_side(text);
+                        match formula::read(text, &self.symbols(text)) {
+                            Ok(reading) => reading,
+                            Err(fault) => return (Status::Unreadable(fault), Vec::new()),
+                        }
+                    }
                 }
             }
         };

@@ -221,14 +221,35 @@ impl Desk<'_> {
         text: &str,
         options: &Options,
     ) -> Option<(Status, Vec<Diagnosis>)> {
-        let (name, right) = text.split_once('=')?;
+        let (_, right) = text.split_once('=')?;
+        self.new_side(right)?;
+        self.definition(number, text, options)
+    }
+
+    /// The one side of a chain that has a new name says what the name stands for by the last of the other sides.
+    pub(super) fn new_side(&mut self, text: &str) -> Option<Status> {
         let symbols = self.symbols(text);
-        let sides = right.split('=').map(str::trim);
-        let (known, new): (Vec<&str>, Vec<&str>) =
-            sides.partition(|side| formula::read(side, &symbols).is_ok());
-        let first = known.first().filter(|_| new.len() == 1)?;
-        self.new_name(&format!("{} = {first}", new[0]))?;
-        self.definition(number, &format!("{name}= {}", known.join(" = ")), options)
+        let (known, new): (Vec<&str>, Vec<&str>) = text
+            .split('=')
+            .map(str::trim)
+            .partition(|side| formula::read(side, &symbols).is_ok());
+        match (new.as_slice(), known.last()) {
+            ([new], Some(last)) => self.new_name(&format!("{new} = {last}")),
+            _ => None,
+        }
+    }
+
+    /// Whether a line only says that something stays what it is, in names that it never gives: `H_C = H_C'`, `E_1 = E_2`.
+    pub(super) fn is_conservation(&self, text: &str) -> bool {
+        let letter = |side: &str| {
+            let reading = formula::read(side, &Symbols::open()).ok()?;
+            let name = reading.expr()?.as_symbol().cloned()?;
+            (!self.is_known(&name)).then(|| name.chars().next())
+        };
+        match text.split('=').collect::<Vec<_>>()[..] {
+            [a, b] => letter(a).is_some() && letter(a) == letter(b),
+            _ => false,
+        }
     }
 
     /// The line that defines a name which lines above it used already.

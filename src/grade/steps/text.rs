@@ -6,7 +6,7 @@ use crate::formula::Fault;
 const SIGNS: [char; 5] = ['<', '>', '≤', '≥', '≈'];
 
 /// Words and arrows before an equation.
-const LEADS: [&str; 18] = [
+const LEADS: [&str; 30] = [
     "=>",
     "⇒",
     "⟹",
@@ -25,6 +25,18 @@ const LEADS: [&str; 18] = [
     "and",
     "where",
     "gives",
+    "which gives",
+    "this gives",
+    "we get",
+    "we find",
+    "we have",
+    "it follows that",
+    "that is",
+    "i.e.",
+    "since",
+    "because",
+    "as",
+    "from",
 ];
 
 /// What stands between two equations of one line.
@@ -58,6 +70,10 @@ const MOMENTS: [&str; 6] = [
     "just before",
     "just after",
 ];
+
+/// First words of a remark in brackets behind an equation, which are never names.
+const REMARKS: &str = "anticlockwise as because by clockwise conservation counterclockwise down downward downwards \
+    due energy from leftward leftwards momentum rightward rightwards since to towards up upward upwards using";
 
 fn relates(text: &str) -> bool {
     text.contains('=') || text.contains(SIGNS) || text.contains("\\le") || text.contains("\\ge")
@@ -181,9 +197,29 @@ fn equation(text: &str) -> &str {
             None => break,
         }
     }
-    let rest = rest.trim_end_matches(['$', ' ', '.', ',', ';']);
+    let rest = without_remark(rest.trim_end_matches(['$', ' ', '.', ',', ';']));
     let moment = MOMENTS.iter().find_map(|words| rest.strip_suffix(words));
     moment.unwrap_or(rest).trim_end()
+}
+
+/// An equation without the number or the words in brackets behind it: `(downwards)`, `(by symmetry)`, `\\tag{3}`, and a `(3)`
+/// that stands well apart, since closer it is a factor.
+fn without_remark(text: &str) -> &str {
+    let Some((before, behind)) = text.rsplit_once(['(', '{']) else {
+        return text;
+    };
+    let Some(inside) = behind.strip_suffix([')', '}']) else {
+        return text;
+    };
+    let number = !inside.is_empty() && inside.bytes().all(|b| b.is_ascii_digit());
+    let first = inside.split(' ').next().unwrap_or_default();
+    let words = text.ends_with(')') && REMARKS.split(' ').any(|word| word == first);
+    match before.strip_suffix("\\tag") {
+        Some(equation) if number => equation.trim_end(),
+        None if words => before.trim_end(),
+        None if text.ends_with(')') && number && before.ends_with("  ") => before.trim_end(),
+        _ => text,
+    }
 }
 
 /// Whether a refused name of several letters looks like a slip of the pen for a declared one, which begins alike and has an
