@@ -22,21 +22,17 @@ impl Resolver<'_> {
         };
         let normal = contact.normal.as_ref().map(|n| self.direction(n));
         let restitution = contact.restitution.as_ref().map(|e| {
-            let value = self.symbols.read(e, Quantity::NUMBER, &mut self.faults);
+            let value = self.read(e, Quantity::NUMBER);
             if let Some(value) = &value {
-                self.claims.push(Claimed {
-                    span: e.span,
-                    claim: Claim::Fraction(value.clone()),
-                });
+                self.claim(e.span, Claim::Fraction(value.clone()));
             }
             value
         });
         self.belongs_to_friction(contact);
         if let (Some(true), Some(_)) = (contact.passes, contact.law) {
-            let fault = Fault::new(name.span, "a contact with a law lets nothing pass");
-            self.faults.push(fault.hint(
-                "leave out the law, and say with `after` how fast the body comes out behind",
-            ));
+            let message = "a contact with a law lets nothing pass";
+            let hint = "leave out the law, and say with `after` how fast the body comes out behind";
+            self.report(name.span, message, hint);
         }
         let law = match contact.law {
             Some(LawName::Friction) => {
@@ -76,9 +72,9 @@ impl Resolver<'_> {
                     } else {
                         "a contact without law"
                     };
-                    let fault = Fault::new(e.span, format!("{with} has no restitution"));
-                    self.faults
-                        .push(fault.hint("restitution belongs to \"law\": \"frictionless\""));
+                    let message = format!("{with} has no restitution");
+                    let hint = "restitution belongs to \"law\": \"frictionless\"";
+                    self.report(e.span, message, hint);
                 }
                 Some(if law.is_some() {
                     ContactLaw::Sticking
@@ -93,16 +89,10 @@ impl Resolver<'_> {
             self.reach(bodies, &at, name.span, &name.text);
             if self.file.stages.is_none() {
                 // In stages bodies have moved by then; where they are shows when the stages are followed.
-                self.claims.push(Claimed {
-                    span: name.span,
-                    claim: Claim::Touch(scene.contacts.len()),
-                });
+                self.claim(name.span, Claim::Touch(scene.contacts.len()));
             }
             if normal.is_some() {
-                self.claims.push(Claimed {
-                    span: name.span,
-                    claim: Claim::Approach(scene.contacts.len()),
-                });
+                self.claim(name.span, Claim::Approach(scene.contacts.len()));
             }
             scene.contacts.push(Contact {
                 name: name.text.clone(),
@@ -160,15 +150,13 @@ impl Resolver<'_> {
         let blows = self.file.blows.iter().flat_map(|m| &m.0).map(|(n, _)| n);
         if let Some(other) = strikes.into_iter().chain(blows).next() {
             let message = beside_friction(&other.text, &name);
-            let fault = Fault::new(other.span, message);
-            self.faults.push(fault.hint(ALONE));
+            self.report(other.span, message, ALONE);
         }
         if let Some(known) = self.file.after.iter().flatten().next() {
             let message =
                 format!("something known after takes the place of a law, and `{name}` has one");
-            let fault = Fault::new(known.span, message);
-            self.faults
-                .push(fault.hint("leave out `after`, or the law"));
+            let hint = "leave out `after`, or the law";
+            self.report(known.span, message, hint);
         }
     }
 
@@ -193,8 +181,7 @@ impl Resolver<'_> {
         for (field, span) in given {
             if let Some(span) = span {
                 let message = format!("`{field}` belongs to a contact with friction");
-                let fault = Fault::new(span, message);
-                self.faults.push(fault.hint("add \"law\": \"friction\""));
+                self.report(span, message, "add \"law\": \"friction\"");
             }
         }
     }
@@ -230,17 +217,14 @@ impl Resolver<'_> {
         }
         let number = |this: &mut Self, f: &Option<Formula>, claim: fn(Expr) -> Claim| {
             let f = f.as_ref()?;
-            let value = this.symbols.read(f, Quantity::NUMBER, &mut this.faults)?;
-            this.claims.push(Claimed {
-                span: f.span,
-                claim: claim(value.clone()),
-            });
+            let value = this.read(f, Quantity::NUMBER)?;
+            this.claim(f.span, claim(value.clone()));
             Some(value)
         };
         let mu = number(self, &contact.mu, Claim::Friction);
         let tangential = number(self, &contact.tangential_restitution, Claim::Tangential);
         let ratio = contact.impulse_ratio.as_ref();
-        let ratio = ratio.and_then(|f| self.symbols.read(f, Quantity::NUMBER, &mut self.faults));
+        let ratio = ratio.and_then(|f| self.read(f, Quantity::NUMBER));
         let own = [
             (
                 "tangential_restitution",
@@ -258,9 +242,8 @@ impl Resolver<'_> {
         for (field, given, owner, word) in own {
             if let Some(f) = given.filter(|_| contact.hypothesis != Some(owner)) {
                 let message = format!("`{field}` belongs to the hypothesis {word}");
-                let fault = Fault::new(f.span, message);
-                self.faults
-                    .push(fault.hint(format!("add \"hypothesis\": \"{word}\"")));
+                let hint = format!("add \"hypothesis\": \"{word}\"");
+                self.report(f.span, message, hint);
             }
         }
         let hypothesis = match contact.hypothesis {
@@ -352,13 +335,9 @@ impl Resolver<'_> {
                 (index, KnownQuantity::Spin, Quantity::SPIN)
             }
             _ => {
-                let fault = Fault::new(
-                    known.span,
-                    "something known after is either a `velocity` or a `spin`",
-                );
-                return fault
-                    .hint("its value is the body's name")
-                    .add_to(&mut self.faults);
+                let message = "something known after is either a `velocity` or a `spin`";
+                let hint = "its value is the body's name";
+                return self.refuse(known.span, message, hint);
             }
         };
         let value = self.symbols.read(&known.is, what.2, &mut self.faults)?;

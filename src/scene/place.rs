@@ -6,7 +6,7 @@
 use super::Body;
 use super::body::Solid;
 use super::body_file::{BodyFile, ShapeName};
-use super::check::{Claim, Claimed};
+use super::check::Claim;
 use super::fault::Fault;
 use super::formulas::Quantity;
 use super::geometry;
@@ -57,13 +57,9 @@ impl<'f> Resolver<'f> {
         let body = body.as_ref();
         let at = body.and_then(|body| match (&body.center, body.shape) {
             (Some(center), ShapeName::Composite) => {
-                let fault = Fault::new(
-                    center.span(),
-                    "the center of a composite follows from its parts",
-                );
-                self.faults
-                    .push(fault.hint("leave `center` out, and give each part its own"));
-                None
+                let message = "the center of a composite follows from its parts";
+                let hint = "leave `center` out, and give each part its own";
+                self.refuse(center.span(), message, hint)
             }
             (Some(center), _) => self.link(name, |this| this.position(center)),
             (None, ShapeName::Composite) => self.link(name, |this| this.composite(i)),
@@ -108,10 +104,7 @@ impl<'f> Resolver<'f> {
                 Some(center) => self.position(center),
                 None => self.without_center(name, part),
             };
-            let angle = part
-                .angle
-                .as_ref()
-                .map(|a| self.symbols.read(a, Quantity::ANGLE, &mut self.faults));
+            let angle = part.angle.as_ref().map(|a| self.read(a, Quantity::ANGLE));
             let solid = self.solids().read_part(part);
             parts.push((|| {
                 let Solid {
@@ -155,12 +148,9 @@ impl<'f> Resolver<'f> {
         let start = self.chain.iter().position(|n| *n == name.text).unwrap_or(0);
         let mut round = self.chain[start..].join(" → ");
         round.push_str(&format!(" → {}", name.text));
-        let fault = Fault::new(
-            name.span,
-            format!("positions refer to one another in a circle: {round}"),
-        );
-        self.faults.push(fault.hint("give one of them coordinates"));
-        None
+        let message = format!("positions refer to one another in a circle: {round}");
+        let hint = "give one of them coordinates";
+        self.refuse(name.span, message, hint)
     }
 
     /// A position.
@@ -176,9 +166,7 @@ impl<'f> Resolver<'f> {
                     None
                 }
             }
-            PositionFile::At(pair) => self
-                .symbols
-                .vector(pair, Quantity::LENGTH, &mut self.faults),
+            PositionFile::At(pair) => self.vector(pair, Quantity::LENGTH),
             PositionFile::From(step) => {
                 let from = self.position(&step.from);
                 let by = self.step(step);
@@ -186,9 +174,8 @@ impl<'f> Resolver<'f> {
                 let at = [&from[0] + &by[0], &from[1] + &by[1]];
                 if at.iter().any(|c| terms(c) > TERMS) {
                     let message = format!("a coordinate here is a sum of more than {TERMS} terms");
-                    return Fault::new(step.span, message)
-                        .hint("measure from a nearer point")
-                        .add_to(&mut self.faults);
+                    let hint = "measure from a nearer point";
+                    return self.refuse(step.span, message, hint);
                 }
                 Some(at)
             }
@@ -198,22 +185,17 @@ impl<'f> Resolver<'f> {
     fn step(&mut self, step: &StepFile) -> Option<Vector> {
         match (&step.distance, &step.angle, &step.by) {
             (Some(distance), Some(angle), None) => {
-                let distance = self
-                    .symbols
-                    .read(distance, Quantity::LENGTH, &mut self.faults);
-                let angle = self.symbols.read(angle, Quantity::ANGLE, &mut self.faults);
+                let distance = self.read(distance, Quantity::LENGTH);
+                let angle = self.read(angle, Quantity::ANGLE);
                 let [x, y] = geometry::direction(&angle?);
                 let distance = distance?;
                 Some([&distance * &x, &distance * &y])
             }
-            (None, None, Some(by)) => self.symbols.vector(by, Quantity::LENGTH, &mut self.faults),
+            (None, None, Some(by)) => self.vector(by, Quantity::LENGTH),
             _ => {
-                let fault = Fault::new(
-                    step.span,
-                    "a step has either `distance` and `angle`, or `by`",
-                );
-                self.faults.push(fault.hint("{\"from\": \"A\", \"distance\": \"l\", \"angle\": \"theta\"} or {\"from\": \"A\", \"by\": [\"l\", \"0\"]}"));
-                None
+                let message = "a step has either `distance` and `angle`, or `by`";
+                let hint = "{\"from\": \"A\", \"distance\": \"l\", \"angle\": \"theta\"} or {\"from\": \"A\", \"by\": [\"l\", \"0\"]}";
+                self.refuse(step.span, message, hint)
             }
         }
     }
@@ -231,18 +213,12 @@ impl<'f> Resolver<'f> {
                 Some([Expr::from(x), Expr::from(y)])
             }
             DirectionFile::Components(pair) => {
-                let vector = self
-                    .symbols
-                    .vector(pair, Quantity::DIRECTION, &mut self.faults)?;
-                self.claims.push(Claimed {
-                    span: pair.span,
-                    claim: Claim::Unit(vector.clone()),
-                });
+                let vector = self.vector(pair, Quantity::DIRECTION)?;
+                self.claim(pair.span, Claim::Unit(vector.clone()));
                 Some(vector)
             }
             DirectionFile::Angle(angle) => self
-                .symbols
-                .read(&angle.angle, Quantity::ANGLE, &mut self.faults)
+                .read(&angle.angle, Quantity::ANGLE)
                 .map(|a| geometry::direction(&a)),
         }
     }

@@ -2,10 +2,10 @@
 
 use super::fault::Fault;
 use super::question_file::PlotFile;
-use super::questions::answers::{formula, parameter, parameter_names, with};
+use super::questions::answers::{Reader, parameter_names};
 use super::questions::names_of;
 use super::record::Text;
-use super::resolve::{Resolver, entries};
+use super::resolve::{Resolver, entries, text};
 use super::{PlotAsk, Question, Scene};
 use crate::expr::Symbol;
 
@@ -40,55 +40,46 @@ fn plot(
     name: &Text,
     file: &PlotFile,
 ) -> Option<PlotAsk> {
-    let symbols = base.symbols.extended(names);
+    let symbols = &base.symbols.extended(names);
+    let parameters = parameter_names(base.file);
+    let mut reader = Reader { base, symbols };
     let stands_for = match (&file.stands_for, &file.varying) {
-        (Some(f), Some(varying)) => Some((formula(base, &symbols, f)?, parameter(base, varying)?)),
+        (Some(f), Some(varying)) => Some((reader.formula(f)?, reader.parameter(varying)?)),
         (None, None) => {
-            parameter(base, &file.against)?;
+            reader.parameter(&file.against)?;
             None
         }
         _ => {
-            let fault = Fault::new(
-                name.span,
-                "`stands_for` and `varying` belong together: a new name for a formula, and the parameter of it that varies",
-            );
-            return fault
-                .hint("\"against\": \"q\", \"stands_for\": \"l/d\", \"varying\": \"d\"")
-                .add_to(&mut base.faults);
+            let message = "`stands_for` and `varying` belong together: a new name for a formula, and the parameter of it that varies";
+            let hint = "\"against\": \"q\", \"stands_for\": \"l/d\", \"varying\": \"d\"";
+            return reader.refuse(name, message, hint);
         }
     };
-    if stands_for.is_some()
-        && (parameter_names(base.file).contains(&file.against.text.as_str())
-            || names.contains(&file.against.text))
-    {
-        let message = format!("the name `{}` is taken", file.against.text);
-        return Fault::new(file.against.span, message)
-            .hint("a name for a formula is a new name")
-            .add_to(&mut base.faults);
+    let against = &file.against.text;
+    let is_taken = parameters.contains(&against.as_str()) || names.contains(against);
+    if stands_for.is_some() && is_taken {
+        let message = format!("the name `{against}` is taken");
+        return reader.refuse(&file.against, message, "a name for a formula is a new name");
     }
-    let mut curves = Vec::new();
-    for entry in file.curves.iter().flatten() {
-        curves.push(with(base, &symbols, Some(entry))?);
-    }
+    let curves = file.curves.iter().flatten();
+    let curves = curves.map(|entry| reader.with(Some(entry)));
+    let mut curves = curves.collect::<Option<Vec<_>>>()?;
     if curves.len() > CURVES {
         let message = format!("{} curves; a plot has at most {CURVES}", curves.len());
-        return Fault::new(name.span, message).add_to(&mut base.faults);
+        return Fault::new(name.span, message).add_to(&mut reader.base.faults);
     }
     if curves.is_empty() {
         curves.push(Vec::new());
     }
     Some(PlotAsk {
         name: name.text.clone(),
-        title: file
-            .title
-            .as_ref()
-            .map_or_else(String::new, |t| t.text.clone()),
-        quantity: formula(base, &symbols, &file.quantity)?,
+        title: text(&file.title),
+        quantity: reader.formula(&file.quantity)?,
         label: file.label.as_ref().map(|t| t.text.clone()),
-        against: Symbol::from(file.against.text.as_str()),
+        against: Symbol::from(against.as_str()),
         stands_for,
-        from: formula(base, &symbols, &file.from)?,
-        to: formula(base, &symbols, &file.to)?,
+        from: reader.formula(&file.from)?,
+        to: reader.formula(&file.to)?,
         curves,
     })
 }

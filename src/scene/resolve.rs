@@ -8,12 +8,12 @@ use std::collections::HashMap;
 use super::body::{Solid, SolidReader};
 use super::body_file::{BodyFile, ShapeName, VelocityFile};
 use super::check::{Claim, Claimed, check, unused};
-use super::fault::{Fault, TOLD};
+use super::fault::{Fault, Span, TOLD};
 use super::file::SceneFile;
 use super::formulas::{Quantity, Symbols};
 use super::geometry::turned;
 use super::place::Place;
-use super::record::{Map, Text};
+use super::record::{Formula, Map, Pair, Text};
 use super::{
     Blow, BlowImpulse, Body, Force, Hinge, NamedPoint, Scene, Shape, parameters, plots, questions,
 };
@@ -154,9 +154,8 @@ impl<'f> Resolver<'f> {
                 {
                     let message =
                         format!("`{}` is already the name of one of the {other}", key.text);
-                    let fault = Fault::new(key.span, message);
-                    self.faults
-                        .push(fault.hint("an impulse is asked for by this name"));
+                    let hint = "an impulse is asked for by this name";
+                    self.report(key.span, message, hint);
                 }
             }
         }
@@ -185,10 +184,7 @@ impl<'f> Resolver<'f> {
             let at = self.position(&hinge.at);
             if let (Some(bodies), Some(at)) = (bodies, at) {
                 self.reach(bodies, &at, name.span, &name.text);
-                self.claims.push(Claimed {
-                    span: name.span,
-                    claim: Claim::Hinge(scene.hinges.len()),
-                });
+                self.claim(name.span, Claim::Hinge(scene.hinges.len()));
                 scene.hinges.push(Hinge {
                     name: name.text.clone(),
                     bodies,
@@ -206,8 +202,7 @@ impl<'f> Resolver<'f> {
             let impulse =
                 match (&blow.impulse, &blow.along) {
                     (Some(given), None) => self
-                        .symbols
-                        .vector(given, Quantity::IMPULSE, &mut self.faults)
+                        .vector(given, Quantity::IMPULSE)
                         .map(BlowImpulse::Given),
                     (None, Some(along)) => self.direction(along).map(BlowImpulse::Along),
                     _ => {
@@ -327,26 +322,19 @@ impl<'f> Resolver<'f> {
             body.inertia_given = solid.inertia_given;
         }
         if let Some(angle) = &entry.angle {
-            body.angle = self
-                .symbols
-                .read(angle, Quantity::ANGLE, &mut self.faults)
-                .unwrap_or_else(Expr::zero);
+            body.angle = self.read(angle, Quantity::ANGLE).unwrap_or_else(Expr::zero);
         }
         if let Some(spin) = &entry.spin {
-            body.spin = self
-                .symbols
-                .read(spin, Quantity::SPIN, &mut self.faults)
-                .unwrap_or_else(Expr::zero);
+            body.spin = self.read(spin, Quantity::SPIN).unwrap_or_else(Expr::zero);
         }
         let velocity = match &entry.velocity {
             None => None,
-            Some(VelocityFile::Components(v)) => {
-                self.symbols.vector(v, Quantity::VELOCITY, &mut self.faults)
-            }
+            Some(VelocityFile::Components(v)) => self.vector(v, Quantity::VELOCITY),
             Some(VelocityFile::About(turn)) => {
                 if body.is_particle() {
-                    let fault = Fault::new(turn.span, "a particle has no spin to turn with");
-                    self.faults.push(fault.hint("give its velocity as [x, y]"));
+                    let message = "a particle has no spin to turn with";
+                    let hint = "give its velocity as [x, y]";
+                    self.report(turn.span, message, hint);
                 }
                 self.position(&turn.about)
                     .map(|about| turned(&body.spin, &minus(&body.center, &about)))
@@ -354,6 +342,37 @@ impl<'f> Resolver<'f> {
         };
         body.velocity = velocity.unwrap_or_else(origin);
         body
+    }
+
+    /// Reads a formula of a quantity.
+    pub fn read(&mut self, formula: &Formula, quantity: Quantity) -> Option<Expr> {
+        self.symbols.read(formula, quantity, &mut self.faults)
+    }
+
+    /// Reads both components of a vector.
+    pub fn vector(&mut self, pair: &Pair<Formula>, quantity: Quantity) -> Option<Vector> {
+        self.symbols.vector(pair, quantity, &mut self.faults)
+    }
+
+    /// Notes what the scene relies on, to be checked when everything is read.
+    pub fn claim(&mut self, span: Span, claim: Claim) {
+        self.claims.push(Claimed { span, claim });
+    }
+
+    /// Reports what is wrong at a place, and what to do about it.
+    pub fn report(&mut self, at: Span, message: impl Into<String>, hint: impl Into<String>) {
+        self.faults.push(Fault::new(at, message).hint(hint));
+    }
+
+    /// The same, for what cannot be read because of it.
+    pub fn refuse<T>(
+        &mut self,
+        at: Span,
+        message: impl Into<String>,
+        hint: impl Into<String>,
+    ) -> Option<T> {
+        self.report(at, message, hint);
+        None
     }
 
     pub fn solids(&mut self) -> SolidReader<'_> {

@@ -18,140 +18,236 @@ use crate::scene::{Ask, FrictionEvent};
 /// Highest power of a small parameter that may be asked for.
 const ORDER: u32 = 6;
 
-/// Reads a question about formulas.
-pub(super) fn ask(
-    base: &mut Resolver<'_>,
-    symbols: &Symbols,
-    name: &Text,
-    q: &QuestionFile,
-) -> Option<Ask> {
-    if let Some(f) = &q.value {
-        return Some(Ask::Value {
-            formula: formula(base, symbols, f)?,
-            with: with(base, symbols, q.with.as_ref())?,
-            meaning: String::new(),
-        });
-    }
-    if let Some(of) = &q.maximum {
-        let over = q.over.iter().flatten();
-        let over: Vec<Symbol> = over.filter_map(|t| parameter(base, t)).collect();
-        if over.is_empty() {
-            let message = "a maximum needs the parameters that may be chosen, `over`";
-            return Fault::new(name.span, message).add_to(&mut base.faults);
+/// Reads formulas of parameters and of answers to questions above them.
+pub(in crate::scene) struct Reader<'a, 'f> {
+    pub base: &'a mut Resolver<'f>,
+    /// What formulas may name.
+    pub symbols: &'a Symbols,
+}
+
+impl Reader<'_, '_> {
+    /// Reads a question about formulas.
+    pub fn ask(&mut self, name: &Text, q: &QuestionFile) -> Option<Ask> {
+        if let Some(f) = &q.value {
+            return Some(Ask::Value {
+                formula: self.formula(f)?,
+                with: self.with(q.with.as_ref())?,
+                meaning: String::new(),
+            });
         }
-        return Some(Ask::Maximum {
-            of: formula(base, symbols, of)?,
-            over,
-        });
-    }
-    if let Some(of) = &q.limit {
-        return limit(base, symbols, name, q, of);
-    }
-    if let Some(of) = &q.approximate {
-        return approximate(base, symbols, name, q, of);
-    }
-    if let Some(equation) = &q.show {
-        return show(base, symbols, q, equation);
-    }
-    let of = q.threshold.as_ref().or(q.solve.as_ref())?;
-    let Some(holds) = &q.holds else {
-        let fault = Fault::new(name.span, "a threshold needs the relation that `holds`");
-        let fault = fault.hint("\"threshold\": \"v\", \"holds\": \"K_top <= 0\"");
-        return fault.add_to(&mut base.faults);
-    };
-    if let (Some(parameter), Some(event)) = (&q.threshold, event(holds)) {
-        let mut declared = symbols.names().declared().iter();
-        // A product of parameters may bear such a name.
-        if !places(base.file, q, event.0).is_empty() || !declared.any(|d| *d.name == *event.0) {
-            return sticking(base, q, parameter, holds, event);
+        if let Some(of) = &q.maximum {
+            let over = q.over.iter().flatten();
+            let over: Vec<Symbol> = over.filter_map(|t| self.parameter(t)).collect();
+            if over.is_empty() {
+                let message = "a maximum needs the parameters that may be chosen, `over`";
+                return Fault::new(name.span, message).add_to(&mut self.base.faults);
+            }
+            let of = self.formula(of)?;
+            return Some(Ask::Maximum { of, over });
         }
+        if let Some(of) = &q.limit {
+            return self.limit(name, q, of);
+        }
+        if let Some(of) = &q.approximate {
+            return self.approximate(name, q, of);
+        }
+        if let Some(equation) = &q.show {
+            return self.show(q, equation);
+        }
+        let of = q.threshold.as_ref().or(q.solve.as_ref())?;
+        let Some(holds) = &q.holds else {
+            let message = "a threshold needs the relation that `holds`";
+            return self.refuse(
+                name,
+                message,
+                "\"threshold\": \"v\", \"holds\": \"K_top <= 0\"",
+            );
+        };
+        if let (Some(parameter), Some(event)) = (&q.threshold, event(holds)) {
+            let mut declared = self.symbols.names().declared().iter();
+            // A product of parameters may bear such a name.
+            let places = places(self.base.file, q, event.0);
+            if !places.is_empty() || !declared.any(|d| *d.name == *event.0) {
+                return self.sticking(&places, parameter, holds, event);
+            }
+        }
+        if let Some(at) = q.at.as_ref().filter(|_| self.base.file.stages.is_some()) {
+            let message = "`at` belongs to a threshold of friction, such as \"C sticks\"";
+            let hint = "the answers in `holds` say at which stage they are asked";
+            return self.refuse(at, message, hint);
+        }
+        let (left, relation, right) = self.relation(holds)?;
+        if q.solve.is_some() != (relation == Relation::Equal) {
+            let message = "a threshold holds an inequality, and what is to be solved an equation";
+            return Fault::new(holds.span, message).add_to(&mut self.base.faults);
+        }
+        Some(Ask::Condition {
+            parameter: self.parameter(of)?,
+            left,
+            relation,
+            right,
+            with: self.with(q.with.as_ref())?,
+        })
     }
-    if let Some(at) = q.at.as_ref().filter(|_| base.file.stages.is_some()) {
-        let message = "`at` belongs to a threshold of friction, such as \"C sticks\"";
-        let fault = Fault::new(at.span, message)
-            .hint("the answers in `holds` say at which stage they are asked");
-        return fault.add_to(&mut base.faults);
+
+    pub fn refuse<T>(&mut self, at: &Text, message: impl Into<String>, hint: &str) -> Option<T> {
+        let fault = Fault::new(at.span, message).hint(hint);
+        fault.add_to(&mut self.base.faults)
     }
-    let (left, relation, right) = relation(base, symbols, holds)?;
-    if q.solve.is_some() != (relation == Relation::Equal) {
-        let message = "a threshold holds an inequality, and what is to be solved an equation";
-        return Fault::new(holds.span, message).add_to(&mut base.faults);
+
+    fn limit(&mut self, name: &Text, q: &QuestionFile, of: &Formula) -> Option<Ask> {
+        let (Some(tends), Some(to)) = (&q.tends, &q.to) else {
+            let message = "a limit needs the parameter that `tends` and what it tends `to`";
+            return self.refuse(name, message, "\"tends\": \"phi\", \"to\": \"0\"");
+        };
+        let to = match to.text.trim() {
+            "infinity" | "inf" | "oo" | "∞" => None,
+            _ => Some(self.formula(to)?),
+        };
+        Some(Ask::Limit {
+            of: self.formula(of)?,
+            parameter: self.parameter(tends)?,
+            to,
+        })
     }
-    Some(Ask::Condition {
-        parameter: parameter(base, of)?,
-        left,
-        relation,
-        right,
-        with: with(base, symbols, q.with.as_ref())?,
-    })
-}
 
-fn limit(
-    base: &mut Resolver<'_>,
-    symbols: &Symbols,
-    name: &Text,
-    q: &QuestionFile,
-    of: &Formula,
-) -> Option<Ask> {
-    let (Some(tends), Some(to)) = (&q.tends, &q.to) else {
-        let message = "a limit needs the parameter that `tends` and what it tends `to`";
-        let fault = Fault::new(name.span, message).hint("\"tends\": \"phi\", \"to\": \"0\"");
-        return fault.add_to(&mut base.faults);
-    };
-    let to = match to.text.trim() {
-        "infinity" | "inf" | "oo" | "∞" => None,
-        _ => Some(formula(base, symbols, to)?),
-    };
-    Some(Ask::Limit {
-        of: formula(base, symbols, of)?,
-        parameter: parameter(base, tends)?,
-        to,
-    })
-}
+    fn show(&mut self, q: &QuestionFile, equation: &Text) -> Option<Ask> {
+        let (left, relation, right) = self.relation(equation)?;
+        let unless = q.unless.iter().flatten();
+        let unless = unless.filter_map(|t| self.answer_named(t)).collect();
+        let claim = q.claim.as_ref().map(|t| t.text.clone());
+        Some(Ask::Show {
+            left,
+            relation,
+            right,
+            with: self.with(q.with.as_ref())?,
+            unless,
+            claim: claim.unwrap_or_default(),
+        })
+    }
 
-fn show(
-    base: &mut Resolver<'_>,
-    symbols: &Symbols,
-    q: &QuestionFile,
-    equation: &Text,
-) -> Option<Ask> {
-    let (left, relation, right) = relation(base, symbols, equation)?;
-    let unless = q.unless.iter().flatten();
-    let unless = unless.filter_map(|t| answer_named(base, symbols, t));
-    let unless = unless.collect();
-    let claim = q.claim.as_ref().map(|t| t.text.clone());
-    Some(Ask::Show {
-        left,
-        relation,
-        right,
-        with: with(base, symbols, q.with.as_ref())?,
-        unless,
-        claim: claim.unwrap_or_default(),
-    })
-}
+    /// The threshold of friction at which a contact sticks, slides or jams.
+    fn sticking(
+        &mut self,
+        places: &[ContactPlace],
+        parameter: &Text,
+        holds: &Text,
+        (contact, event): (&str, FrictionEvent),
+    ) -> Option<Ask> {
+        let place = match places {
+            [one] => one,
+            [] => {
+                let message = format!("no impact has a contact `{contact}`");
+                let hint = "a threshold of friction names its contact, such as \"C sticks\"";
+                return self.refuse(holds, message, hint);
+            }
+            _ => {
+                let message = format!("several impacts have a contact `{contact}`");
+                return self.refuse(holds, message, "say which with `at`");
+            }
+        };
+        let rough = place.file.law == Some(LawName::Friction);
+        let Some(mu) = place.file.mu.as_ref().filter(|_| rough) else {
+            let message = "only a contact with friction has a threshold of it";
+            let hint = "give the contact \"law\": \"friction\" with `mu` and `restitution`";
+            return self.refuse(parameter, message, hint);
+        };
+        let mu = mu.text.trim();
+        if mu != parameter.text {
+            let of = &parameter.text;
+            let message = format!(
+                "a threshold of friction is one of `mu`, which is {mu} here, and not of {of}"
+            );
+            let hint =
+                "let the `mu` of the contact be a parameter, and ask for the threshold of that";
+            return self.refuse(parameter, message, hint);
+        }
+        let contact = place.contact;
+        Some(Ask::Friction { contact, event })
+    }
 
-/// The threshold of friction at which a contact sticks, slides or jams.
-fn sticking(
-    base: &mut Resolver<'_>,
-    q: &QuestionFile,
-    parameter: &Text,
-    holds: &Text,
-    (contact, event): (&str, FrictionEvent),
-) -> Option<Ask> {
-    let places = places(base.file, q, contact);
-    let (message, hint) = match places.as_slice() {
-        [one] => return friction_threshold(base, parameter, one, event),
-        [] => (
-            format!("no impact has a contact `{contact}`"),
-            "a threshold of friction names its contact, such as \"C sticks\"",
-        ),
-        _ => (
-            format!("several impacts have a contact `{contact}`"),
-            "say which with `at`",
-        ),
-    };
-    let fault = Fault::new(holds.span, message).hint(hint);
-    fault.add_to(&mut base.faults)
+    fn approximate(&mut self, name: &Text, q: &QuestionFile, of: &Formula) -> Option<Ask> {
+        let Some(tends) = &q.tends else {
+            let message = "a form for a small parameter needs the parameter that `tends`";
+            let hint = "\"tends\": \"theta\", \"to\": \"0\", \"order\": 1";
+            return self.refuse(name, message, hint);
+        };
+        let whole = |order: &Formula| order.text.trim().parse().ok().filter(|n| *n <= ORDER);
+        let power = q.order.as_ref().map(whole);
+        if let (Some(None), Some(order)) = (power, &q.order) {
+            let message = format!("the order is a whole number from 0 to {ORDER}");
+            self.base.faults.push(Fault::new(order.span, message));
+        }
+        Some(Ask::Approximate {
+            of: self.formula(of)?,
+            parameter: self.parameter(tends)?,
+            to: match &q.to {
+                Some(to) => self.formula(to)?,
+                None => Expr::zero(),
+            },
+            order: power.map_or(Some(None), |power| power.map(Some))?,
+        })
+    }
+
+    /// A formula of parameters and earlier answers.
+    pub fn formula(&mut self, f: &Formula) -> Option<Expr> {
+        let e = self.symbols.expression(f, &mut self.base.faults)?;
+        for name in e.symbols() {
+            self.symbols.mark_used(&name);
+            self.base.symbols.mark_used(&name);
+        }
+        Some(e)
+    }
+
+    /// Parameters and what stands for them.
+    pub fn with(&mut self, map: Option<&Map<Formula>>) -> Option<Vec<(Symbol, Expr)>> {
+        let mut out = Vec::new();
+        for (name, value) in entries(map) {
+            let value = self.formula(value)?;
+            out.push((self.parameter(name)?, value));
+        }
+        Some(out)
+    }
+
+    /// The symbol of an earlier answer.
+    fn answer_named(&mut self, name: &Text) -> Option<Symbol> {
+        let given = parameter_names(self.base.file);
+        let declared = self.symbols.names().declared().iter();
+        let answers = declared.filter(|d| !given.contains(&&*d.name));
+        let answers: Vec<&str> = answers.map(|d| &*d.name).collect();
+        if answers.contains(&name.text.as_str()) {
+            return Some(name.text.as_str().into());
+        }
+        let message = format!("no earlier answer is called `{}`", name.text);
+        let mut fault = Fault::new(name.span, message);
+        if let Some(near) = nearest(&name.text, answers.into_iter()) {
+            fault = fault.hint(format!("did you mean `{near}`?"));
+        }
+        fault.add_to(&mut self.base.faults)
+    }
+
+    /// The symbol of a parameter.
+    pub fn parameter(&mut self, name: &Text) -> Option<Symbol> {
+        let all: Vec<&str> = parameter_names(self.base.file);
+        if all.contains(&name.text.as_str()) {
+            self.base.symbols.mark_used(&name.text);
+            return Some(name.text.as_str().into());
+        }
+        self.base.unknown(name, "parameter", |_| all);
+        None
+    }
+
+    /// A relation between two formulas.
+    fn relation(&mut self, text: &Text) -> Option<(Expr, Relation, Expr)> {
+        let (sides, relations) = self.symbols.relations(text, &mut self.base.faults)?;
+        if let ([left, right], [relation]) = (sides.as_slice(), relations.as_slice())
+            && !matches!(relation, Relation::NotEqual | Relation::Approximately)
+        {
+            return Some((left.clone(), *relation, right.clone()));
+        }
+        let message = "expected one relation between two formulas";
+        self.refuse(text, message, "such as \"K_top <= 0\" or \"omega_end = 0\"")
+    }
 }
 
 /// The name and the event in words such as `C sticks`.
@@ -203,141 +299,6 @@ pub(super) fn stage_of(file: &SceneFile, q: &QuestionFile, ask: &Ask) -> Option<
     places(file, q, event(holds)?.0).first()?.stage
 }
 
-/// A threshold of the coefficient of friction.
-fn friction_threshold(
-    base: &mut Resolver<'_>,
-    parameter: &Text,
-    ContactPlace { contact, file, .. }: &ContactPlace<'_>,
-    event: FrictionEvent,
-) -> Option<Ask> {
-    let Some(mu) = file
-        .mu
-        .as_ref()
-        .filter(|_| file.law == Some(LawName::Friction))
-    else {
-        let message = "only a contact with friction has a threshold of it";
-        let fault = Fault::new(parameter.span, message);
-        return fault
-            .hint("give the contact \"law\": \"friction\" with `mu` and `restitution`")
-            .add_to(&mut base.faults);
-    };
-    if mu.text.trim() != parameter.text {
-        let message = format!(
-            "a threshold of friction is one of `mu`, which is {} here, and not of {}",
-            mu.text.trim(),
-            parameter.text
-        );
-        let fault = Fault::new(parameter.span, message);
-        return fault
-            .hint("let the `mu` of the contact be a parameter, and ask for the threshold of that")
-            .add_to(&mut base.faults);
-    }
-    Some(Ask::Friction {
-        contact: *contact,
-        event,
-    })
-}
-
-fn approximate(
-    base: &mut Resolver<'_>,
-    symbols: &Symbols,
-    name: &Text,
-    q: &QuestionFile,
-    of: &Formula,
-) -> Option<Ask> {
-    let Some(tends) = &q.tends else {
-        let fault = Fault::new(
-            name.span,
-            "a form for a small parameter needs the parameter that `tends`",
-        );
-        return fault
-            .hint("\"tends\": \"theta\", \"to\": \"0\", \"order\": 1")
-            .add_to(&mut base.faults);
-    };
-    let whole = |order: &Formula| order.text.trim().parse().ok().filter(|n| *n <= ORDER);
-    let power = q.order.as_ref().map(whole);
-    if let (Some(None), Some(order)) = (power, &q.order) {
-        base.faults.push(Fault::new(
-            order.span,
-            format!("the order is a whole number from 0 to {ORDER}"),
-        ));
-    }
-    Some(Ask::Approximate {
-        of: formula(base, symbols, of)?,
-        parameter: parameter(base, tends)?,
-        to: match &q.to {
-            Some(to) => formula(base, symbols, to)?,
-            None => Expr::zero(),
-        },
-        order: power.map_or(Some(None), |power| power.map(Some))?,
-    })
-}
-
-/// A formula of parameters and earlier answers.
-pub(in crate::scene) fn formula(
-    base: &mut Resolver<'_>,
-    symbols: &Symbols,
-    f: &Formula,
-) -> Option<Expr> {
-    let e = symbols.expression(f, &mut base.faults)?;
-    e.symbols().iter().for_each(|name| symbols.mark_used(name));
-    e.symbols()
-        .iter()
-        .for_each(|name| base.symbols.mark_used(name));
-    Some(e)
-}
-
-/// Parameters and what stands for them.
-pub(in crate::scene) fn with(
-    base: &mut Resolver<'_>,
-    symbols: &Symbols,
-    map: Option<&Map<Formula>>,
-) -> Option<Vec<(Symbol, Expr)>> {
-    let mut out = Vec::new();
-    for (name, value) in entries(map) {
-        let value = formula(base, symbols, value)?;
-        out.push((parameter(base, name)?, value));
-    }
-    Some(out)
-}
-
-/// The symbol of an earlier answer.
-fn answer_named(base: &mut Resolver<'_>, symbols: &Symbols, name: &Text) -> Option<Symbol> {
-    let given = parameter_names(base.file);
-    let declared: Vec<String> = symbols
-        .names()
-        .declared()
-        .iter()
-        .map(|d| d.name.to_string())
-        .filter(|n| !given.contains(&n.as_str()))
-        .collect();
-    if declared.contains(&name.text) {
-        return Some(name.text.as_str().into());
-    }
-    let fault = Fault::new(
-        name.span,
-        format!("no earlier answer is called `{}`", name.text),
-    );
-    base.faults.push(
-        match nearest(&name.text, declared.iter().map(String::as_str)) {
-            Some(near) => fault.hint(format!("did you mean `{near}`?")),
-            None => fault,
-        },
-    );
-    None
-}
-
-/// The symbol of a parameter.
-pub(in crate::scene) fn parameter(base: &mut Resolver<'_>, name: &Text) -> Option<Symbol> {
-    let all: Vec<&str> = parameter_names(base.file);
-    if all.contains(&name.text.as_str()) {
-        base.symbols.mark_used(&name.text);
-        return Some(name.text.as_str().into());
-    }
-    base.unknown(name, "parameter", |_| all);
-    None
-}
-
 /// Names of the parameters.
 pub(in crate::scene) fn parameter_names(file: &SceneFile) -> Vec<&str> {
     file.parameters
@@ -345,22 +306,4 @@ pub(in crate::scene) fn parameter_names(file: &SceneFile) -> Vec<&str> {
         .flat_map(|m| &m.0)
         .map(|(n, _)| n.text.as_str())
         .collect()
-}
-
-/// A relation between two formulas.
-fn relation(
-    base: &mut Resolver<'_>,
-    symbols: &Symbols,
-    text: &Text,
-) -> Option<(Expr, Relation, Expr)> {
-    let (sides, relations) = symbols.relations(text, &mut base.faults)?;
-    if let ([left, right], [relation]) = (sides.as_slice(), relations.as_slice())
-        && !matches!(relation, Relation::NotEqual | Relation::Approximately)
-    {
-        return Some((left.clone(), *relation, right.clone()));
-    }
-    let fault = Fault::new(text.span, "expected one relation between two formulas");
-    base.faults
-        .push(fault.hint("such as \"K_top <= 0\" or \"omega_end = 0\""));
-    None
 }

@@ -64,13 +64,9 @@ pub(super) fn ask(
     if question.balance.is_some() {
         let system = question.system.as_deref().unwrap_or_default();
         if system.is_empty() || along.is_none() {
-            let fault = Fault::new(
-                name.span,
-                "a balance needs its bodies, `system`, and its direction, `along`",
-            );
-            return fault
-                .hint("\"system\": [\"ball\"], \"along\": [\"1\", \"0\"]")
-                .add_to(&mut resolver.faults);
+            let message = "a balance needs its bodies, `system`, and its direction, `along`";
+            let hint = "\"system\": [\"ball\"], \"along\": [\"1\", \"0\"]";
+            return resolver.refuse(name.span, message, hint);
         }
         let bodies: Vec<Option<usize>> = system.iter().map(|body| resolver.moving(body)).collect();
         let system_indices = bodies.into_iter().collect::<Option<Vec<_>>>()?;
@@ -125,9 +121,7 @@ pub(super) fn velocity(
                 "the other way round: \"velocity\": \"{}\", \"of\": \"{}\"",
                 of.text, what.text
             );
-            return Fault::new(what.span, message)
-                .hint(hint)
-                .add_to(&mut resolver.faults);
+            return resolver.refuse(what.span, message, hint);
         }
         let what_is_sought = if of.is_some() {
             "point"
@@ -144,13 +138,9 @@ pub(super) fn velocity(
             match (moving.next(), moving.next()) {
                 (Some(only), None) => only,
                 _ => {
-                    let fault = Fault::new(
-                        what.span,
-                        format!("the point `{}` may belong to several bodies", what.text),
-                    );
-                    return fault
-                        .hint("say which: \"of\": the body's name")
-                        .add_to(&mut resolver.faults);
+                    let message = format!("the point `{}` may belong to several bodies", what.text);
+                    let hint = "say which: \"of\": the body's name";
+                    return resolver.refuse(what.span, message, hint);
                 }
             }
         }
@@ -229,13 +219,9 @@ pub(super) fn matrix_names(
 ) {
     let Some(rows) = &question.matrix else { return };
     if rows.is_empty() || question.unknowns.as_ref().is_none_or(Vec::is_empty) {
-        let fault = Fault::new(
-            name.span,
-            "a matrix needs rows, `matrix`, and columns, `unknowns`",
-        );
-        resolver
-            .faults
-            .push(fault.hint("both are lists of names of questions"));
+        let message = "a matrix needs rows, `matrix`, and columns, `unknowns`";
+        let hint = "both are lists of names of questions";
+        resolver.report(name.span, message, hint);
         return;
     }
     let find = |n: &str| scene.questions.iter().find(|q| q.name == n);

@@ -10,6 +10,8 @@ mod told;
 
 use std::collections::HashMap;
 
+use answers::Reader;
+
 use super::fault::Fault;
 use super::file::SceneFile;
 use super::formulas::Symbols;
@@ -164,9 +166,7 @@ fn kind(r: &mut Resolver<'_>, name: &Text, q: &QuestionFile) -> Option<&'static 
                 String::from("give each of them a question of its own"),
             )
         };
-        return Fault::new(name.span, message)
-            .hint(hint)
-            .add_to(&mut r.faults);
+        return r.refuse(name.span, message, hint);
     };
     for (field, given) in fields(q) {
         if given && !one.fields.contains(&field) {
@@ -239,7 +239,7 @@ pub(super) fn of_answers(r: &mut Resolver<'_>, scene: &mut Scene) {
         }
         // Most scenes ask nothing of this sort, and need no table of these names.
         let symbols = symbols.get_or_insert_with(|| r.symbols.extended(&names));
-        let ask = with_names(r, symbols, |r| answers::ask(r, symbols, name, q));
+        let ask = with_names(r, symbols, |base| Reader { base, symbols }.ask(name, q));
         if let Some(ask) = ask {
             scene.questions.push(question(name, q, ask));
         }
@@ -266,12 +266,13 @@ pub(super) fn of_stages(r: &mut Resolver<'_>, scene: &mut Scene, homes: &HashMap
                 let found = own.find(|s| s.name == name.text);
                 found.map(|q| (Some(*stage), q.ask.clone()))
             }
-            None => with_names(r, &symbols, |r| match kind.about {
+            None => with_names(r, &symbols, |base| match kind.about {
                 About::Answers => {
-                    let ask = answers::ask(r, &symbols, name, q)?;
-                    Some((answers::stage_of(r.file, q, &ask), ask))
+                    let symbols = &symbols;
+                    let ask = Reader { base, symbols }.ask(name, q)?;
+                    Some((answers::stage_of(file, q, &ask), ask))
                 }
-                _ => motion::ask(r, &symbols, scene, name, q),
+                _ => motion::ask(base, &symbols, scene, name, q),
             }),
         };
         if let Some((stage, ask)) = found {
@@ -431,9 +432,8 @@ fn name_is_free(r: &mut Resolver<'_>, name: &Text, q: &QuestionFile) {
             "the question `{0}` has the name of the parameter `{0}`",
             name.text
         );
-        let fault = Fault::new(name.span, message);
-        r.faults
-            .push(fault.hint("what is asked and what is given need different names; only a `solve` or `threshold` may bear the name of the parameter it seeks"));
+        let hint = "what is asked and what is given need different names; only a `solve` or `threshold` may bear the name of the parameter it seeks";
+        r.report(name.span, message, hint);
     }
 }
 

@@ -5,7 +5,6 @@
 
 use std::collections::BTreeSet;
 
-use super::super::fault::Fault;
 use super::super::file::SceneFile;
 use super::super::resolve::{Resolver, entries};
 use super::super::stage_file::StageFile;
@@ -65,10 +64,8 @@ pub(super) fn take(
             .partition(|s| is_known(scene, s, i));
         for name in other {
             let message = format!("`{name}` is no answer to a stage before this one");
-            let fault = Fault::new(file.name.span, message);
-            base.faults.push(fault.hint(
-                "a stage may use what is asked of the motions and impacts before it, and a `value` made of that",
-            ));
+            let hint = "a stage may use what is asked of the motions and impacts before it, and a `value` made of that";
+            base.report(file.name.span, message, hint);
         }
         // Answers that it does not use are nothing to it.
         let stage = &mut scene.stages[i];

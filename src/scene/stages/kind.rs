@@ -3,7 +3,7 @@
 //! In: the record of a stage and the scene it begins with. Out: a [`StageKind`].
 
 use crate::expr::Expr;
-use crate::scene::check::{Claim, Claimed};
+use crate::scene::check::Claim;
 use crate::scene::fault::{Fault, Span};
 use crate::scene::formulas::Quantity;
 use crate::scene::place_file::PositionFile;
@@ -50,9 +50,7 @@ pub(super) fn kind(
         );
         let hint =
             "one stage does one thing; what an impact changes is no motion with conserved energy";
-        return Fault::new(stage.name.span, message)
-            .hint(hint)
-            .add_to(&mut r.faults);
+        return r.refuse(stage.name.span, message, hint);
     }
     if let Some(impact) = &stage.impact {
         return impact_of(r, scene, impact, stage.name.span);
@@ -72,7 +70,7 @@ pub(super) fn kind(
     let wind = stage.wind.as_ref()?;
     let body = r.moving(&wind.body);
     let around = r.position(&wind.around);
-    let to = r.symbols.read(&wind.to, Quantity::LENGTH, &mut r.faults);
+    let to = r.read(&wind.to, Quantity::LENGTH);
     let body = body?;
     if !r.is_particle(body) {
         return Fault::new(
@@ -96,7 +94,7 @@ fn optional(
 ) -> Option<Option<Expr>> {
     match formula {
         None => Some(None),
-        Some(f) => r.symbols.read(f, quantity, &mut r.faults).map(Some),
+        Some(f) => r.read(f, quantity).map(Some),
     }
 }
 
@@ -136,10 +134,9 @@ fn impact_of(
     });
     let touching = scene.contacts.len() + scene.hinges.len() + scene.blows.len() + one_sided.len();
     if touching == 0 && r.faults.is_empty() {
-        let fault = Fault::new(span, "nothing collides in this impact");
-        return fault
-            .hint("give it contacts, hinges, supports, strings or blows")
-            .add_to(&mut r.faults);
+        let message = "nothing collides in this impact";
+        let hint = "give it contacts, hinges, supports, strings or blows";
+        return r.refuse(span, message, hint);
     }
     Some(StageKind::Impact {
         one_sided,
@@ -161,9 +158,7 @@ fn company(
     for (i, name) in names.iter().enumerate() {
         if all[..i].contains(&all[i]) {
             let message = format!("`{}` moves along with itself", name.text);
-            return Fault::new(name.span, message)
-                .hint("name each body once")
-                .add_to(&mut r.faults);
+            return r.refuse(name.span, message, "name each body once");
         }
     }
     let with = all.split_off(1);
@@ -177,9 +172,7 @@ fn slide_of(r: &mut Resolver<'_>, scene: &Scene, slide: &SlideFile, span: Span) 
     if ends != 1 {
         let message =
             "a motion along a line ends after a `distance`, a time `for`, or where `until` says";
-        return Fault::new(span, message)
-            .hint("give one of them")
-            .add_to(&mut r.faults);
+        return r.refuse(span, message, "give one of them");
     }
     let all = company(r, &slide.body, slide.with.as_deref());
     let along = r.direction(&slide.along);
@@ -191,8 +184,8 @@ fn slide_of(r: &mut Resolver<'_>, scene: &Scene, slide: &SlideFile, span: Span) 
         .map(|s| strung(r, scene, s))
         .collect::<Option<Vec<Strung>>>()?;
     let until = match (&slide.distance, &slide.time, slide.until) {
-        (Some(s), ..) => SlideEnd::Distance(r.symbols.read(s, Quantity::LENGTH, &mut r.faults)?),
-        (_, Some(t), _) => SlideEnd::Time(r.symbols.read(t, TIME, &mut r.faults)?),
+        (Some(s), ..) => SlideEnd::Distance(r.read(s, Quantity::LENGTH)?),
+        (_, Some(t), _) => SlideEnd::Time(r.read(t, TIME)?),
         (.., Some(SlideEndName::Stops)) => SlideEnd::Stops,
         (.., Some(SlideEndName::Rolls)) => SlideEnd::Rolls,
         _ => return None,
@@ -206,9 +199,7 @@ fn slide_of(r: &mut Resolver<'_>, scene: &Scene, slide: &SlideFile, span: Span) 
     if let Some(twice) = all.windows(2).find(|pair| pair[0] == pair[1]) {
         let name = &scene.bodies[twice[0]].name;
         let message = format!("`{name}` moves along with itself");
-        return Fault::new(span, message)
-            .hint("name each body once")
-            .add_to(&mut r.faults);
+        return r.refuse(span, message, "name each body once");
     }
     let is_rough = friction.is_some() || strings.iter().any(|s| s.friction.is_some());
     let shape = &scene.bodies[body];
@@ -277,10 +268,7 @@ fn bounded(
 ) -> Option<Option<Expr>> {
     let read = optional(r, formula, quantity)?;
     if let (Some(e), Some(f)) = (&read, formula) {
-        r.claims.push(Claimed {
-            span: f.span,
-            claim: claim(e.clone()),
-        });
+        r.claim(f.span, claim(e.clone()));
     }
     Some(read)
 }
@@ -301,22 +289,17 @@ fn strung(r: &mut Resolver<'_>, scene: &Scene, string: &StrungFile) -> Option<St
     };
     if to.is_empty() || !(1..=2).contains(&over.len()) {
         let message = "a string runs over one or two pulleys to one or more bodies";
-        let fault = Fault::new(string.span, message);
-        return fault
-            .hint("a body that is pulled along the same line is named under `with`")
-            .add_to(&mut r.faults);
+        let hint = "a body that is pulled along the same line is named under `with`";
+        return r.refuse(string.span, message, hint);
     }
     let pulleys = over.iter().zip(&string.over);
     for (pulley, name) in pulleys.chain(under.iter().zip(&string.under)) {
         let body = &scene.bodies[*pulley];
         if !matches!(body.shape, Shape::Disk { .. } | Shape::Ring { .. }) {
             let message = format!("`{}` is no pulley", body.name);
-            let fault = Fault::new(name.span, message);
-            return fault
-                .hint(
-                    "a pulley is a disk or ring; where it is light or smooth, a disk of mass \"0\"",
-                )
-                .add_to(&mut r.faults);
+            let hint =
+                "a pulley is a disk or ring; where it is light or smooth, a disk of mass \"0\"";
+            return r.refuse(name.span, message, hint);
         }
     }
     let mut out = Strung {
@@ -338,33 +321,22 @@ fn fall_of(r: &mut Resolver<'_>, fall: &FallFile, span: Span) -> Option<Fall> {
         + usize::from(fall.range.is_some())
         + usize::from(fall.time.is_some());
     if ends != 1 {
-        let fault = Fault::new(
-            span,
-            "a fall ends after a `height`, a horizontal distance `range` or a time `for`",
-        );
-        return fault.hint("give one of them").add_to(&mut r.faults);
+        let message = "a fall ends after a `height`, a horizontal distance `range` or a time `for`";
+        return r.refuse(span, message, "give one of them");
     }
     let all = company(r, &fall.body, fall.with.as_deref());
     let gravity = weight(r, fall.gravity.as_ref())?;
     let until = match (&fall.height, &fall.range, &fall.time) {
-        (Some(height), ..) => {
-            FallEnd::Drop(r.symbols.read(height, Quantity::LENGTH, &mut r.faults)?)
-        }
-        (_, Some(range), _) => {
-            FallEnd::Range(r.symbols.read(range, Quantity::LENGTH, &mut r.faults)?)
-        }
-        (.., Some(time)) => FallEnd::Time(r.symbols.read(time, TIME, &mut r.faults)?),
+        (Some(height), ..) => FallEnd::Drop(r.read(height, Quantity::LENGTH)?),
+        (_, Some(range), _) => FallEnd::Range(r.read(range, Quantity::LENGTH)?),
+        (.., Some(time)) => FallEnd::Time(r.read(time, TIME)?),
         _ => return None,
     };
     let rising = fall.rising == Some(true);
     if rising && (gravity.is_none() || !matches!(until, FallEnd::Drop(_))) {
-        let fault = Fault::new(
-            span,
-            "`rising` tells which of two times at the same height is meant",
-        );
-        return fault
-            .hint("it goes with `height` and `gravity`")
-            .add_to(&mut r.faults);
+        let message = "`rising` tells which of two times at the same height is meant";
+        let hint = "it goes with `height` and `gravity`";
+        return r.refuse(span, message, hint);
     }
     let (body, with) = all?;
     Some(Fall {
@@ -395,10 +367,8 @@ fn linkage_of(
                 "`{}` is no parameter that is an angle or a length",
                 name.text
             );
-            let fault = Fault::new(name.span, message);
-            return fault
-                .hint("the coordinate is a parameter by which `bodies` gives places")
-                .add_to(&mut r.faults);
+            let hint = "the coordinate is a parameter by which `bodies` gives places";
+            return r.refuse(name.span, message, hint);
         }
     };
     let coordinate = parameter?.name.clone();
@@ -408,13 +378,11 @@ fn linkage_of(
     let moving: Vec<(usize, [Expr; 3])> = moving.map(|(b, p)| (b, p.clone())).collect();
     if moving.is_empty() {
         let message = format!("the place of no body depends on `{}`", name.text);
-        let fault = Fault::new(name.span, message);
-        return fault
-            .hint("give `center` and `angle` of what moves by the coordinate")
-            .add_to(&mut r.faults);
+        let hint = "give `center` and `angle` of what moves by the coordinate";
+        return r.refuse(name.span, message, hint);
     }
     let from = optional(r, linkage.from.as_ref(), quantity)?;
-    let to = r.symbols.read(&linkage.to, quantity, &mut r.faults)?;
+    let to = r.read(&linkage.to, quantity)?;
     Some(Linkage {
         ends: [from.unwrap_or_else(|| Expr::symbol(&coordinate)), to],
         coordinate,
@@ -428,20 +396,14 @@ fn turn_of(r: &mut Resolver<'_>, turn: &TurnFile, span: Span) -> Option<Turn> {
         + usize::from(turn.until.is_some())
         + usize::from(turn.time.is_some());
     if ends != 1 {
-        let fault = Fault::new(
-            span,
-            "a rotation ends after an angle `by`, at a place `until`, or after a time `for`",
-        );
-        return fault.hint("give one of them").add_to(&mut r.faults);
+        let message =
+            "a rotation ends after an angle `by`, at a place `until`, or after a time `for`";
+        return r.refuse(span, message, "give one of them");
     }
     if let (Some(time), true) = (&turn.time, turn.gravity.is_some()) {
-        let fault = Fault::new(
-            time.span,
-            "a rotation under its weight ends at an angle, not after a time",
-        );
-        return fault
-            .hint("where it is after a time has no closed form; give `by` or `until`")
-            .add_to(&mut r.faults);
+        let message = "a rotation under its weight ends at an angle, not after a time";
+        let hint = "where it is after a time has no closed form; give `by` or `until`";
+        return r.refuse(time.span, message, hint);
     }
     let all = company(r, &turn.body, turn.with.as_deref());
     let about = r.position(&turn.about);
@@ -451,11 +413,11 @@ fn turn_of(r: &mut Resolver<'_>, turn: &TurnFile, span: Span) -> Option<Turn> {
         _ => String::new(),
     };
     let until = match (&turn.by, turn.until, &turn.time) {
-        (Some(by), ..) => Until::By(r.symbols.read(by, Quantity::ANGLE, &mut r.faults)?),
+        (Some(by), ..) => Until::By(r.read(by, Quantity::ANGLE)?),
         (_, Some(UntilName::Above), _) => Until::Above,
         (_, Some(UntilName::Below), _) => Until::Below,
         (_, Some(UntilName::Stops), _) => Until::Stops,
-        (_, _, Some(time)) => Until::For(r.symbols.read(time, TIME, &mut r.faults)?),
+        (_, _, Some(time)) => Until::For(r.read(time, TIME)?),
         _ => return None,
     };
     let (body, with) = all?;

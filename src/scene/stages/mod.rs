@@ -94,13 +94,9 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     ];
     for (what, count) in misplaced {
         if count.is_some_and(|n| n > 0) {
-            let fault = Fault::new(
-                file.span,
-                format!("`{what}` of a scene with stages belongs into an impact"),
-            );
-            base.faults.push(
-                fault.hint("\"stages\": [{\"name\": \"impact\", \"impact\": {\"contacts\": …}}]"),
-            );
+            let message = format!("`{what}` of a scene with stages belongs into an impact");
+            let hint = "\"stages\": [{\"name\": \"impact\", \"impact\": {\"contacts\": …}}]";
+            base.report(file.span, message, hint);
         }
     }
     let readings = file.assumptions.iter().flatten();
@@ -224,9 +220,8 @@ fn homes(base: &mut Resolver<'_>, stages: &[StageFile]) -> HashMap<usize, usize>
             && let Some(place) = q.when.filter(|w| *w == EndName::Start).map(|_| q.span)
         {
             let message = "what moves when a stage begins moves so when the one before ends";
-            let fault = Fault::new(place, message);
-            base.faults
-                .push(fault.hint("ask it `at` the stage before, without `when`"));
+            let hint = "ask it `at` the stage before, without `when`";
+            base.report(place, message, hint);
             continue;
         }
         if questions::asks(q, About::Motion)
@@ -267,19 +262,14 @@ fn predecessor(base: &mut Resolver<'_>, stages: &[StageFile], i: usize) -> Optio
     let stage = &stages[i];
     let name = stage.name.text.trim();
     if name.is_empty() || name.chars().any(char::is_control) {
-        let fault = Fault::new(stage.name.span, "a stage has a name that can be read");
-        return fault
-            .hint("such as \"fall\" or \"swing back\"")
-            .add_to(&mut base.faults);
+        let message = "a stage has a name that can be read";
+        let hint = "such as \"fall\" or \"swing back\"";
+        return base.refuse(stage.name.span, message, hint);
     }
     if stages[..i].iter().any(|s| s.name.text == stage.name.text) || stage.name.text == "start" {
-        let fault = Fault::new(
-            stage.name.span,
-            format!("the name `{}` is taken", stage.name.text),
-        );
-        return fault
-            .hint("every stage has a name of its own, and `start` is where the story begins")
-            .add_to(&mut base.faults);
+        let message = format!("the name `{}` is taken", stage.name.text);
+        let hint = "every stage has a name of its own, and `start` is where the story begins";
+        return base.refuse(stage.name.span, message, hint);
     }
     match &stage.from {
         None => Some(i.checked_sub(1)),
@@ -287,13 +277,9 @@ fn predecessor(base: &mut Resolver<'_>, stages: &[StageFile], i: usize) -> Optio
         Some(name) => match stages[..i].iter().position(|s| s.name.text == name.text) {
             Some(j) => Some(Some(j)),
             None => {
-                let fault = Fault::new(
-                    name.span,
-                    format!("no stage `{}` comes before this one", name.text),
-                );
-                base.faults
-                    .push(fault.hint("`from` names an earlier stage, or \"start\""));
-                None
+                let message = format!("no stage `{}` comes before this one", name.text);
+                let hint = "`from` names an earlier stage, or \"start\"";
+                base.refuse(name.span, message, hint)
             }
         },
     }
@@ -520,27 +506,20 @@ fn starts(
         return Vec::new();
     };
     if from.is_some() {
-        let fault = Fault::new(
-            stage.name.span,
-            "a stage that follows another takes over its motion",
-        );
-        r.faults
-            .push(fault.hint("`start` belongs to a stage with \"from\": \"start\""));
+        let message = "a stage that follows another takes over its motion";
+        let hint = "`start` belongs to a stage with \"from\": \"start\"";
+        r.report(stage.name.span, message, hint);
         return Vec::new();
     }
     let mut out = Vec::new();
     for (name, entry) in entries(Some(map)) {
         let StartFile { velocity, spin, .. } = entry;
         let Some(b) = r.moving(name) else { continue };
-        let spin = spin
-            .as_ref()
-            .and_then(|w| r.symbols.read(w, Quantity::SPIN, &mut r.faults));
+        let spin = spin.as_ref().and_then(|w| r.read(w, Quantity::SPIN));
         let turning = spin.clone().unwrap_or_else(|| scene.bodies[b].spin.clone());
         let velocity = match velocity {
             None => None,
-            Some(VelocityFile::Components(v)) => {
-                r.symbols.vector(v, Quantity::VELOCITY, &mut r.faults)
-            }
+            Some(VelocityFile::Components(v)) => r.vector(v, Quantity::VELOCITY),
             Some(VelocityFile::About(a)) => r
                 .position(&a.about)
                 .map(|p| geometry::turned(&turning, &minus(&scene.bodies[b].center, &p))),

@@ -59,17 +59,13 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
         answers[i].checks.push(check);
     }
     let each = stages.iter().enumerate();
-    let checks: Vec<_> = each
-        .map(|(i, told)| {
-            (
-                second.stage(&worlds, i, told),
-                second.passage(&worlds, i, told),
-            )
-        })
-        .collect();
-    for (told, (followed, passage)) in stages.iter_mut().zip(checks) {
-        told.checks.push(followed);
-        told.checks.extend(passage);
+    let checks = each.map(|(i, told)| {
+        let passage = second.passage(&worlds, i, told);
+        [second.stage(&worlds, i, told)].into_iter().chain(passage)
+    });
+    let checks: Vec<Vec<Check>> = checks.map(Iterator::collect).collect();
+    for (told, checks) in stages.iter_mut().zip(checks) {
+        told.checks.extend(checks);
     }
     let unused = unused(scene, &answers);
     Ok(Told {
@@ -163,7 +159,7 @@ fn one(
             about,
             at_end,
         } => each_outcome(stages, stage, *at_end, |told, state| {
-            motion::angular_momentum(scene, question, (told, state), (*body, about), *at_end)
+            motion::angular_momentum(question, (told, state), (*body, about), *at_end)
         }),
         Ask::Share {
             mass,
@@ -172,11 +168,8 @@ fn one(
         } => {
             let words = "share of the blow that the spring takes while it lasts";
             let out = Answer::blank(question, &question.name, words);
-            Ok(spring::share(
-                out,
-                [mass, stiffness, during],
-                &scene.domains,
-            ))
+            let spring = [mass, stiffness, during];
+            Ok(spring::share(out, spring, &scene.domains))
         }
         Ask::Impulsive
         | Ask::Describe
@@ -230,10 +223,8 @@ pub(super) fn earlier(
         [only] => Some(only),
         _ => all.iter().find(here).copied(),
     };
-    let value = found.and_then(Answer::formula);
-    Ok(value
-        .cloned()
-        .ok_or_else(|| format!("it needs {name}, which is not determined")))
+    let value = found.and_then(Answer::formula).cloned();
+    Ok(value.ok_or_else(|| format!("it needs {name}, which is not determined")))
 }
 
 /// An answer in sentences; `None` where it needs a stage and names none.
@@ -296,11 +287,8 @@ fn unused(scene: &Scene, answers: &[Answer]) -> Vec<Symbol> {
         let shown = a.told.is_none() && matches!(a.form, Form::Equation { .. });
         let formulas = a.form.formulas().into_iter().filter(|_| !shown);
         used.extend(formulas.flat_map(Expr::symbols));
-        used.extend(
-            a.range
-                .iter()
-                .flat_map(|(s, _, e)| s.symbols().into_iter().chain(e.symbols())),
-        );
+        let ends = a.range.iter().flat_map(|(s, _, e)| [s, e]);
+        used.extend(ends.flat_map(Expr::symbols));
     }
     // A coordinate takes every value on the way.
     used.extend(scene.stages.iter().filter_map(|s| match &s.kind {
@@ -345,12 +333,8 @@ fn ways<'a>(stages: &'a [StageTold], stage: &Stage) -> Vec<(usize, &'a StageTold
     each.map(|(i, (index, told))| {
         let way = Way {
             number: several.then_some(i),
-            words: told.branch.map_or(String::new(), |(parent, k)| {
-                words::leading(stages, parent, k)
-            }),
-            given: (told.given.iter())
-                .map(|(why, e)| sentence![Sentence::not_negative(e), " (", why, ")"])
-                .collect(),
+            words: (told.branch).map_or(String::new(), |(at, k)| words::leading(stages, at, k)),
+            given: told.given.iter().map(supposed).collect(),
         };
         (index, told, way)
     })
@@ -409,11 +393,15 @@ fn each_outcome(
 
 /// What an outcome of an impact rests on, and what must hold for it.
 fn rests_on(case: &Case) -> Vec<Sentence> {
-    let conditions = case.conditions.iter();
-    let conditions =
-        conditions.map(|(why, e)| sentence![Sentence::not_negative(e), " (", why, ")"]);
     let assumed = case.assumptions().map(Sentence::from);
-    assumed.chain(conditions).collect()
+    assumed
+        .chain(case.conditions.iter().map(supposed))
+        .collect()
+}
+
+/// What must be ≥ 0, with the words for it.
+fn supposed((why, e): &(String, Expr)) -> Sentence {
+    sentence![Sentence::not_negative(e), " (", why, ")"]
 }
 
 /// Velocities, spins, impulses and energies at the end of a stage.
@@ -431,13 +419,11 @@ fn quantity(
     let mut number = 0;
     let mut out = Vec::new();
     for (i, told, way) in ways {
-        let mut own = if told.cases.is_empty() {
-            motion::at_end(scene, question, told)?
-        } else {
-            told.cases
-                .iter()
-                .flat_map(|case| of_case(question, case, cases > 1))
-                .collect()
+        let outcomes = told.cases.iter();
+        let outcomes = outcomes.flat_map(|case| of_case(question, case, cases > 1));
+        let mut own = match told.cases.is_empty() {
+            true => motion::at_end(scene, question, told)?,
+            false => outcomes.collect(),
         };
         let per = own.len() / told.cases.len().max(1);
         for (k, answer) in own.iter_mut().enumerate() {
@@ -526,14 +512,10 @@ fn of_case(question: &Question, case: &Case, several: bool) -> Vec<Answer> {
     if out.is_empty() {
         let mut a = Answer::blank(question, &question.name, words::active(case));
         a.form = Form::value(Expr::zero());
-        a.text.push(sentence![
-            "nothing is transmitted there: ",
-            words::active(case)
-        ]);
-        for (why, e) in &case.conditions {
-            a.assumptions
-                .push(sentence![Sentence::not_negative(e), " (", why, ")"]);
-        }
+        let acts = words::active(case);
+        a.text
+            .push(sentence!["nothing is transmitted there: ", acts]);
+        a.assumptions.extend(case.conditions.iter().map(supposed));
         a.dimension = Dimension::new(1, 1, -1);
         a.checks = case.identities().cloned().collect();
         out.push(a);

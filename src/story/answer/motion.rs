@@ -2,13 +2,41 @@
 
 use crate::answer::calc::{Seen, is_zero, sign, tidy};
 use crate::answer::{Answer, Check, Form, Refused};
-use crate::dimension::Dimension;
 use crate::domain::Domains;
 use crate::expr::{Expr, Vector, cross, dot, minus};
 use crate::formula::Sentence;
-use crate::scene::{Ask, EnergyWhen, Question, Scene, SlideEnd, Stage, StageKind, Turn};
+use crate::scene::{Ask, EnergyWhen, Question, Scene, SlideEnd, StageKind, Turn};
 use crate::story::motion as stage;
 use crate::story::{StageTold, State};
+
+/// One end of a stage: the motion there, what it is called, and what it takes for granted.
+fn end(told: &StageTold, at_end: bool) -> (&State, &'static str, &[Sentence]) {
+    match at_end {
+        true => (&told.after, "end", &told.assumptions),
+        false => (&told.before, "beginning", &[]),
+    }
+}
+
+/// An answer of the dimension that its question asks for, without content yet.
+fn blank(question: &Question, words: String) -> Answer {
+    Answer {
+        dimension: question.ask.dimension(),
+        ..Answer::blank(question, &question.name, words)
+    }
+}
+
+/// Gives an answer its value, and what that takes for granted.
+fn valued(mut answer: Answer, value: Expr, assumptions: &[Sentence]) -> Answer {
+    answer.form = Form::value(value);
+    answer.assumptions = assumptions.to_vec();
+    answer
+}
+
+/// A tidy value, or the limit that was met.
+fn tidied(question: &Question, told: &StageTold, value: &Expr) -> Result<Expr, Refused> {
+    tidy(value, &told.placed.scene.domains)
+        .map_err(|stop| Refused::uncalculated(&question.name, stop))
+}
 
 /// The force of the fixed point on a turning body, as asked.
 pub(super) fn reaction(
@@ -17,25 +45,18 @@ pub(super) fn reaction(
     along: &Vector,
     at_end: bool,
 ) -> Result<Answer, Refused> {
-    let when = if at_end { "end" } else { "beginning" };
+    let (state, when, granted) = end(told, at_end);
     let words = format!("force of the fixed point at the {when} of `{}`", told.name);
-    let mut out = Answer::blank(question, &question.name, words);
-    out.dimension = Dimension::new(1, 1, -2);
+    let out = blank(question, words);
     let StageKind::Turn(turn) = &told.placed.kind else {
         return Ok(out);
     };
-    let state = if at_end { &told.after } else { &told.before };
-    if let Some(why) = state.why_open(state.spin.iter().take(turn.body + 1).skip(turn.body)) {
+    if let Some(why) = state.why_open([&state.spin[turn.body]]) {
         return Ok(out.leave_open(why));
     }
     let (way, _) = stage::sense(&told.placed, &told.before.spin[turn.body], turn)?;
-    let value = bearing(&told.placed, told, turn, way, along, at_end)
-        .map_err(|stop| Refused::uncalculated(&question.name, stop))?;
-    if at_end {
-        out.assumptions = told.assumptions.clone();
-    }
-    out.form = Form::value(value);
-    Ok(out)
+    let value = tidied(question, told, &bearing(told, turn, way, along, at_end))?;
+    Ok(valued(out, value, granted))
 }
 
 /// How the spin of a body grows in a rotation or a linkage.
@@ -44,24 +65,22 @@ pub(super) fn angular_acceleration(
     told: &StageTold,
     at_end: bool,
 ) -> Result<Answer, Refused> {
-    let when = if at_end { "end" } else { "beginning" };
+    let (state, when, granted) = end(told, at_end);
     let words = format!("angular acceleration at the {when} of `{}`", told.name);
-    let mut out = Answer::blank(question, &question.name, words);
-    out.dimension = question.ask.dimension();
+    let out = blank(question, words);
     let Ask::AngularAcceleration {
         body, clockwise, ..
     } = question.ask
     else {
         return Ok(out);
     };
-    let state = if at_end { &told.after } else { &told.before };
     if let Some(why) = state.why_open([&state.spin[body]]) {
         return Ok(out.leave_open(why));
     }
     let value = match (&told.placed.kind, &told.energy) {
         (StageKind::Turn(turn), _) => {
             let (way, _) = stage::sense(&told.placed, &told.before.spin[turn.body], turn)?;
-            angular(&told.placed, told, turn, way, at_end)
+            angular(told, turn, way, at_end)
         }
         (StageKind::Linkage(linkage), Some(energy)) => {
             let end = usize::from(at_end);
@@ -71,20 +90,7 @@ pub(super) fn angular_acceleration(
         _ => return Ok(out),
     };
     let value = if clockwise { -value } else { value };
-    let value = tidy(&value, &told.placed.scene.domains)
-        .map_err(|stop| Refused::uncalculated(&question.name, stop))?;
-    valued(
-        &mut out,
-        &value,
-        if at_end { &told.assumptions } else { &[] },
-    );
-    Ok(out)
-}
-
-/// Gives an answer its value, and what that takes for granted.
-fn valued(answer: &mut Answer, value: &Expr, assumptions: &[Sentence]) {
-    answer.form = Form::value(value.clone());
-    answer.assumptions = assumptions.to_vec();
+    Ok(valued(out, tidied(question, told, &value)?, granted))
 }
 
 /// An answer that is a quantity of the whole motion, or why it has none.
@@ -92,29 +98,24 @@ fn measured(
     question: &Question,
     told: &StageTold,
     words: String,
-    dimension: Dimension,
-    (value, why): (&Option<Expr>, &str),
+    value: Option<Expr>,
+    why: &str,
 ) -> Answer {
-    let mut out = Answer::blank(question, &question.name, words);
-    out.dimension = dimension;
-    match value {
-        Some(value) => valued(&mut out, value, &told.assumptions),
-        None => {
-            let [places, motions] = [&told.before.center, &told.before.velocity];
-            let moved = told.placed.kind.moved().into_iter();
-            let parts = moved.flat_map(|b| places[b].iter().chain(&motions[b]));
-            let before = told.before.why_open(parts);
-            out = out.leave_open(before.unwrap_or_else(|| String::from(why)));
-        }
+    let out = blank(question, words);
+    if let Some(value) = value {
+        return valued(out, value, &told.assumptions);
     }
-    out
+    let [places, motions] = [&told.before.center, &told.before.velocity];
+    let moved = told.placed.kind.moved().into_iter();
+    let parts = moved.flat_map(|b| places[b].iter().chain(&motions[b]));
+    out.leave_open(told.before.why_open(parts).unwrap_or_else(|| why.into()))
 }
 
 /// How long a motion lasts.
 pub(super) fn time(question: &Question, told: &StageTold) -> Answer {
     let words = format!("time that `{}` takes", told.name);
-    let value = (&told.time, "it has no closed form");
-    measured(question, told, words, Dimension::new(0, 0, 1), value)
+    let value = told.time.clone();
+    measured(question, told, words, value, "it has no closed form")
 }
 
 /// How a body on a line gets faster.
@@ -129,8 +130,7 @@ pub(super) fn acceleration(question: &Question, told: &StageTold, body: usize) -
         Some(string) => &string.ratio() * a,
         None => a.clone(),
     });
-    let value = (&rate, "what comes before is open");
-    measured(question, told, words, Dimension::new(0, 1, -2), value)
+    measured(question, told, words, rate, "what comes before is open")
 }
 
 /// How a string pulls a body.
@@ -144,21 +144,18 @@ pub(super) fn tension(question: &Question, told: &StageTold, body: usize) -> Ans
             "several strings pull it; ask it of the body at the other end of the one that is meant"
         }
     };
-    let value = (&pull.map(|(_, pull)| pull.clone()), why);
-    measured(question, told, words, Dimension::new(1, 1, -2), value)
+    measured(question, told, words, pull.map(|p| p.1.clone()), why)
 }
 
 /// How far a motion along a line leads.
 pub(super) fn distance(question: &Question, told: &StageTold) -> Answer {
+    let stage = &told.name;
     let words = match turns_back(told) {
-        true => format!(
-            "displacement in `{}`, negative where it ends behind its beginning",
-            told.name
-        ),
-        false => format!("distance covered in `{}`", told.name),
+        true => format!("displacement in `{stage}`, negative where it ends behind its beginning"),
+        false => format!("distance covered in `{stage}`"),
     };
-    let value = (&told.way, "where it leads is open");
-    measured(question, told, words, Dimension::new(0, 1, 0), value)
+    let value = told.way.clone();
+    measured(question, told, words, value, "where it leads is open")
 }
 
 /// Whether friction may turn a body round before it rolls.
@@ -181,38 +178,28 @@ pub(super) fn angle(
     body: usize,
     clockwise: bool,
 ) -> Result<Answer, Refused> {
-    let scene = &told.placed.scene;
-    let sense = if clockwise {
-        "clockwise"
-    } else {
-        "counterclockwise"
-    };
+    let name = &told.placed.scene.bodies[body].name;
+    let sense = if clockwise { "" } else { "counter" };
     let words = format!(
-        "angle through which `{}` turns in `{}`, {sense} positive",
-        scene.bodies[body].name, told.name
+        "angle through which `{name}` turns in `{}`, {sense}clockwise positive",
+        told.name
     );
-    let mut out = Answer::blank(question, &question.name, words);
+    let out = blank(question, words);
     let ends = [&told.before.angle[body], &told.after.angle[body]];
     if let Some(why) = told.after.why_open(ends) {
         return Ok(out.leave_open(why));
     }
-    let by = match &told.placed.kind {
-        StageKind::Turn(turn) if turn.bodies().contains(&body) => match &told.turned {
-            Some(by) => by.clone(),
-            None => {
-                let begins = told.before.why_open(&told.before.center[body]);
-                let why = begins.unwrap_or_else(|| {
-                    "the sign of the angle between its ends is not decided".into()
-                });
-                return Ok(out.leave_open(why));
-            }
-        },
-        _ => tidy(&(ends[1] - ends[0]), &scene.domains)
-            .map_err(|stop| Refused::uncalculated(&question.name, stop))?,
+    let by = match (&told.placed.kind, &told.turned) {
+        (StageKind::Turn(turn), Some(by)) if turn.bodies().contains(&body) => by.clone(),
+        (StageKind::Turn(turn), None) if turn.bodies().contains(&body) => {
+            let begins = told.before.why_open(&told.before.center[body]);
+            let undecided = "the sign of the angle between its ends is not decided";
+            return Ok(out.leave_open(begins.unwrap_or_else(|| undecided.into())));
+        }
+        _ => tidied(question, told, &(ends[1] - ends[0]))?,
     };
     let value = if clockwise { -by } else { by };
-    valued(&mut out, &value, &told.assumptions);
-    Ok(out)
+    Ok(valued(out, value, &told.assumptions))
 }
 
 /// Where the center of mass of a body is at the beginning or end of a stage, along a direction.
@@ -224,70 +211,47 @@ pub(super) fn position(
     along: &Vector,
     at_end: bool,
 ) -> Result<Answer, Refused> {
-    let scene = &told.placed.scene;
-    let (state, when) = match at_end {
-        true => (&told.after, "end"),
-        false => (&told.before, "beginning"),
-    };
-    let words = format!(
-        "position of the center of mass of `{}` at the {when} of `{}`",
-        scene.bodies[body].name, told.name
-    );
+    let (state, when, granted) = end(told, at_end);
+    let name = &told.placed.scene.bodies[body].name;
+    let stage = &told.name;
+    let words = format!("position of the center of mass of `{name}` at the {when} of `{stage}`");
     let mut out = Answer::blank(question, &format!("{}{suffix}", question.name), words);
-    out.dimension = Dimension::new(0, 1, 0);
+    out.dimension = question.ask.dimension();
     if let Some(why) = state.why_open(&state.center[body]) {
         return Ok(out.leave_open(why));
     }
-    let value = tidy(&dot(&state.center[body], along), &scene.domains)
-        .map_err(|stop| Refused::uncalculated(&question.name, stop))?;
+    let value = tidied(question, told, &dot(&state.center[body], along))?;
     // An impact moves nothing, whatever its outcome.
-    let rests_on_way = at_end && told.cases.is_empty();
-    let assumptions = if rests_on_way {
-        &told.assumptions
-    } else {
-        &Vec::new()
-    };
-    valued(&mut out, &value, assumptions);
-    Ok(out)
+    let moves = told.cases.is_empty();
+    Ok(valued(out, value, if moves { granted } else { &[] }))
 }
 
 /// The angular momentum of a body about a point, in the motion at the beginning or end of a stage.
 pub(super) fn angular_momentum(
-    scene: &Scene,
     question: &Question,
     (told, state): (&StageTold, &State),
     (body, about): (usize, &Vector),
     at_end: bool,
 ) -> Result<Answer, Refused> {
-    let b = &scene.bodies[body];
+    let (_, when, granted) = end(told, at_end);
+    let (b, stage) = (&told.placed.scene.bodies[body], &told.name);
     let arm = minus(&state.center[body], about);
     let h = &(&b.mass * &cross(&arm, &state.velocity[body])) + &(&b.inertia * &state.spin[body]);
-    let when = if at_end { "end" } else { "beginning" };
     let words = format!(
-        "angular momentum of `{}` at the {when} of `{}`",
-        b.name, told.name
+        "angular momentum of `{}` at the {when} of `{stage}`",
+        b.name
     );
-    let mut out = Answer::blank(question, &question.name, words);
-    out.dimension = Dimension::new(1, 2, -1);
+    let mut out = blank(question, words);
     if let Some(why) = state.why_open([&h]) {
         return Ok(out.leave_open(why));
     }
-    let value =
-        tidy(&h, &scene.domains).map_err(|stop| Refused::uncalculated(&question.name, stop))?;
-    out.checks.push(Check::new(
-        "identity",
-        format!(
-            "r × m v + I ω of the motion told in `{}`: the difference is zero in the normal form",
-            told.name
-        ),
-        is_zero(&(&h - &value), &scene.domains),
-    ));
-    valued(
-        &mut out,
-        &value,
-        if at_end { &told.assumptions } else { &[] },
+    let value = tidied(question, told, &h)?;
+    let words = format!(
+        "r × m v + I ω of the motion told in `{stage}`: the difference is zero in the normal form"
     );
-    Ok(out)
+    let holds = is_zero(&(&h - &value), &told.placed.scene.domains);
+    out.checks.push(Check::new("identity", words, holds));
+    Ok(valued(out, value, granted))
 }
 
 /// Quantities at the end of a motion.
@@ -306,10 +270,10 @@ pub(super) fn at_end(
             body,
             point: Some((point, _)),
             ..
-        } => format!(
-            "velocity of the point {point} of `{}`",
-            scene.bodies[*body].name
-        ),
+        } => {
+            let name = &scene.bodies[*body].name;
+            format!("velocity of the point {point} of `{name}`")
+        }
         Ask::Energy {
             when: EnergyWhen::Lost,
             ..
@@ -317,19 +281,15 @@ pub(super) fn at_end(
         _ => String::from("kinetic energy"),
     };
     let when = match &question.ask {
-        Ask::Energy { when, .. } => match when {
-            EnergyWhen::Before => "at the beginning",
-            EnergyWhen::After => "at the end",
-            EnergyWhen::Lost => "from the beginning to the end",
-        },
+        Ask::Energy { when, .. } if *when == EnergyWhen::Before => "at the beginning",
+        Ask::Energy { when, .. } if *when == EnergyWhen::Lost => "from the beginning to the end",
         _ => "at the end",
     };
     let words = format!("{what}, {when} of `{}`", told.name);
-    let mut parts: Vec<(String, Expr)> = Vec::new();
-    match ask {
+    let parts = match ask {
         Ask::Spin { body, clockwise } => {
             let w = &told.after.spin[*body];
-            parts.push((String::new(), if *clockwise { -w } else { w.clone() }));
+            vec![("", if *clockwise { -w } else { w.clone() })]
         }
         Ask::Velocity { body, point, along } => {
             let v = match point {
@@ -337,11 +297,8 @@ pub(super) fn at_end(
                 None => told.after.velocity[*body].clone(),
             };
             match along {
-                Some(along) => parts.push((String::new(), dot(&v, along))),
-                None => parts.extend([
-                    ("_x".to_string(), v[0].clone()),
-                    ("_y".to_string(), v[1].clone()),
-                ]),
+                Some(along) => vec![("", dot(&v, along))],
+                None => ["_x", "_y"].into_iter().zip(v).collect(),
             }
         }
         Ask::Energy { when, of } => {
@@ -350,25 +307,20 @@ pub(super) fn at_end(
                 Some(energy) => energy.clone(),
                 None => [&told.before, &told.after].map(|state| kinetic(scene, state, *of)),
             };
-            parts.push((
-                String::new(),
-                match when {
-                    EnergyWhen::Before => before,
-                    EnergyWhen::After => after,
-                    EnergyWhen::Lost => before - after,
-                },
-            ));
+            let energy = match when {
+                EnergyWhen::Before => before,
+                EnergyWhen::After => after,
+                EnergyWhen::Lost => before - after,
+            };
+            vec![("", energy)]
         }
         _ => return Err(refuse("a motion transmits no impulse; ask it of an impact")),
-    }
+    };
     let dimension = ask.dimension();
     let mut out = Vec::new();
     for (suffix, value) in parts {
-        let mut a = Answer::blank(
-            question,
-            &format!("{}{suffix}", question.name),
-            words.clone(),
-        );
+        let name = format!("{}{suffix}", question.name);
+        let mut a = Answer::blank(question, &name, words.clone());
         let tidied = tidy(&value, domains).map_err(|stop| refuse(&stop.to_string()))?;
         let is_energy = matches!(ask, Ask::Energy { .. });
         let value = match is_energy && value.size() < tidied.size() {
@@ -411,22 +363,15 @@ fn is_alone(told: &StageTold, of: Option<usize>) -> bool {
 
 /// Kinetic energy of a body, or of all.
 fn kinetic(scene: &Scene, state: &State, of: Option<usize>) -> Expr {
-    let half = Expr::ratio(1, 2);
-    let moving = scene
-        .bodies
-        .iter()
-        .enumerate()
-        .filter(|(_, b)| !b.is_fixed());
-    let parts = moving
-        .filter(|(b, _)| of.is_none_or(|of| of == *b))
-        .map(|(b, body)| {
-            let v = &state.velocity[b];
-            let moves = &body.mass * &dot(v, v);
-            // A particle that goes round a point has an angular velocity, but no energy beyond that of its velocity.
-            let turns = &body.inertia * &state.spin[b].powi(2);
-            &half * &(&moves + &turns)
-        });
-    Expr::sum(parts)
+    let all = scene.bodies.iter().enumerate();
+    let moving = all.filter(|(b, body)| !body.is_fixed() && of.is_none_or(|of| of == *b));
+    Expr::sum(moving.map(|(b, body)| {
+        let v = &state.velocity[b];
+        let moves = &body.mass * &dot(v, v);
+        // A particle that goes round a point has an angular velocity, but no energy beyond that of its velocity.
+        let turns = &body.inertia * &state.spin[b].powi(2);
+        &Expr::ratio(1, 2) * &(&moves + &turns)
+    }))
 }
 
 /// The kinetic energy of the end, put together again from the motion at the end, where that came from a root.
@@ -441,14 +386,8 @@ fn energy_check(told: &StageTold, domains: &Domains) -> Option<Check> {
 }
 
 /// Force of the fixed point on a turning body along a direction: m a_G less the weight.
-fn bearing(
-    stage: &Stage,
-    told: &StageTold,
-    turn: &Turn,
-    way: i64,
-    along: &Vector,
-    at_end: bool,
-) -> Result<Expr, crate::algebra::Stop> {
+fn bearing(told: &StageTold, turn: &Turn, way: i64, along: &Vector, at_end: bool) -> Expr {
+    let stage = &told.placed;
     let body = turn.lump(&stage.scene);
     let inertia = stage::inertia_about(stage, turn);
     let [r0, r1] = stage::arms(stage, turn, &told.before.spin[turn.body]);
@@ -458,17 +397,18 @@ fn bearing(
         None => Expr::zero(),
     };
     let weight = &body.mass * &turn.gravity.clone().unwrap_or_else(Expr::zero);
-    let angular = angular(stage, told, turn, way, at_end);
+    let angular = angular(told, turn, way, at_end);
     let a = [
         -(&(&angular * &r[1])) - &square * &r[0],
         &angular * &r[0] - &square * &r[1],
     ];
     let force = [&body.mass * &a[0], &body.mass * &a[1] + &weight];
-    tidy(&dot(&force, along), &stage.scene.domains)
+    dot(&force, along)
 }
 
 /// Angular acceleration of a turning body, counterclockwise: the moments about the fixed point over the moment of inertia.
-fn angular(stage: &Stage, told: &StageTold, turn: &Turn, way: i64, at_end: bool) -> Expr {
+fn angular(told: &StageTold, turn: &Turn, way: i64, at_end: bool) -> Expr {
+    let stage = &told.placed;
     let arms = stage::arms(stage, turn, &told.before.spin[turn.body]);
     let weight = match &turn.gravity {
         Some(g) => &turn.lump(&stage.scene).mass * g,
