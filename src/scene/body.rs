@@ -77,16 +77,15 @@ impl SolidReader<'_> {
     /// Reads a part of a composite.
     pub fn read_part(&mut self, part: &BodyFile) -> Option<Solid> {
         if matches!(part.shape, ShapeName::Fixed | ShapeName::Composite) {
-            let fault = Fault::new(part.span, "a part is neither fixed nor composite")
-                .shown_at(part.span.opening());
-            return fault.hint("list its own parts here").add_to(self.faults);
+            let message = "a part is neither fixed nor composite";
+            let fault = Fault::new(part.span.opening(), message).hint("list its own parts here");
+            return fault.add_to(self.faults);
         }
         let velocity = part.velocity.as_ref().map(VelocityFile::span);
         if let Some(span) = velocity.or(part.spin.as_ref().map(|spin| spin.span)) {
-            let fault = Fault::new(span, "a part has no motion of its own");
-            return fault
-                .hint("the composite has `velocity` and `spin`")
-                .add_to(self.faults);
+            let hint = "the composite has `velocity` and `spin`";
+            let fault = Fault::new(span, "a part has no motion of its own").hint(hint);
+            return fault.add_to(self.faults);
         }
         self.read(part)
     }
@@ -98,11 +97,9 @@ impl SolidReader<'_> {
         }
         let mass = Expr::sum(parts.iter().map(|p| p.mass.clone()));
         if mass.is_zero() {
-            let fault =
-                Fault::new(body.span, "this composite has no mass").shown_at(body.span.opening());
-            return fault
-                .hint("give one of its parts a mass")
-                .add_to(self.faults);
+            let fault = Fault::new(body.span.opening(), "this composite has no mass");
+            let fault = fault.hint("give one of its parts a mass");
+            return fault.add_to(self.faults);
         }
         let (mass, weights) = weights(&parts, mass);
         let center = [0, 1]
@@ -111,15 +108,13 @@ impl SolidReader<'_> {
             let r = minus(&p.center, &center);
             &p.inertia + &(&p.mass * &dot(&r, &r))
         }));
-        Some((
-            Solid {
-                shape: Shape::Composite { parts },
-                mass,
-                inertia,
-                inertia_given: false,
-            },
-            center,
-        ))
+        let solid = Solid {
+            shape: Shape::Composite { parts },
+            mass,
+            inertia,
+            inertia_given: false,
+        };
+        Some((solid, center))
     }
 
     /// Whether the body has the fields of its shape and no others.
@@ -147,34 +142,31 @@ impl SolidReader<'_> {
         for (name, span) in given {
             match span {
                 Some(span) if !needed.contains(&name) && !allowed.contains(&name) => {
-                    let all: Vec<&str> = needed.iter().chain(allowed).copied().collect();
+                    let all = [needed, allowed].concat().join(", ");
                     let fault = Fault::new(span, format!("{shape} has no `{name}`"));
                     self.faults
-                        .push(fault.hint(format!("its fields are {}", all.join(", "))));
+                        .push(fault.hint(format!("its fields are {all}")));
                 }
                 None if needed.contains(&name) => {
                     complete = false;
                     if !is_sound {
                         continue;
                     }
-                    let fault = Fault::new(body.span, format!("{shape} needs `{name}`"));
-                    self.faults.push(fault.shown_at(body.span.opening()));
+                    let message = format!("{shape} needs `{name}`");
+                    self.faults.push(Fault::new(body.span.opening(), message));
                 }
                 _ => {}
             }
         }
         match (&body.inertia, &body.radius_of_gyration) {
             (Some(_), Some(k)) => {
-                let fault = Fault::new(
-                    k.span,
-                    "`inertia` and `radius_of_gyration` both say how the mass is spread",
-                );
-                self.faults
-                    .push(fault.hint("keep one: inertia = mass × radius_of_gyration²"));
+                let message = "`inertia` and `radius_of_gyration` both say how the mass is spread";
+                let hint = "keep one: inertia = mass × radius_of_gyration²";
+                self.faults.push(Fault::new(k.span, message).hint(hint));
             }
             (None, None) if body.shape == ShapeName::Body && is_sound => {
-                let fault = Fault::new(body.span, "a body needs `inertia` or `radius_of_gyration`")
-                    .shown_at(body.span.opening());
+                let message = "a body needs `inertia` or `radius_of_gyration`";
+                let fault = Fault::new(body.span.opening(), message);
                 self.faults.push(fault.hint(Quantity::INERTIA.hint()));
             }
             _ => {}
@@ -187,20 +179,14 @@ impl SolidReader<'_> {
             return Some(Expr::zero());
         };
         let mass = self.symbols.read(formula, Quantity::MASS, self.faults)?;
-        let is_link = matches!(
-            body.shape,
-            ShapeName::Rod | ShapeName::Body | ShapeName::Disk
-        );
+        let links = [ShapeName::Rod, ShapeName::Body, ShapeName::Disk];
+        let is_link = links.contains(&body.shape);
         if mass.is_zero() && !is_link {
-            let fault = Fault::new(
-                formula.span,
-                format!(
-                    "{} without mass has no motion of its own",
-                    article(body.shape)
-                ),
-            );
+            let shape = article(body.shape);
+            let message = format!("{shape} without mass has no motion of its own");
             let hint = "only a rod or a body may have mass \"0\", a massless link, and a disk, a light pulley";
-            return fault.hint(hint).add_to(self.faults);
+            let fault = Fault::new(formula.span, message).hint(hint);
+            return fault.add_to(self.faults);
         }
         self.claim_size(formula, &mass, "mass", is_link);
         Some(mass)
@@ -212,10 +198,8 @@ impl SolidReader<'_> {
             what,
             may_vanish,
         };
-        self.claims.push(Claimed {
-            span: formula.span,
-            claim,
-        });
+        let span = formula.span;
+        self.claims.push(Claimed { span, claim });
     }
 
     /// A length that belongs to the shape; present, as the fields have been checked.
@@ -233,15 +217,14 @@ impl SolidReader<'_> {
             ShapeName::Rod => Shape::Rod {
                 length: self.length(&body.length, "length")?,
             },
-            ShapeName::Disk => Shape::Disk {
-                radius: self.length(&body.radius, "radius")?,
-            },
-            ShapeName::Ring => Shape::Ring {
-                radius: self.length(&body.radius, "radius")?,
-            },
-            ShapeName::Sphere => Shape::Sphere {
-                radius: self.length(&body.radius, "radius")?,
-            },
+            ShapeName::Disk | ShapeName::Ring | ShapeName::Sphere => {
+                let radius = self.length(&body.radius, "radius")?;
+                match body.shape {
+                    ShapeName::Disk => Shape::Disk { radius },
+                    ShapeName::Ring => Shape::Ring { radius },
+                    _ => Shape::Sphere { radius },
+                }
+            }
             ShapeName::Rectangle => {
                 let width = self.length(&body.width, "width");
                 let height = self.length(&body.height, "height");
@@ -265,9 +248,8 @@ impl SolidReader<'_> {
         if let Some(formula) = &body.radius_of_gyration {
             let k = self.symbols.read(formula, Quantity::LENGTH, self.faults)?;
             self.claim_size(formula, &k, "radius of gyration", true);
-            let mass = self
-                .symbols
-                .read(body.mass.as_ref()?, Quantity::MASS, &mut Vec::new())?;
+            let mass = body.mass.as_ref()?;
+            let mass = self.symbols.read(mass, Quantity::MASS, &mut Vec::new())?;
             return Some(Some(mass * k.powi(2)));
         }
         Some(None)
@@ -294,10 +276,8 @@ fn uniform(shape: &Shape, mass: &Expr) -> Expr {
 fn weights(parts: &[Body], total: Expr) -> (Expr, Vec<Expr>) {
     let split: Vec<(Rational, Expr)> = parts.iter().map(|p| p.mass.split_number()).collect();
     let mut with_mass = split.iter().filter(|(k, _)| !k.is_zero());
-    let unit = with_mass
-        .next()
-        .map(|(_, unit)| unit.clone())
-        .unwrap_or_else(Expr::one);
+    let unit = with_mass.next();
+    let unit = unit.map_or_else(Expr::one, |(_, unit)| unit.clone());
     let sum = split.iter().fold(Rational::zero(), |sum, (k, _)| sum + k);
     if with_mass.all(|(_, rest)| *rest == unit) && !sum.is_zero() {
         let weights = split.iter().map(|(k, _)| Expr::from(k / &sum)).collect();

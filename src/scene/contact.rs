@@ -13,6 +13,13 @@ use super::{
 };
 use crate::expr::{Expr, Vector, minus};
 
+/// Fields that laws need, with what they hold.
+const NORMAL: (&str, &str) = (
+    "normal",
+    "the unit normal out of the first body into the second",
+);
+const REBOUND: (&str, &str) = ("restitution", "a number or a symbol from 0 to 1");
+
 impl Resolver<'_> {
     pub(super) fn contact(&mut self, name: &Text, contact: &ContactFile, scene: &mut Scene) {
         let bodies = self.pair(&contact.bodies.items, contact.bodies.span, "contact");
@@ -39,48 +46,23 @@ impl Resolver<'_> {
                 self.friction(name, contact, restitution.flatten(), normal.is_some())
             }
             Some(LawName::Frictionless) => {
-                for (missing, field, hint) in [
-                    (
-                        normal.is_none(),
-                        "normal",
-                        "the unit normal out of the first body into the second",
-                    ),
-                    (
-                        restitution.is_none(),
-                        "restitution",
-                        "a number or a symbol from 0 to 1",
-                    ),
-                ] {
-                    if missing && is_sound(contact.span, &self.faults) {
-                        let message = format!("a frictionless contact needs `{field}`");
-                        self.faults.push(
-                            Fault::new(contact.span, message)
-                                .shown_at(name.span)
-                                .hint(hint),
-                        );
-                    }
-                }
-                restitution
-                    .flatten()
-                    .map(|restitution| ContactLaw::Frictionless { restitution })
+                let missing = [(normal.is_none(), NORMAL), (restitution.is_none(), REBOUND)];
+                self.lacks(name, contact, "frictionless contact", &missing);
+                let restitution = restitution.flatten();
+                restitution.map(|restitution| ContactLaw::Frictionless { restitution })
             }
             law => {
                 let is_sound = law.is_some() || is_sound(contact.span, &self.faults);
                 if let (Some(e), true) = (&contact.restitution, is_sound) {
-                    let with = if law.is_some() {
-                        "a sticking contact"
-                    } else {
-                        "a contact without law"
+                    let with = match law {
+                        Some(_) => "a sticking contact",
+                        None => "a contact without law",
                     };
                     let message = format!("{with} has no restitution");
                     let hint = "restitution belongs to \"law\": \"frictionless\"";
                     self.report(e.span, message, hint);
                 }
-                Some(if law.is_some() {
-                    ContactLaw::Sticking
-                } else {
-                    ContactLaw::None
-                })
+                Some(law.map_or(ContactLaw::None, |_| ContactLaw::Sticking))
             }
         };
         // A normal that was given but could not be read has been reported.
@@ -165,23 +147,37 @@ impl Resolver<'_> {
         if contact.law == Some(LawName::Friction) || !is_sound(contact.span, &self.faults) {
             return;
         }
+        let at = |f: &Option<Formula>| f.as_ref().map(|f| f.span);
         let given = [
-            ("mu", contact.mu.as_ref().map(|f| f.span)),
+            ("mu", at(&contact.mu)),
             ("hypothesis", contact.hypothesis.map(|_| contact.span)),
             (
                 "tangential_restitution",
-                contact.tangential_restitution.as_ref().map(|f| f.span),
+                at(&contact.tangential_restitution),
             ),
-            (
-                "impulse_ratio",
-                contact.impulse_ratio.as_ref().map(|f| f.span),
-            ),
+            ("impulse_ratio", at(&contact.impulse_ratio)),
             ("supposing", contact.supposing.map(|_| contact.span)),
         ];
-        for (field, span) in given {
-            if let Some(span) = span {
-                let message = format!("`{field}` belongs to a contact with friction");
-                self.report(span, message, "add \"law\": \"friction\"");
+        for (field, span) in given
+            .into_iter()
+            .filter_map(|(field, at)| Some((field, at?)))
+        {
+            let message = format!("`{field}` belongs to a contact with friction");
+            self.report(span, message, "add \"law\": \"friction\"");
+        }
+    }
+
+    /// Reports the fields that the law of a contact needs and that are missing.
+    fn lacks(
+        &mut self,
+        name: &Text,
+        contact: &ContactFile,
+        what: &str,
+        all: &[(bool, (&str, &str))],
+    ) {
+        for (_, (field, hint)) in all.iter().filter(|(missing, _)| *missing) {
+            if is_sound(contact.span, &self.faults) {
+                self.report(name.span, format!("a {what} needs `{field}`"), *hint);
             }
         }
     }
@@ -196,25 +192,12 @@ impl Resolver<'_> {
     ) -> Option<ContactLaw> {
         let brach = contact.hypothesis == Some(HypothesisName::Brach);
         let no_mu = contact.mu.is_none() && !(brach && contact.impulse_ratio.is_some());
-        for (missing, field, hint) in [
-            (
-                !has_normal,
-                "normal",
-                "the unit normal out of the first body into the second",
-            ),
-            (
-                contact.restitution.is_none(),
-                "restitution",
-                "a number or a symbol from 0 to 1",
-            ),
-            (no_mu, "mu", "the coefficient of friction, 0 or greater"),
-        ] {
-            if missing && is_sound(contact.span, &self.faults) {
-                let message = format!("a contact with friction needs `{field}`");
-                let fault = Fault::new(contact.span, message).shown_at(name.span);
-                self.faults.push(fault.hint(hint));
-            }
-        }
+        let missing = [
+            (!has_normal, NORMAL),
+            (contact.restitution.is_none(), REBOUND),
+            (no_mu, ("mu", "the coefficient of friction, 0 or greater")),
+        ];
+        self.lacks(name, contact, "contact with friction", &missing);
         let number = |this: &mut Self, f: &Option<Formula>, claim: fn(Expr) -> Claim| {
             let f = f.as_ref()?;
             let value = this.read(f, Quantity::NUMBER)?;
@@ -225,22 +208,14 @@ impl Resolver<'_> {
         let tangential = number(self, &contact.tangential_restitution, Claim::Tangential);
         let ratio = contact.impulse_ratio.as_ref();
         let ratio = ratio.and_then(|f| self.read(f, Quantity::NUMBER));
+        let [ruina, brach_only] = [HypothesisName::ChatterjeeRuina, HypothesisName::Brach];
+        let (tangent, ratio_of) = (&contact.tangential_restitution, &contact.impulse_ratio);
         let own = [
-            (
-                "tangential_restitution",
-                contact.tangential_restitution.as_ref(),
-                HypothesisName::ChatterjeeRuina,
-                "chatterjee-ruina",
-            ),
-            (
-                "impulse_ratio",
-                contact.impulse_ratio.as_ref(),
-                HypothesisName::Brach,
-                "brach",
-            ),
+            ("tangential_restitution", tangent, ruina, "chatterjee-ruina"),
+            ("impulse_ratio", ratio_of, brach_only, "brach"),
         ];
         for (field, given, owner, word) in own {
-            if let Some(f) = given.filter(|_| contact.hypothesis != Some(owner)) {
+            if let Some(f) = given.as_ref().filter(|_| contact.hypothesis != Some(owner)) {
                 let message = format!("`{field}` belongs to the hypothesis {word}");
                 let hint = format!("add \"hypothesis\": \"{word}\"");
                 self.report(f.span, message, hint);
@@ -279,14 +254,9 @@ impl Resolver<'_> {
                 let body = self.moving(body);
                 let at = known.at.as_ref().map(|at| self.position(at));
                 let Some(along) = &known.along else {
-                    let fault = Fault::new(
-                        known.span,
-                        "a known velocity needs the direction `along` which it is known",
-                    );
-                    return fault
-                        .shown_at(known.span.opening())
-                        .hint("add \"along\": [\"1\", \"0\"]; a vector takes two entries")
-                        .add_to(&mut self.faults);
+                    let message = "a known velocity needs the direction `along` which it is known";
+                    let hint = "add \"along\": [\"1\", \"0\"]; a vector takes two entries";
+                    return self.refuse(known.span.opening(), message, hint);
                 };
                 let along = self.direction(along);
                 let to = known.relative_to.as_ref().map(|other| {
@@ -301,36 +271,22 @@ impl Resolver<'_> {
                     Some(at) => at,
                     None => body.and_then(|b| self.center(b)),
                 };
-                (
-                    body?,
-                    KnownQuantity::Velocity {
-                        at: at?,
-                        along: along?,
-                        to: to.map_or(Some(None), |to| to.map(Some))?,
-                    },
-                    Quantity::VELOCITY,
-                )
+                let what = KnownQuantity::Velocity {
+                    at: at?,
+                    along: along?,
+                    to: to.map_or(Some(None), |to| to.map(Some))?,
+                };
+                (body?, what, Quantity::VELOCITY)
             }
             (None, Some(body)) => {
-                if let Some(span) = known
-                    .at
-                    .as_ref()
-                    .map(|_| known.span)
-                    .or(known.along.as_ref().map(|_| known.span))
-                    .or(known.relative_to.as_ref().map(|_| known.span))
-                {
-                    self.faults.push(Fault::new(
-                        span,
-                        "a known spin has no `at`, no `along` and no `relative_to`",
-                    ));
+                if known.at.is_some() || known.along.is_some() || known.relative_to.is_some() {
+                    let message = "a known spin has no `at`, no `along` and no `relative_to`";
+                    self.faults.push(Fault::new(known.span, message));
                 }
                 let index = self.moving(body)?;
                 if self.is_particle(index) {
-                    return Fault::new(
-                        body.span,
-                        format!("the particle `{}` has no spin", body.text),
-                    )
-                    .add_to(&mut self.faults);
+                    let message = format!("the particle `{}` has no spin", body.text);
+                    return Fault::new(body.span, message).add_to(&mut self.faults);
                 }
                 (index, KnownQuantity::Spin, Quantity::SPIN)
             }
@@ -354,14 +310,9 @@ impl Resolver<'_> {
         let (a, b) = (self.body_named(&names[0]), self.body_named(&names[1]));
         let (a, b) = (a?, b?);
         if a == b {
-            return Fault::new(
-                span,
-                format!(
-                    "a {what} is between two bodies, not `{}` and itself",
-                    names[0].text
-                ),
-            )
-            .add_to(&mut self.faults);
+            let name = &names[0].text;
+            let message = format!("a {what} is between two bodies, not `{name}` and itself");
+            return Fault::new(span, message).add_to(&mut self.faults);
         }
         if self.shape(a) == Some(ShapeName::Fixed) && self.shape(b) == Some(ShapeName::Fixed) {
             let message = format!(

@@ -123,36 +123,30 @@ pub fn schema() -> String {
 /// On a fault the scene is as before. The fault's place counts in `value`.
 pub fn set(scene: &mut Scene, name: &str, value: &str) -> Result<(), Fault> {
     let all = Span::new(0, value.len());
-    let Some(index) = scene.parameters.iter().position(|p| *p.name == *name) else {
+    let Some(parameter) = scene.parameters.iter().find(|p| *p.name == *name) else {
         let fault = Fault::new(all, format!("there is no parameter `{name}`"));
-        return Err(
-            match nearest(name, scene.parameters.iter().map(|p| &*p.name)) {
-                Some(near) => fault.hint(format!("did you mean `{near}`?")),
-                None => fault,
-            },
-        );
+        let near = nearest(name, scene.parameters.iter().map(|p| &*p.name));
+        return Err(match near {
+            Some(near) => fault.hint(format!("did you mean `{near}`?")),
+            None => fault,
+        });
     };
-    let parameter = &scene.parameters[index];
-    let unit =
-        dimension::unit(&parameter.unit).map_err(|trouble| Fault::new(all, trouble.message))?;
+    let wrong = |message: String| Fault::new(all, message);
+    let unit = dimension::unit(&parameter.unit).map_err(|trouble| wrong(trouble.message))?;
     let mut faults = Vec::new();
-    let Some(read) = parameters::value(&parameters::whole(value), &unit, &mut faults) else {
-        return Err(faults
-            .pop()
-            .unwrap_or_else(|| Fault::new(all, "this is no value")));
-    };
+    let read = parameters::value(&parameters::whole(value), &unit, &mut faults);
+    let why = faults.pop();
+    let read = read.ok_or_else(|| why.unwrap_or_else(|| wrong("this is no value".into())))?;
     if let Some(domain) = scene.domains.symbols.get(&parameter.name) {
-        parameters::lies_in(name, &read, domain).map_err(|message| Fault::new(all, message))?;
+        parameters::lies_in(name, &read, domain).map_err(wrong)?;
     }
     let name = parameter.name.clone();
     let before = put(scene, &name, Some(read));
-    match check::at_values(scene, all) {
-        None => Ok(()),
-        Some(fault) => {
-            put(scene, &name, before);
-            Err(fault)
-        }
-    }
+    let Some(fault) = check::at_values(scene, all) else {
+        return Ok(());
+    };
+    put(scene, &name, before);
+    Err(fault)
 }
 
 /// Gives a parameter its value, in the scenes of the stages too. Gives the value it had.

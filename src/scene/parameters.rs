@@ -30,10 +30,8 @@ pub(super) fn resolve(
 ) -> Symbols {
     let all: &[(Text, Option<ParameterFile>)] = file.parameters.as_ref().map_or(&[], |m| &m.0);
     if let Some((name, _)) = all.get(PARAMETERS) {
-        faults.push(Fault::new(
-            name.span,
-            format!("{} parameters, more than {PARAMETERS}", all.len()),
-        ));
+        let message = format!("{} parameters, more than {PARAMETERS}", all.len());
+        faults.push(Fault::new(name.span, message));
         return Symbols::new(BTreeMap::new());
     }
     let mut spellings: BTreeMap<String, &str> = BTreeMap::new();
@@ -42,10 +40,8 @@ pub(super) fn resolve(
     for (name, entry) in all {
         check_name(name, faults);
         if let Some(other) = spellings.insert(spelling(&name.text), &name.text) {
-            faults.push(Fault::new(
-                name.span,
-                format!("`{}` and `{other}` are one symbol in formulas", name.text),
-            ));
+            let message = format!("`{}` and `{other}` are one symbol in formulas", name.text);
+            faults.push(Fault::new(name.span, message));
         }
         let unit = match entry.as_ref().and_then(|p| p.unit.as_ref()) {
             None => dimension::unit("1").ok(),
@@ -59,26 +55,13 @@ pub(super) fn resolve(
     let mut ends = Vec::new();
     for ((name, entry), unit) in all.iter().zip(units) {
         if let (Some(entry), Some(unit)) = (entry, unit) {
-            ends.extend(parameter(
-                file,
-                scene,
-                &symbols,
-                (name, entry),
-                &unit,
-                faults,
-            ));
+            let read = parameter(file, scene, &symbols, (name, entry), &unit, faults);
+            ends.extend(read);
         }
     }
     for end in ends {
-        let [small, large] = [&end.small, &end.large];
-        relations::add(
-            scene,
-            [small, large],
-            end.closed,
-            end.words,
-            end.span,
-            faults,
-        );
+        let sides = [&end.small, &end.large];
+        relations::add(scene, sides, end.closed, end.words, end.span, faults);
     }
     let stated = file.relations.as_deref().unwrap_or_default();
     relations::resolve(stated, scene, &symbols, faults);
@@ -154,15 +137,12 @@ pub(super) fn value(formula: &Formula, unit: &Unit, faults: &mut Vec<Fault>) -> 
     let before = faults.len();
     let value = Symbols::new(BTreeMap::new()).measured(formula, unit, faults);
     for fault in &mut faults[before..] {
-        fault
-            .hint
-            .get_or_insert_with(|| "a value is a number, or a formula without symbols".to_owned());
+        let hint = || "a value is a number, or a formula without symbols".to_owned();
+        fault.hint.get_or_insert_with(hint);
     }
     let value = value?;
-    if !value
-        .evaluate::<f64>(&Point::default())
-        .is_some_and(f64::is_finite)
-    {
+    let number = value.evaluate::<f64>(&Point::default());
+    if !number.is_some_and(f64::is_finite) {
         return Fault::new(formula.span, "this has no finite value").add_to(faults);
     }
     Some(value)
@@ -172,10 +152,9 @@ pub(super) fn value(formula: &Formula, unit: &Unit, faults: &mut Vec<Fault>) -> 
 pub(super) fn lies_in(name: &str, value: &Expr, domain: &Domain) -> Result<(), String> {
     let number = value.evaluate::<f64>(&Point::default()).unwrap_or(f64::NAN);
     let compare = |limit: &Limit| {
-        let exact = if limit.of_pi {
-            multiple_of_pi(value)
-        } else {
-            value.as_number().cloned()
+        let exact = match limit.of_pi {
+            true => multiple_of_pi(value),
+            false => value.as_number().cloned(),
         };
         match exact {
             Some(exact) => Some(exact.cmp(&limit.value)),
@@ -191,11 +170,8 @@ pub(super) fn lies_in(name: &str, value: &Expr, domain: &Domain) -> Result<(), S
     if is_fine(&domain.low, Ordering::Greater) && is_fine(&domain.high, Ordering::Less) {
         return Ok(());
     }
-    Err(format!(
-        "{name} is {}, outside its domain {}",
-        number_words(number),
-        domain.words(name)
-    ))
+    let (number, domain) = (number_words(number), domain.words(name));
+    Err(format!("{name} is {number}, outside its domain {domain}"))
 }
 
 /// A double as people write it.
@@ -219,23 +195,16 @@ fn check_name(name: &Text, faults: &mut Vec<Fault>) {
     let mut letters = text.chars();
     let is_identifier = letters.next().is_some_and(is_letter)
         && letters.all(|c| is_letter(c) || c.is_ascii_digit() || c == '_');
-    let is_word = text == "pi"
-        || text == "π"
-        || text == "sqrt"
-        || Function::ALL.iter().any(|f| f.name() == text);
-    let fault = if is_word {
-        Fault::new(
-            name.span,
-            format!("`{text}` has a meaning in formulas already"),
-        )
-        .hint("choose another name")
+    let is_function = Function::ALL.iter().any(|f| f.name() == text);
+    let (what, hint) = if is_function || ["pi", "π", "sqrt"].contains(&text) {
+        ("has a meaning in formulas already", "choose another name")
     } else if !is_identifier || text.len() > 60 {
-        let fault = Fault::new(name.span, format!("`{text}` cannot be a symbol"));
-        fault.hint("a symbol is a letter followed by letters, digits and _, such as m1, v_G or theta; `latex` says how it looks")
+        let hint = "a symbol is a letter followed by letters, digits and _, such as m1, v_G or theta; `latex` says how it looks";
+        ("cannot be a symbol", hint)
     } else {
         return;
     };
-    faults.push(fault);
+    faults.push(Fault::new(name.span, format!("`{text}` {what}")).hint(hint));
 }
 
 /// `v_1` and `v1` are one symbol.
@@ -251,13 +220,9 @@ fn spelling(name: &str) -> String {
 }
 
 fn read_unit(text: &Text, faults: &mut Vec<Fault>) -> Option<Unit> {
-    match dimension::unit(&text.text) {
-        Ok(unit) => Some(unit),
-        Err(trouble) => {
-            faults.push(Fault::new(text.span, trouble.message));
-            None
-        }
-    }
+    let found = dimension::unit(&text.text);
+    let refused = found.map_err(|trouble| Fault::new(text.span, trouble.message));
+    refused.map_err(|fault| faults.push(fault)).ok()
 }
 
 /// An end of a domain that refers to other parameters, as an inequality.
@@ -344,9 +309,9 @@ impl Bounded<'_> {
         ends: &mut Vec<End>,
         faults: &mut Vec<Fault>,
     ) -> Option<Option<Limit>> {
-        e.symbols()
-            .iter()
-            .for_each(|name| self.symbols.mark_used(name));
+        for name in e.symbols() {
+            self.symbols.mark_used(&name);
+        }
         let own = Expr::symbol(&self.name.text);
         if let Some(message) = self.symbols.clash(&own, &e) {
             return Fault::new(formula.span, message).add_to(faults);
@@ -361,17 +326,12 @@ impl Bounded<'_> {
             closed: !open,
             span: formula.span,
         });
-        Some(match (e.node(), is_low) {
-            (Node::Call(Function::Acos, _), false) => Some(Limit::pi(ratio(1, 1), false)),
-            (Node::Call(Function::Acos, _), true) => Some(Limit::pi(ratio(0, 1), false)),
-            (Node::Call(Function::Asin | Function::Atan, _), false) => {
-                Some(Limit::pi(ratio(1, 2), false))
-            }
-            (Node::Call(Function::Asin | Function::Atan, _), true) => {
-                Some(Limit::pi(ratio(-1, 2), false))
-            }
-            _ => None,
-        })
+        let [low, high] = match e.node() {
+            Node::Call(Function::Acos, _) => [ratio(0, 1), ratio(1, 1)],
+            Node::Call(Function::Asin | Function::Atan, _) => [ratio(-1, 2), ratio(1, 2)],
+            _ => return Some(None),
+        };
+        Some(Some(Limit::pi(if is_low { low } else { high }, false)))
     }
 }
 
@@ -396,10 +356,8 @@ fn is_tangential(file: &SceneFile, name: &str) -> bool {
 }
 
 fn is_component(file: &SceneFile, name: &str) -> bool {
-    file.unit_vectors
-        .iter()
-        .flatten()
-        .any(|pair| pair.items.iter().any(|c| c.text == name))
+    let mut pairs = file.unit_vectors.iter().flatten();
+    pairs.any(|pair| pair.items.iter().any(|c| c.text == name))
 }
 
 fn unit_vectors(
@@ -415,12 +373,8 @@ fn unit_vectors(
         for name in &pair.items {
             let Some(parameter) = scene.parameters.iter().find(|p| *p.name == *name.text) else {
                 is_fine = false;
-                let is_there = file
-                    .parameters
-                    .iter()
-                    .flat_map(|m| &m.0)
-                    .any(|(n, _)| n.text == name.text);
-                if !is_there {
+                let mut all = file.parameters.iter().flat_map(|m| &m.0);
+                if !all.any(|(n, _)| n.text == name.text) {
                     let fault = Fault::new(name.span, format!("`{}` is no parameter", name.text));
                     faults.push(fault.hint("declare both components under \"parameters\""));
                 }
@@ -428,22 +382,15 @@ fn unit_vectors(
             };
             if !parameter.dimension.is_none() {
                 is_fine = false;
-                let message = format!(
-                    "expected {}, found {}",
-                    dimension::Dimension::none(),
-                    parameter.dimension
-                );
-                faults.push(
-                    Fault::new(name.span, message)
-                        .hint("the components of a unit vector have no unit"),
-                );
+                let none = dimension::Dimension::none();
+                let message = format!("expected {none}, found {}", parameter.dimension);
+                let hint = "the components of a unit vector have no unit";
+                faults.push(Fault::new(name.span, message).hint(hint));
             }
             if !seen.insert(name.text.as_str()) {
                 is_fine = false;
-                faults.push(Fault::new(
-                    name.span,
-                    format!("`{}` is a component already", name.text),
-                ));
+                let message = format!("`{}` is a component already", name.text);
+                faults.push(Fault::new(name.span, message));
             }
         }
         if !is_fine {

@@ -4,6 +4,7 @@
 use super::fault::Fault;
 use super::file::{PrintedFile, SceneFile};
 use super::record::{Map, Text};
+use super::resolve;
 
 /// Something printed.
 #[derive(Clone, Debug)]
@@ -84,10 +85,8 @@ pub(super) fn resolve(file: &SceneFile, faults: &mut Vec<Fault>) -> Vec<Printed>
 /// The same for a list that stands in a file of its own.
 pub(super) fn entries(all: &[PrintedFile], faults: &mut Vec<Fault>) -> Vec<Printed> {
     if let Some(first) = all.get(PRINTED) {
-        faults.push(Fault::new(
-            first.span,
-            format!("more than {PRINTED} printed entries"),
-        ));
+        let message = format!("more than {PRINTED} printed entries");
+        faults.push(Fault::new(first.span, message));
         return Vec::new();
     }
     all.iter().filter_map(|entry| one(entry, faults)).collect()
@@ -95,17 +94,11 @@ pub(super) fn entries(all: &[PrintedFile], faults: &mut Vec<Fault>) -> Vec<Print
 
 fn one(entry: &PrintedFile, faults: &mut Vec<Fault>) -> Option<Printed> {
     let text = |t: &Option<Text>| t.as_ref().map(|t| t.text.clone());
-    let list = |t: &Option<Vec<Text>>| {
-        t.iter()
-            .flatten()
-            .map(|t| t.text.clone())
-            .collect::<Vec<_>>()
-    };
+    let texts = |row: &Vec<Text>| row.iter().map(|t| t.text.clone()).collect::<Vec<_>>();
+    let list = |t: &Option<Vec<Text>>| t.as_ref().map(texts).unwrap_or_default();
     let map = |m: &Option<Map<Text>>| -> Vec<[String; 2]> {
-        let entries = m.iter().flat_map(|m| &m.0);
-        entries
-            .filter_map(|(name, t)| Some([name.text.clone(), t.as_ref()?.text.clone()]))
-            .collect()
+        let pair = |(name, t): (&Text, &Text)| [name.text.clone(), t.text.clone()];
+        resolve::entries(m.as_ref()).map(pair).collect()
     };
     let kinds = [
         entry.item.is_some(),
@@ -130,12 +123,8 @@ fn one(entry: &PrintedFile, faults: &mut Vec<Fault>) -> Option<Printed> {
             claim: text(&entry.claim),
         }),
         (1, ..) => {
-            let entries: Vec<Vec<String>> = entry
-                .matrix
-                .iter()
-                .flatten()
-                .map(|row| row.iter().map(|t| t.text.clone()).collect())
-                .collect();
+            let rows = entry.matrix.iter().flatten();
+            let entries: Vec<Vec<String>> = rows.map(texts).collect();
             let (unknowns, right) = (list(&entry.unknowns), list(&entry.right));
             let fits = entries.len() == right.len()
                 && entries.iter().all(|row| row.len() == unknowns.len());

@@ -105,11 +105,8 @@ pub(super) fn resolve(file: &SceneFile, mut faults: Vec<Fault>) -> (Scene, Vec<F
 }
 
 pub(super) fn names<T>(map: Option<&Map<T>>) -> HashMap<&str, usize> {
-    map.into_iter()
-        .flat_map(|m| &m.0)
-        .enumerate()
-        .map(|(i, (name, _))| (name.text.as_str(), i))
-        .collect()
+    let all = keys(map).into_iter().map(|name| name.text.as_str());
+    all.zip(0..).collect()
 }
 
 pub(super) fn text(text: &Option<Text>) -> String {
@@ -118,9 +115,8 @@ pub(super) fn text(text: &Option<Text>) -> String {
 
 /// The entries of a map that could be read.
 pub(super) fn entries<T>(map: Option<&Map<T>>) -> impl Iterator<Item = (&Text, &T)> {
-    map.into_iter()
-        .flat_map(|m| &m.0)
-        .filter_map(|(name, entry)| Some((name, entry.as_ref()?)))
+    let all = map.into_iter().flat_map(|m| &m.0);
+    all.filter_map(|(name, entry)| Some((name, entry.as_ref()?)))
 }
 
 impl<'f> Resolver<'f> {
@@ -142,10 +138,9 @@ impl<'f> Resolver<'f> {
                 self.faults.push(Fault::new(keys[ENTRIES].span, message));
             }
             for key in keys {
-                let bad = key.text.trim() != key.text
-                    || key.text.is_empty()
-                    || key.text.chars().count() > 100;
-                if bad || key.text.chars().any(char::is_control) {
+                let fits = (1..=100).contains(&key.text.chars().count());
+                let bad = key.text.trim() != key.text || key.text.chars().any(char::is_control);
+                if bad || !fits {
                     let message = "a name has 1 to 100 characters and no blank at its ends";
                     self.faults.push(Fault::new(key.span, message));
                 }
@@ -165,19 +160,16 @@ impl<'f> Resolver<'f> {
         let file = self.file;
         for (i, (name, _)) in file.points.iter().flat_map(|m| &m.0).enumerate() {
             let at = self.point(i).unwrap_or_else(origin);
-            scene.points.push(NamedPoint {
-                name: name.text.clone(),
-                at,
-            });
+            let name = name.text.clone();
+            scene.points.push(NamedPoint { name, at });
         }
         for i in 0..file.bodies.0.len() {
             let body = self.body(i);
             scene.bodies.push(body);
         }
         if self.faults.is_empty() && scene.bodies.iter().all(Body::is_fixed) {
-            self.faults.push(
-                Fault::new(file.span, "no body here can move").hint("add a body that is not fixed"),
-            );
+            let hint = "add a body that is not fixed";
+            self.report(file.span, "no body here can move", hint);
         }
         for (name, hinge) in entries(file.hinges.as_ref()) {
             let bodies = self.pair(&hinge.bodies.items, hinge.bodies.span, "hinge");
@@ -230,12 +222,9 @@ impl<'f> Resolver<'f> {
         }
         self.friction_alone(scene);
         for force in file.forces.iter().flatten() {
-            if let Some(body) = self.body_named(&force.on) {
-                scene.forces.push(Force {
-                    name: force.name.text.clone(),
-                    body,
-                });
-            }
+            let name = force.name.text.clone();
+            let body = self.body_named(&force.on);
+            scene.forces.extend(body.map(|body| Force { name, body }));
         }
         if file.stages.is_none() {
             questions::of_impact(self, scene);
@@ -246,16 +235,13 @@ impl<'f> Resolver<'f> {
     /// the next. In a scene with stages the hinges of its first impact say so, where that is how it begins.
     fn move_with_hinges(&mut self, scene: &mut Scene) {
         let file = self.file;
-        let first = file
-            .stages
-            .as_ref()
-            .and_then(|s| s.first()?.impact.as_ref());
+        let stages = file.stages.as_ref();
+        let first = stages.and_then(|s| s.first()?.impact.as_ref());
         let begins = first.and_then(|impact| impact.hinges.as_ref());
         let mut hinges: Vec<([usize; 2], Vector)> = Vec::new();
         for (_, hinge) in entries(begins) {
-            let named = |name: &Text| self.find_body(&name.text);
-            if let [Some(a), Some(b)] =
-                [named(&hinge.bodies.items[0]), named(&hinge.bodies.items[1])]
+            let bodies = hinge.bodies.items.each_ref();
+            if let [Some(a), Some(b)] = bodies.map(|name| self.find_body(&name.text))
                 && let Some(at) = self.position(&hinge.at)
             {
                 hinges.push(([a, b], at));
@@ -263,36 +249,28 @@ impl<'f> Resolver<'f> {
         }
         hinges.extend(scene.hinges.iter().map(|h| (h.bodies, h.at.clone())));
         let told = |(_, entry): &(Text, Option<BodyFile>)| {
-            entry
-                .as_ref()
-                .is_none_or(|b| b.velocity.is_some() || b.shape == ShapeName::Fixed)
+            let told = |b: &BodyFile| b.velocity.is_some() || b.shape == ShapeName::Fixed;
+            entry.as_ref().is_none_or(told)
         };
         let mut moves: Vec<bool> = file.bodies.0.iter().map(told).collect();
-        while let Some(waiting) = hinges
-            .iter()
-            .flat_map(|(pair, _)| pair)
-            .find(|b| !moves[**b])
-        {
-            let next = hinges
-                .iter()
-                .find_map(|([a, b], at)| match [moves[*a], moves[*b]] {
-                    [true, false] => Some((*a, *b, at)),
-                    [false, true] => Some((*b, *a, at)),
-                    _ => None,
-                });
+        let hinged = || hinges.iter().flat_map(|(pair, _)| pair);
+        while let Some(waiting) = hinged().find(|b| !moves[**b]) {
+            let mut all = hinges.iter();
+            let next = all.find_map(|([a, b], at)| match [moves[*a], moves[*b]] {
+                [true, false] => Some((*a, *b, at)),
+                [false, true] => Some((*b, *a, at)),
+                _ => None,
+            });
             // The first of bodies hinged to each other alone is at rest.
             let Some((known, other, at)) = next else {
                 moves[*waiting] = true;
                 continue;
             };
             let [known, body] = [known, other].map(|b| &scene.bodies[b]);
-            let there = plus(
-                &known.velocity,
-                &turned(&known.spin, &minus(at, &known.center)),
-            );
             let on = turned(&body.spin, &minus(&body.center, at));
+            let velocity = plus(&known.velocity_at(at), &on);
             scene.bodies[other].velocity =
-                plus(&there, &on).map(|v| algebra::tidy(&v, &scene.domains).unwrap_or(v));
+                velocity.map(|v| algebra::tidy(&v, &scene.domains).unwrap_or(v));
             moves[other] = true;
         }
     }
@@ -410,11 +388,8 @@ impl<'f> Resolver<'f> {
     pub fn moving(&mut self, name: &Text) -> Option<usize> {
         let body = self.body_named(name)?;
         if self.is_fixed(body) {
-            return Fault::new(
-                name.span,
-                format!("`{}` is fixed, and does not move", name.text),
-            )
-            .add_to(&mut self.faults);
+            let message = format!("`{}` is fixed, and does not move", name.text);
+            return Fault::new(name.span, message).add_to(&mut self.faults);
         }
         Some(body)
     }
@@ -439,37 +414,32 @@ impl<'f> Resolver<'f> {
     ) {
         let fault = Fault::new(name.span, format!("there is no {what} `{}`", name.text));
         // Searching for the nearest name takes time that is not worth it for faults nobody will be told.
-        let mut candidates = if self.faults.len() <= TOLD {
-            candidates(self)
-        } else {
-            Vec::new()
+        let mut candidates = match self.faults.len() <= TOLD {
+            true => candidates(self),
+            false => Vec::new(),
         };
         candidates.sort_unstable();
-        self.faults
-            .push(match nearest(&name.text, candidates.iter().copied()) {
-                Some(near) => fault.hint(format!("did you mean `{near}`?")),
-                None if (1..=12).contains(&candidates.len()) => {
-                    fault.hint(format!("there is {}", candidates.join(", ")))
-                }
-                None => fault,
-            });
+        let near = nearest(&name.text, candidates.iter().copied());
+        self.faults.push(match near {
+            Some(near) => fault.hint(format!("did you mean `{near}`?")),
+            None if (1..=12).contains(&candidates.len()) => {
+                fault.hint(format!("there is {}", candidates.join(", ")))
+            }
+            None => fault,
+        });
     }
 
     /// Names of all bodies and points.
     pub fn positions(&self) -> Vec<&'f str> {
-        self.points
-            .keys()
-            .chain(self.bodies.keys())
-            .copied()
-            .collect()
+        let all = self.points.keys().chain(self.bodies.keys());
+        all.copied().collect()
     }
 }
 
-fn keys<T>(map: Option<&Map<T>>) -> Vec<&Text> {
-    map.into_iter()
-        .flat_map(|m| &m.0)
-        .map(|(name, _)| name)
-        .collect()
+/// The names of a map.
+pub(super) fn keys<T>(map: Option<&Map<T>>) -> Vec<&Text> {
+    let all = map.into_iter().flat_map(|m| &m.0);
+    all.map(|(name, _)| name).collect()
 }
 
 /// The zero vector.

@@ -1,10 +1,10 @@
 //! Questions about one impact: velocities and spins just after, impulses, energies, balances, matrices.
 
-use crate::scene::fault::{Fault, Span};
+use crate::scene::fault::Fault;
 use crate::scene::question_file::{EnergyName, QuestionFile};
 use crate::scene::record::Text;
-use crate::scene::resolve::Resolver;
-use crate::scene::{Ask, EnergyWhen, ImpulseAt, Scene};
+use crate::scene::resolve::{Resolver, keys};
+use crate::scene::{Ask, EnergyWhen, ImpulseAt, Known, Scene};
 
 /// Reads a question about the motion just after an impact, its impulses and equations.
 pub(super) fn ask(
@@ -30,11 +30,8 @@ pub(super) fn ask(
     if let Some(body) = &question.spin {
         let index = resolver.moving(body)?;
         if resolver.is_particle(index) {
-            return Fault::new(
-                body.span,
-                format!("the particle `{}` has no spin", body.text),
-            )
-            .add_to(&mut resolver.faults);
+            let message = format!("the particle `{}` has no spin", body.text);
+            return Fault::new(body.span, message).add_to(&mut resolver.faults);
         }
         return Some(Ask::Spin {
             body: index,
@@ -69,23 +66,20 @@ pub(super) fn ask(
             return resolver.refuse(name.span, message, hint);
         }
         let bodies: Vec<Option<usize>> = system.iter().map(|body| resolver.moving(body)).collect();
-        let system_indices = bodies.into_iter().collect::<Option<Vec<_>>>()?;
-        if let Some(twice) =
-            (1..system.len()).find(|i| system[..*i].iter().any(|b| b.text == system[*i].text))
-        {
+        let bodies = bodies.into_iter().collect::<Option<Vec<_>>>()?;
+        let is_twice = |i: &usize| system[..*i].iter().any(|b| b.text == system[*i].text);
+        if let Some(twice) = (1..system.len()).find(is_twice) {
             let message = format!("`{}` is in this system twice", system[twice].text);
             return Fault::new(system[twice].span, message).add_to(&mut resolver.faults);
         }
         return Some(Ask::Balance {
-            system: system_indices,
+            system: bodies,
             along: component()??,
         });
     }
-    let words = |list: &Option<Vec<Text>>| {
-        list.iter()
-            .flatten()
-            .map(|t| t.text.clone())
-            .collect::<Vec<_>>()
+    let words = |list: &Option<Vec<Text>>| -> Vec<String> {
+        let all = list.iter().flatten();
+        all.map(|t| t.text.clone()).collect()
     };
     Some(Ask::Matrix {
         rows: words(&question.matrix),
@@ -123,12 +117,8 @@ pub(super) fn velocity(
             );
             return resolver.refuse(what.span, message, hint);
         }
-        let what_is_sought = if of.is_some() {
-            "point"
-        } else {
-            "body or point"
-        };
-        resolver.unknown(what, what_is_sought, Resolver::positions);
+        let sought = of.map_or("body or point", |_| "point");
+        resolver.unknown(what, sought, Resolver::positions);
         return None;
     };
     let body = match of {
@@ -165,25 +155,9 @@ fn impulse(
         (.., Some(i)) => (ImpulseAt::Blow(i), vec![scene.blows[i].body]),
         _ => {
             let file = resolver.file;
-            let mut names: Vec<&str> = Vec::new();
-            names.extend(
-                file.contacts
-                    .iter()
-                    .flat_map(|m| &m.0)
-                    .map(|(n, _)| n.text.as_str()),
-            );
-            names.extend(
-                file.hinges
-                    .iter()
-                    .flat_map(|m| &m.0)
-                    .map(|(n, _)| n.text.as_str()),
-            );
-            names.extend(
-                file.blows
-                    .iter()
-                    .flat_map(|m| &m.0)
-                    .map(|(n, _)| n.text.as_str()),
-            );
+            let (hinges, blows) = (keys(file.hinges.as_ref()), keys(file.blows.as_ref()));
+            let all = [keys(file.contacts.as_ref()), hinges, blows].concat();
+            let names: Vec<&str> = all.iter().map(|name| name.text.as_str()).collect();
             // A contact that is there but could not be read has been reported.
             if !names.contains(&name.as_str()) {
                 resolver.unknown(from, "contact, hinge or blow", |_| names);
@@ -201,11 +175,7 @@ fn impulse(
             body
         }
         // Asked for is the impulse on something that moves.
-        None => bodies
-            .iter()
-            .rev()
-            .copied()
-            .find(|b| !resolver.is_fixed(*b))?,
+        None => *bodies.iter().rfind(|b| !resolver.is_fixed(**b))?,
     };
     Some((from_what, on))
 }
@@ -225,57 +195,39 @@ pub(super) fn matrix_names(
         return;
     }
     let find = |n: &str| scene.questions.iter().find(|q| q.name == n);
-    let mut wrong: Vec<(Span, String)> = Vec::new();
     let mut unknown: Vec<(&Text, &str)> = Vec::new();
+    let mut wrong = |at: &Text, message: String| resolver.faults.push(Fault::new(at.span, message));
     for row in rows {
-        let is_known = scene
-            .after
-            .iter()
-            .any(|k| k.name == row.text && !k.name.is_empty());
-        match find(&row.text) {
+        let name = &row.text;
+        let is_it = |k: &Known| k.name == *name && !k.name.is_empty();
+        match find(name) {
             Some(q) if !matches!(q.ask, Ask::Balance { .. }) => {
-                wrong.push((
-                    row.span,
-                    format!("the question `{}` is no equation", row.text),
-                ));
+                wrong(row, format!("the question `{name}` is no equation"));
             }
-            None if !is_known => unknown.push((row, "balance question or named entry of `after`")),
+            None if !scene.after.iter().any(is_it) => {
+                unknown.push((row, "balance question or named entry of `after`"));
+            }
             _ => {}
         }
     }
     for column in question.unknowns.iter().flatten() {
-        match find(&column.text).map(|q| &q.ask) {
+        let name = &column.text;
+        match find(name).map(|q| &q.ask) {
             Some(
                 Ask::Spin { .. }
                 | Ask::Velocity { along: Some(_), .. }
                 | Ask::Impulse { along: Some(_), .. },
             ) => {}
             Some(Ask::Velocity { .. } | Ask::Impulse { .. }) => {
-                wrong.push((
-                    column.span,
-                    format!(
-                        "`{}` is a vector; an unknown of a matrix is a number",
-                        column.text
-                    ),
-                ));
+                let message = format!("`{name}` is a vector; an unknown of a matrix is a number");
+                wrong(column, message);
             }
-            Some(_) => wrong.push((
-                column.span,
-                format!("the question `{}` is no unknown", column.text),
-            )),
+            Some(_) => wrong(column, format!("the question `{name}` is no unknown")),
             None => unknown.push((column, "question")),
         }
     }
-    for (span, message) in wrong {
-        resolver.faults.push(Fault::new(span, message));
-    }
-    let names: Vec<&str> = resolver
-        .file
-        .questions
-        .iter()
-        .flat_map(|m| &m.0)
-        .map(|(n, _)| n.text.as_str())
-        .collect();
+    let names = keys(resolver.file.questions.as_ref()).into_iter();
+    let names: Vec<&str> = names.map(|name| name.text.as_str()).collect();
     for (text, what) in unknown {
         // A question that is there but could not be read has been reported.
         if !names.contains(&text.text.as_str()) {

@@ -25,23 +25,20 @@ pub(super) fn resolve(
     let latex = q.latex.as_ref().map(|t| t.text.as_str());
     let meaning = meaning(q, &[]);
     let push = |scene: &mut Scene, suffix: &str, formula: Expr| {
-        let latex = latex.map(|l| match suffix.strip_prefix('_') {
-            Some(axis) => with_subscript(l, axis),
-            None => l.to_owned(),
-        });
+        let (latex, meaning) = match suffix.strip_prefix('_') {
+            Some(axis) => (
+                latex.map(|l| with_subscript(l, axis)),
+                format!("{meaning}, {axis}"),
+            ),
+            None => (latex.map(str::to_owned), meaning.clone()),
+        };
         let name = format!("{}{suffix}", name.text);
-        scene.questions.push(Question::new(
-            &name,
-            latex,
-            Ask::Value {
-                formula,
-                with: Vec::new(),
-                meaning: match suffix {
-                    "" => meaning.clone(),
-                    axis => format!("{meaning}, {}", &axis[1..]),
-                },
-            },
-        ));
+        let ask = Ask::Value {
+            formula,
+            with: Vec::new(),
+            meaning,
+        };
+        scene.questions.push(Question::new(&name, latex, ask));
     };
     match kind {
         "inertia" => {
@@ -49,18 +46,12 @@ pub(super) fn resolve(
             push(scene, "", formula);
         }
         "angular_momentum" => {
-            let (b, at) = (
-                resolver.moving(q.angular_momentum.as_ref()?)?,
-                about(resolver, name, q)?,
-            );
-            let (velocity, spin) = match is_start {
-                true => (
-                    scene.bodies[b].velocity.clone(),
-                    scene.bodies[b].spin.clone(),
-                ),
-                false => (velocity_after(scene, b), spin_after(scene, b)),
-            };
+            let b = resolver.moving(q.angular_momentum.as_ref()?)?;
+            let at = about(resolver, name, q)?;
+            let after = (!is_start).then(|| (velocity_after(scene, b), spin_after(scene, b)));
             let body = &scene.bodies[b];
+            let before = || (body.velocity.clone(), body.spin.clone());
+            let (velocity, spin) = after.unwrap_or_else(before);
             let arm = minus(&body.center, &at);
             let formula = &body.mass * &cross(&arm, &velocity) + &body.inertia * &spin;
             push(scene, "", formula);
@@ -92,12 +83,8 @@ pub(super) fn resolve(
         "spin" => {
             let b = resolver.moving(q.spin.as_ref()?)?;
             let spin = scene.bodies[b].spin.clone();
-            let formula = if q.clockwise == Some(true) {
-                -spin
-            } else {
-                spin
-            };
-            push(scene, "", formula);
+            let clockwise = q.clockwise == Some(true);
+            push(scene, "", if clockwise { -spin } else { spin });
         }
         _ => {
             let of = q.velocity.as_ref()?;
@@ -130,10 +117,8 @@ pub(super) fn meaning(q: &QuestionFile, stages: &[StageFile]) -> String {
         ("velocity", &q.velocity),
         ("angular velocity", &q.spin),
     ];
-    let asked = of
-        .iter()
-        .find_map(|(what, body)| Some((*what, body.as_ref()?)));
-    let Some((what, body)) = asked else {
+    let mut of = of.iter();
+    let Some((what, body)) = of.find_map(|(what, body)| Some((*what, body.as_ref()?))) else {
         return String::new();
     };
     let when = match (what, q.when) {
@@ -142,9 +127,7 @@ pub(super) fn meaning(q: &QuestionFile, stages: &[StageFile]) -> String {
         _ => {
             let named = |s: &&StageFile| q.at.as_ref().is_none_or(|at| at.text == s.name.text);
             match stages.iter().rfind(named) {
-                Some(stage) if stage.impact.is_none() => {
-                    format!(" at the end of `{}`", stage.name.text)
-                }
+                Some(s) if s.impact.is_none() => format!(" at the end of `{}`", s.name.text),
                 _ => String::from(" just after"),
             }
         }
@@ -172,11 +155,8 @@ pub(super) fn inertia(
 
 fn about(resolver: &mut Resolver<'_>, name: &Text, q: &QuestionFile) -> Option<Vector> {
     let Some(about) = &q.about else {
-        let what = if q.inertia.is_some() {
-            "a moment of inertia"
-        } else {
-            "an angular momentum"
-        };
+        let inertia = q.inertia.as_ref();
+        let what = inertia.map_or("an angular momentum", |_| "a moment of inertia");
         let message = format!("{what} needs the point `about` which it is meant");
         return Fault::new(name.span, message).add_to(&mut resolver.faults);
     };
@@ -237,7 +217,7 @@ fn named(
     }
     let body = &scene.bodies[b].name;
     let is_word = body.chars().all(|c| c.is_ascii_alphanumeric());
-    let own = match is_word {
+    let mut name = match is_word {
         true => format!("{letter}_{body}"),
         false => format!("{letter}_{}", b + 1),
     };
@@ -245,7 +225,6 @@ fn named(
         scene.parameters.iter().any(|p| *p.name == *name)
             || scene.questions.iter().any(|q| q.name == name)
     };
-    let mut name = own;
     while is_taken(&name) {
         name.push_str("_after");
     }
