@@ -98,16 +98,8 @@ impl Parser<'_> {
                 match inner.shape {
                     Shape::List(mut parts) if parts.len() == 2 && exponent.is_none() => {
                         let (base, stop) = (parts.remove(1), inner.end);
-                        let log = |w: Written| {
-                            let (from, to) = (w.start, w.end);
-                            Box::new(Written::new(
-                                Shape::Call(Function::Ln, Box::new(w)),
-                                from,
-                                to,
-                            ))
-                        };
-                        let shape = Shape::Fraction(log(parts.remove(0)), log(base));
-                        return Ok(Written::new(shape, start, stop));
+                        let above = parts.remove(0).call(Function::Ln);
+                        return Ok(above.over(base.call(Function::Ln)).at(start, stop));
                     }
                     shape => Written::new(shape, inner.start, inner.end),
                 }
@@ -173,11 +165,7 @@ impl Parser<'_> {
         };
         let called = Written::new(shape, start, stop);
         Ok(match exponent {
-            Some(exponent) => Written::new(
-                Shape::Power(Box::new(called), Box::new(exponent)),
-                start,
-                stop,
-            ),
+            Some(exponent) => called.power(exponent).at(start, stop),
             None => called,
         })
     }
@@ -193,8 +181,7 @@ impl Parser<'_> {
             _ => whole_number(1, start, end),
         };
         let stop = exponent.end;
-        let shape = Shape::Call(Function::Exp, Box::new(exponent));
-        Ok(Written::new(shape, start, stop))
+        Ok(exponent.call(Function::Exp).at(start, stop))
     }
 
     /// `log_2 x` is ln x over ln 2.
@@ -202,14 +189,13 @@ impl Parser<'_> {
         let above = self.call(Function::Ln, false, start, end)?;
         let stop = above.end;
         let (above, power) = match above.shape {
-            Shape::Power(called, exponent) => (called, Some(exponent)),
-            _ => (Box::new(above), None),
+            Shape::Power(called, exponent) => (*called, Some(*exponent)),
+            _ => (above, None),
         };
-        let base = Box::new(base);
-        let below = Box::new(Written::new(Shape::Call(Function::Ln, base), start, end));
-        let quotient = Written::new(Shape::Fraction(above, below), start, stop);
+        let below = base.call(Function::Ln).at(start, end);
+        let quotient = above.over(below).at(start, stop);
         Ok(match power {
-            Some(power) => Written::new(Shape::Power(Box::new(quotient), power), start, stop),
+            Some(power) => quotient.power(power).at(start, stop),
             None => quotient,
         })
     }
@@ -218,13 +204,8 @@ impl Parser<'_> {
     pub(super) fn signum(&mut self, start: usize) -> Faulty<Written> {
         let above = self.primary()?;
         let stop = above.end;
-        let size = Shape::Abs(Box::new(above.clone()));
-        let below = Box::new(Written::new(size, start, stop));
-        Ok(Written::new(
-            Shape::Fraction(Box::new(above), below),
-            start,
-            stop,
-        ))
+        let size = above.clone().inside(Shape::Abs);
+        Ok(above.over(size).at(start, stop))
     }
 
     /// The argument of a function without brackets: numbers, then one angle, or a product of names such as ω t.

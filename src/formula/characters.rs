@@ -3,7 +3,7 @@
 use super::Relation;
 use super::fault::{Fault, Faulty, is_invisible};
 use super::lexer::{Before, Lexer, Tok};
-use super::symbols::greek_name;
+use super::symbols::{greek_name, pairs};
 
 impl Lexer<'_> {
     pub(super) fn other(&mut self) -> Faulty<Tok> {
@@ -75,31 +75,21 @@ fn sign(c: char) -> Option<Tok> {
         '≠' => Tok::Relation(Relation::NotEqual),
         '≈' | '≃' | '≅' => Tok::Relation(Relation::Approximately),
         '≡' | '＝' => Tok::Relation(Relation::Equal),
-        '½' => Tok::Vulgar(1, 2),
-        '⅓' => Tok::Vulgar(1, 3),
-        '⅔' => Tok::Vulgar(2, 3),
-        '¼' => Tok::Vulgar(1, 4),
-        '¾' => Tok::Vulgar(3, 4),
-        '⅕' => Tok::Vulgar(1, 5),
-        '⅖' => Tok::Vulgar(2, 5),
-        '⅗' => Tok::Vulgar(3, 5),
-        '⅘' => Tok::Vulgar(4, 5),
-        '⅙' => Tok::Vulgar(1, 6),
-        '⅚' => Tok::Vulgar(5, 6),
-        '⅐' => Tok::Vulgar(1, 7),
-        '⅛' => Tok::Vulgar(1, 8),
-        '⅜' => Tok::Vulgar(3, 8),
-        '⅝' => Tok::Vulgar(5, 8),
-        '⅞' => Tok::Vulgar(7, 8),
-        '⅑' => Tok::Vulgar(1, 9),
-        '⅒' => Tok::Vulgar(1, 10),
         '°' | '∘' | 'º' | '˚' => Tok::Degree,
         '⟨' => Tok::Open('<'),
         '⟩' => Tok::Close('>'),
         'π' | '𝜋' | '𝛑' | '𝝅' => Tok::Name("pi".into()),
-        _ => return None,
+        _ => {
+            let (_, of) = pairs(FRACTIONS).find(|(sign, _)| sign.chars().eq([c]))?;
+            let (n, d) = of.split_once('/')?;
+            Tok::Vulgar(n.parse().ok()?, d.parse().ok()?)
+        }
     })
 }
+
+/// Fractions that are one sign.
+const FRACTIONS: &str = "½ 1/2 ⅓ 1/3 ⅔ 2/3 ¼ 1/4 ¾ 3/4 ⅕ 1/5 ⅖ 2/5 ⅗ 3/5 ⅘ 4/5 ⅙ 1/6 ⅚ 5/6 ⅐ 1/7 ⅛ 1/8 ⅜ 3/8 ⅝ 5/8 \
+    ⅞ 7/8 ⅑ 1/9 ⅒ 1/10";
 
 /// A character that has no place in a formula.
 fn strange(c: char, at: usize) -> Box<Fault> {

@@ -2,7 +2,7 @@
 
 use num_traits::{Signed, Zero};
 
-use super::fault::{Fault, Faulty};
+use super::fault::Faulty;
 use super::written::{Link, Shape, Sign, Written, has_arrow};
 use crate::expr::{Expr, Function, Rational, number};
 
@@ -74,11 +74,7 @@ pub(crate) fn value(w: &Written, mode: Mode) -> Faulty<Value> {
                 Some(k) if k <= 64 => scalar(one(inner, mode)?.power(Expr::ratio(1, k))),
                 // `root(x, n)`
                 _ if index.as_symbol().is_some() => scalar(power(w, inner, index.powi(-1), mode)?),
-                _ => Err(Fault::new(
-                    "the index of a root is a whole number from 1 to 64",
-                    w.start,
-                    w.end,
-                )),
+                _ => Err(w.fault("the index of a root is a whole number from 1 to 64")),
             }
         }
         Shape::Call(function, argument) => scalar(call(*function, one(argument, mode)?)),
@@ -106,11 +102,7 @@ pub(crate) fn value(w: &Written, mode: Mode) -> Faulty<Value> {
 pub(crate) fn one(w: &Written, mode: Mode) -> Faulty<Expr> {
     match value(w, mode)? {
         Value::Scalar(e) => Ok(e),
-        Value::Vector(_) => Err(Fault::new(
-            "a vector stands where a number is expected",
-            w.start,
-            w.end,
-        )),
+        Value::Vector(_) => Err(w.fault("a vector stands where a number is expected")),
     }
 }
 
@@ -143,11 +135,7 @@ fn sum(w: &Written, terms: &[(Sign, Written)], mode: Mode) -> Faulty<Value> {
         return bounded(&total, w).map(|()| Value::Scalar(total));
     }
     if scalars.iter().any(|e| !e.is_zero()) {
-        return Err(Fault::new(
-            "a vector and a number are added",
-            w.start,
-            w.end,
-        ));
+        return Err(w.fault("a vector and a number are added"));
     }
     let along = |k: usize| Expr::sum(vectors.iter().map(|v| v[k].clone()));
     Ok(Value::Vector([along(0), along(1), along(2)]))
@@ -174,7 +162,7 @@ fn product(w: &Written, factors: &[(Link, Written)], mode: Mode) -> Faulty<Value
                 Link::Cross => vector = Some((at, cross(&a, &b))),
                 _ => {
                     let message = "a product of two vectors is not read";
-                    return Err(Fault::new(message, w.start, w.end));
+                    return Err(w.fault(message));
                 }
             },
         }
@@ -204,11 +192,7 @@ fn times(w: &Written, value: Value, by: Expr) -> Faulty<Value> {
 /// The product of some scalars, and of a vector where there is one.
 fn scaled(w: &Written, scalars: Vec<Expr>, vector: Option<[Expr; 3]>) -> Faulty<Value> {
     if scalars.iter().map(leading_bits).sum::<u64>() > MAX_BITS {
-        return Err(Fault::new(
-            "the numbers in this product are too large",
-            w.start,
-            w.end,
-        ));
+        return Err(w.fault("the numbers in this product are too large"));
     }
     let scale = Expr::product(scalars);
     Ok(match vector {
@@ -220,7 +204,7 @@ fn scaled(w: &Written, scalars: Vec<Expr>, vector: Option<[Expr; 3]>) -> Faulty<
 fn reciprocal(w: &Written, mode: Mode) -> Faulty<Expr> {
     let below = one(w, mode)?;
     if below.is_zero() {
-        return Err(Fault::new("division by zero", w.start, w.end));
+        return Err(w.fault("division by zero"));
     }
     // 1/(x^-n) stays within the limit of powers, and 1/number is exact.
     Ok(below.powi(-1))
@@ -234,33 +218,21 @@ fn power(w: &Written, base: &Written, exponent: Expr, mode: Mode) -> Faulty<Expr
             k.numer().bits() > 13 && k.abs() > Rational::from(crate::expr::Int::from(MAX_POWER))
         };
         if beyond(k) {
-            return Err(Fault::new(
-                format!("an exponent is at most {MAX_POWER}"),
-                w.start,
-                w.end,
-            ));
+            return Err(w.fault(format!("an exponent is at most {MAX_POWER}")));
         }
         if below.is_zero() && !k.is_positive() {
-            return Err(Fault::new(
-                "zero to a power that is not positive has no value",
-                w.start,
-                w.end,
-            ));
+            return Err(w.fault("zero to a power that is not positive has no value"));
         }
         let times = k.numer().as_i64().unwrap_or(0).unsigned_abs();
         let folds = k.is_integer() && times <= 64;
         if folds && leading_bits(&below) * times > MAX_BITS {
-            return Err(Fault::new("this power is too large", w.start, w.end));
+            return Err(w.fault("this power is too large"));
         }
         // Towers such as ((x^100)^100)^100 multiply their exponents.
         if let crate::expr::Node::Power(_, inner) = below.node()
             && inner.as_number().is_some_and(|a| beyond(&(a * k)))
         {
-            return Err(Fault::new(
-                format!("an exponent is at most {MAX_POWER}"),
-                w.start,
-                w.end,
-            ));
+            return Err(w.fault(format!("an exponent is at most {MAX_POWER}")));
         }
         if number::is(k, 1, 2) {
             return Ok(below.sqrt());
@@ -290,11 +262,7 @@ fn bounded(e: &Expr, w: &Written) -> Faulty<()> {
         _ => std::slice::from_ref(e),
     };
     match terms.iter().any(|t| leading_bits(t) > MAX_BITS) {
-        true => Err(Fault::new(
-            "the numbers in this sum are too large",
-            w.start,
-            w.end,
-        )),
+        true => Err(w.fault("the numbers in this sum are too large")),
         false => Ok(()),
     }
 }

@@ -9,18 +9,8 @@ use super::name;
 use super::symbols::{Parts, is_greek};
 
 /// Ways to write the sign of a derivative, apart from a plain d.
-const SIGNS: [&str; 10] = [
-    "\\mathrm{d}",
-    "\\mathrm d",
-    "\\text{d}",
-    "{\\rm d}",
-    "\\differentialD",
-    "\\partial",
-    "\\dd",
-    "\\mathrm{\\,d}",
-    "∂",
-    "ⅆ",
-];
+const SIGNS: &str = "\\mathrm{d}|\\mathrm d|\\text{d}|{\\rm d}|\\differentialD|\\partial|\\dd|\
+    \\mathrm{\\,d}|∂|ⅆ";
 
 /// Commands of a fraction.
 const FRACTIONS: [&str; 3] = ["\\frac", "\\dfrac", "\\tfrac"];
@@ -191,14 +181,7 @@ impl Lexer<'_> {
         };
         let key = format!("{above}{}/d{}{below}", of.key(), by.key());
         let base = key;
-        self.resolve(
-            start,
-            end,
-            Parts {
-                base,
-                ..Parts::default()
-            },
-        )
+        self.resolve(start, end, Parts::of(base))
     }
 
     /// A sign of a derivative, its order and what it stands before; the upper one of `\frac{d}{dt}` stands alone. `inside` the
@@ -235,7 +218,7 @@ impl Lexer<'_> {
     /// The byte behind a sign of a derivative, and whether it is a plain d.
     fn sign(&self, at: usize) -> Option<(usize, bool)> {
         let rest = &self.text[at..];
-        let Some(sign) = SIGNS.iter().find(|sign| rest.starts_with(**sign)) else {
+        let Some(sign) = SIGNS.split('|').find(|sign| rest.starts_with(sign)) else {
             return rest.starts_with('d').then_some((at + 1, true));
         };
         let command = sign.ends_with(|c: char| c.is_ascii_alphabetic());
@@ -273,10 +256,7 @@ impl Lexer<'_> {
         }
         let greek = (2..=run.min(10)).rev().find(|n| is_greek(&rest[..*n]));
         let length = greek.unwrap_or(1);
-        let mut parts = Parts {
-            base: rest[..length].to_string(),
-            ..Parts::default()
-        };
+        let mut parts = Parts::of(rest[..length].to_string());
         let from = name::combining(self.text, at + length, &mut parts);
         let end = name::tail(self.text, from, &mut parts, self.symbols, false, &mut false);
         // `dtheta` ends here; `dxy` is no differential of one name.
@@ -345,10 +325,7 @@ impl Lexer<'_> {
         }
         let known = |n: &usize| is_greek(&rest[..*n]) || self.symbols.has_base(&rest[..*n]);
         let length = (2..=run.min(40)).rev().find(known).unwrap_or(1);
-        let mut parts = Parts {
-            base: rest[..length].to_string(),
-            ..Parts::default()
-        };
+        let mut parts = Parts::of(rest[..length].to_string());
         let from = name::combining(self.text, at + length, &mut parts);
         let end = name::tail(self.text, from, &mut parts, self.symbols, false, &mut false);
         Some((parts, end))

@@ -18,8 +18,7 @@ impl Parser<'_> {
                     return Err(Fault::new("this exponent is not read", start, end));
                 };
                 let inner = inverse(function, reciprocal, *x, [start, called.end]);
-                let shape = Shape::Power(Box::new(inner), exponent);
-                Ok(Written::new(shape, start, called.end))
+                Ok(inner.power(*exponent).at(start, called.end))
             }
             _ => Err(Fault::new("an argument is missing", start, end)),
         }
@@ -34,46 +33,36 @@ pub(super) fn inverse(
     x: Written,
     [start, end]: [usize; 2],
 ) -> Written {
-    let at = |shape| Written::new(shape, start, end);
     let number = |k| whole_number(k, start, end);
-    if (function, reciprocal) == (Function::Tan, true) {
-        let pi = Box::new(at(Shape::Symbol("pi".into())));
-        let quarter = at(Shape::Fraction(pi, Box::new(number(2))));
-        let arc = at(Shape::Call(Function::Atan, Box::new(x)));
-        return at(Shape::Sum(vec![(Sign::Plus, quarter), (Sign::Minus, arc)]));
-    }
-    let x = match reciprocal {
-        true => at(Shape::Fraction(Box::new(number(1)), Box::new(x))),
+    let cotangent = (function, reciprocal) == (Function::Tan, true);
+    let x = match reciprocal && !cotangent {
+        true => number(1).over(x),
         false => x,
     };
-    let arc = match function {
-        Function::Sin => Some(Function::Asin),
-        Function::Cos => Some(Function::Acos),
-        Function::Tan => Some(Function::Atan),
-        _ => None,
+    let found = match function {
+        Function::Sin => x.call(Function::Asin),
+        Function::Cos => x.call(Function::Acos),
+        Function::Tan if cotangent => {
+            let pi = Written::new(Shape::Symbol("pi".into()), start, end);
+            pi.over(number(2)).plus(Sign::Minus, x.call(Function::Atan))
+        }
+        Function::Tan => x.call(Function::Atan),
+        Function::Tanh => {
+            let x = x.inside(Shape::Bracket);
+            let sum = |sign| number(1).plus(sign, x.clone());
+            let log = sum(Sign::Plus).over(sum(Sign::Minus)).call(Function::Ln);
+            log.over(number(2))
+        }
+        _ => {
+            let sign = match function {
+                Function::Sinh => Sign::Plus,
+                _ => Sign::Minus,
+            };
+            let x = x.inside(Shape::Bracket);
+            let under = x.clone().power(number(2)).plus(sign, number(1));
+            let root = under.inside(|x| Shape::Root(None, x));
+            x.plus(Sign::Plus, root).call(Function::Ln)
+        }
     };
-    if let Some(arc) = arc {
-        return at(Shape::Call(arc, Box::new(x)));
-    }
-    let log = |w: Written| at(Shape::Call(Function::Ln, Box::new(w)));
-    let x = at(Shape::Bracket(Box::new(x)));
-    if function == Function::Tanh {
-        let sum = |sign| {
-            let terms = vec![(Sign::Plus, number(1)), (sign, x.clone())];
-            Box::new(at(Shape::Sum(terms)))
-        };
-        let quotient = at(Shape::Fraction(sum(Sign::Plus), sum(Sign::Minus)));
-        return at(Shape::Fraction(
-            Box::new(log(quotient)),
-            Box::new(number(2)),
-        ));
-    }
-    let sign = match function {
-        Function::Sinh => Sign::Plus,
-        _ => Sign::Minus,
-    };
-    let square = at(Shape::Power(Box::new(x.clone()), Box::new(number(2))));
-    let under = at(Shape::Sum(vec![(Sign::Plus, square), (sign, number(1))]));
-    let root = at(Shape::Root(None, Box::new(under)));
-    log(at(Shape::Sum(vec![(Sign::Plus, x), (Sign::Plus, root)])))
+    found.at(start, end)
 }

@@ -78,6 +78,12 @@ pub(crate) struct Token {
     pub spaced: bool,
 }
 
+impl Token {
+    pub fn fault(&self, message: impl Into<String>) -> Box<Fault> {
+        Fault::new(message, self.start, self.end)
+    }
+}
+
 /// What stood before, as far as it decides how the next piece is read.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Before {
@@ -301,12 +307,7 @@ impl<'a> Lexer<'a> {
             b'0'..=b'9' if single => {
                 let digit = i64::from(first - b'0');
                 self.pos += 1;
-                return Ok(Tok::Number(Literal {
-                    value: ratio(digit, 1),
-                    digits: 1,
-                    place: 0,
-                    decimal: false,
-                }));
+                return Ok(Tok::Number(Literal::of(ratio(digit, 1))));
             }
             b'1' if self.units_first && second == b'/' => match self.unit_below() {
                 Some(tok) => return Ok(tok),

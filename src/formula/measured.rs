@@ -3,7 +3,7 @@
 //! In: a written side. Out: the dimension of its value in SI units, where a unit stands inside, or where two pieces do not
 //! fit together. Symbols carry their units themselves and do not go together with units here.
 
-use super::fault::{Fault, Faulty};
+use super::fault::Faulty;
 use super::written::{Link, Shape, Written};
 use crate::dimension::Dimension;
 use crate::expr::{Rational, ratio};
@@ -16,7 +16,9 @@ pub(super) fn dimension(w: &Written) -> Faulty<Dimension> {
         Shape::Symbol(name) if &**name == "pi" || name.ends_with("_hat") => Ok(none),
         Shape::Symbol(name) => {
             let message = format!("the symbol {name} stands beside units");
-            Err(Fault::new(message, w.start, w.end).hint("leave the units away, or the symbols"))
+            Err(w
+                .fault(message)
+                .hint("leave the units away, or the symbols"))
         }
         Shape::Measured(inner, unit) => Ok(dimension(inner)?.times(&unit.dimension)),
         Shape::Sum(terms) => alike(terms.iter().map(|(_, term)| term)),
@@ -39,11 +41,7 @@ pub(super) fn dimension(w: &Written) -> Faulty<Dimension> {
             match number {
                 Some(k) => Ok(base.power(&k)),
                 None if base.is_none() => Ok(base),
-                None => Err(Fault::new(
-                    "a quantity with a unit has a number for its exponent",
-                    exponent.start,
-                    exponent.end,
-                )),
+                None => Err(exponent.fault("a quantity with a unit has a number for its exponent")),
             }
         }
         Shape::Root(index, inner) => {
@@ -54,11 +52,7 @@ pub(super) fn dimension(w: &Written) -> Faulty<Dimension> {
         Shape::Call(_, inner) | Shape::Reciprocal(_, inner) | Shape::Degrees(inner) => {
             match dimension(inner)?.is_none() {
                 true => Ok(none),
-                false => Err(Fault::new(
-                    "the argument of a function has a unit",
-                    inner.start,
-                    inner.end,
-                )),
+                false => Err(inner.fault("the argument of a function has a unit")),
             }
         }
     }
@@ -84,7 +78,7 @@ fn alike<'a>(mut pieces: impl Iterator<Item = &'a Written>) -> Faulty<Dimension>
                     name(known),
                     name(&dimension)
                 );
-                return Err(Fault::new(message, piece.start, piece.end));
+                return Err(piece.fault(message));
             }
         }
         Ok(())
@@ -94,25 +88,14 @@ fn alike<'a>(mut pieces: impl Iterator<Item = &'a Written>) -> Faulty<Dimension>
 
 /// The value of an exponent or index: a number, or a fraction of two.
 fn number(w: &Written) -> Option<Rational> {
+    let over = |a: &Written, b: &Written| {
+        let below = number(b).filter(|below| *below != ratio(0, 1))?;
+        Some(number(a)? / below)
+    };
     match &w.shape {
-        Shape::Fraction(a, b) => {
-            let below = number(b)?;
-            (below != ratio(0, 1))
-                .then(|| number(a))
-                .flatten()
-                .map(|a| a / below)
-        }
+        Shape::Fraction(a, b) => over(a, b),
         Shape::Bracket(inner) => number(inner),
-        Shape::Product(factors) => match factors.as_slice() {
-            [(_, a), (Link::Over, b)] => {
-                let below = number(b)?;
-                (below != ratio(0, 1))
-                    .then(|| number(a))
-                    .flatten()
-                    .map(|a| a / below)
-            }
-            _ => w.literal().map(|l| l.value),
-        },
+        Shape::Product(factors) if let [(_, a), (Link::Over, b)] = factors.as_slice() => over(a, b),
         _ => w.literal().map(|l| l.value),
     }
 }

@@ -387,21 +387,9 @@ fn content(
 }
 
 fn has_both_signs(w: &Written) -> bool {
-    match &w.shape {
-        Shape::Sum(terms) => terms.iter().any(|(sign, term)| {
-            matches!(sign, Sign::PlusMinus | Sign::MinusPlus) || has_both_signs(term)
-        }),
-        Shape::Product(factors) => factors.iter().any(|(_, f)| has_both_signs(f)),
-        Shape::Fraction(a, b) | Shape::Power(a, b) => has_both_signs(a) || has_both_signs(b),
-        Shape::Root(_, a)
-        | Shape::Call(_, a)
-        | Shape::Reciprocal(_, a)
-        | Shape::Bracket(a)
-        | Shape::Abs(a) => has_both_signs(a),
-        Shape::Degrees(a) | Shape::Measured(a, _) => has_both_signs(a),
-        Shape::List(parts) => parts.iter().any(has_both_signs),
-        Shape::Number(_) | Shape::Symbol(_) => false,
-    }
+    let both = |(sign, _): &(Sign, Written)| matches!(sign, Sign::PlusMinus | Sign::MinusPlus);
+    let here = matches!(&w.shape, Shape::Sum(terms) if terms.iter().any(both));
+    here || w.pieces().into_iter().any(has_both_signs)
 }
 
 /// `\boxed{1.5}\text{ m}`: the text with blanks for all that stands before the inside of the box, and for what closes it,

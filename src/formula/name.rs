@@ -1,6 +1,6 @@
 //! Reads one name: base, accent, index and marks, in plain text, Unicode or LaTeX.
 
-use super::symbols::{Parts, Symbols, greek_name, is_greek, variants};
+use super::symbols::{Parts, Symbols, greek_name, is_greek, letters_at, variants};
 
 /// Longest index or mark, in bytes.
 const LONGEST: usize = 40;
@@ -43,9 +43,7 @@ fn index_text(written: &str) -> Option<String> {
             '−' => out.push('-'),
             '′' | '’' => out.push('\''),
             '\\' => {
-                let length = rest
-                    .find(|c: char| !c.is_ascii_alphabetic())
-                    .unwrap_or(rest.len());
+                let length = letters_at(rest);
                 let word = &rest[..length];
                 rest = &rest[length..];
                 match word {
@@ -71,27 +69,13 @@ fn index_text(written: &str) -> Option<String> {
 
 /// An index character written low.
 pub(crate) fn lowered(c: char) -> Option<char> {
-    Some(match c {
-        '₀'..='₉' => char::from(b'0' + (u32::from(c) - u32::from('₀')) as u8),
-        'ₐ' => 'a',
-        'ₑ' => 'e',
-        'ₕ' => 'h',
-        'ᵢ' => 'i',
-        'ⱼ' => 'j',
-        'ₖ' => 'k',
-        'ₗ' => 'l',
-        'ₘ' => 'm',
-        'ₙ' => 'n',
-        'ₒ' => 'o',
-        'ₚ' => 'p',
-        'ᵣ' => 'r',
-        'ₛ' => 's',
-        'ₜ' => 't',
-        'ᵤ' => 'u',
-        'ᵥ' => 'v',
-        'ₓ' => 'x',
-        _ => return None,
-    })
+    const LOW: &str = "₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ";
+    const PLAIN: &str = "0123456789aehijklmnoprstuvx";
+    if c.is_ascii() {
+        return None;
+    }
+    let at = LOW.chars().position(|low| low == c)?;
+    PLAIN.chars().nth(at)
 }
 
 /// What an index run without braces means.
@@ -207,9 +191,7 @@ pub(crate) fn tail(
                     put_index(parts, &index);
                     at = end;
                 } else if let Some(word) = text[next..].strip_prefix('\\') {
-                    let length = word
-                        .find(|c: char| !c.is_ascii_alphabetic())
-                        .unwrap_or(word.len());
+                    let length = letters_at(word);
                     let font = matches!(&word[..length], "mathrm" | "text" | "textrm" | "rm");
                     let (inside, end) = match braced(text, next + 1 + length) {
                         Some((inside, end)) if font => (inside, end),
@@ -450,9 +432,7 @@ pub(crate) fn base(text: &str, at: usize, parts: &mut Parts, depth: u32) -> Opti
     }
     let end = match c {
         '\\' => {
-            let length = rest[1..]
-                .find(|c: char| !c.is_ascii_alphabetic())
-                .unwrap_or(rest.len() - 1);
+            let length = letters_at(&rest[1..]);
             let word = &rest[1..1 + length];
             let behind = at + 1 + length;
             match word {
@@ -523,20 +503,17 @@ pub(crate) fn base(text: &str, at: usize, parts: &mut Parts, depth: u32) -> Opti
 
 /// Letter and accent of one character.
 pub(crate) fn accented(c: char) -> Option<(char, &'static str)> {
-    Some(match c {
-        'î' => ('i', "hat"),
-        'ĵ' => ('j', "hat"),
-        'ŷ' => ('y', "hat"),
-        'ẑ' => ('z', "hat"),
-        'ẋ' => ('x', "dot"),
-        'ẏ' => ('y', "dot"),
-        'ż' => ('z', "dot"),
-        'ṙ' => ('r', "dot"),
-        'ṡ' => ('s', "dot"),
-        'ṗ' => ('p', "dot"),
-        'ẍ' => ('x', "ddot"),
-        'ÿ' => ('y', "ddot"),
-        _ => return None,
+    const LETTERS: [[&str; 3]; 3] = [
+        ["îĵŷẑ", "ijyz", "hat"],
+        ["ẋẏżṙṡṗ", "xyzrsp", "dot"],
+        ["ẍÿ", "xy", "ddot"],
+    ];
+    if c.is_ascii() {
+        return None;
+    }
+    LETTERS.iter().find_map(|[with, plain, accent]| {
+        let at = with.chars().position(|letter| letter == c)?;
+        Some((plain.chars().nth(at)?, *accent))
     })
 }
 

@@ -1,6 +1,6 @@
 //! Functions of two arguments, written with those the expressions have.
 
-use super::fault::{Fault, Faulty};
+use super::fault::Faulty;
 use super::lexer::Tok;
 use super::parser::Parser;
 use super::value::whole_number;
@@ -52,38 +52,32 @@ impl Parser<'_> {
     pub(super) fn pair(&mut self, function: Pair, start: usize) -> Faulty<Written> {
         let (one, other) = self.list_of_two(function.name())?;
         let end = other.end;
-        let at = |shape| Written::new(shape, start, end);
-        let number = |k| Box::new(whole_number(k, start, end));
-        let inner = |w: &Written| at(Shape::Bracket(Box::new(w.clone())));
-        let sum = |terms: Vec<(Sign, Written)>| at(Shape::Sum(terms));
-        let square = |w: &Written| (Sign::Plus, at(Shape::Power(Box::new(inner(w)), number(2))));
+        let number = |k| whole_number(k, start, end);
+        let bracket = |w: &Written| w.clone().inside(Shape::Bracket);
         let length = |x: &Written, y: &Written| {
-            let under = Box::new(sum(vec![square(x), square(y)]));
-            at(Shape::Root(None, under))
+            let [x, y] = [x, y].map(|w| bracket(w).power(number(2)));
+            x.plus(Sign::Plus, y).inside(|x| Shape::Root(None, x))
         };
-        let quotient = |above, below| at(Shape::Fraction(Box::new(above), Box::new(below)));
-        let sign = match function {
-            Pair::Root => {
-                let (inside, index) = (Box::new(one), Box::new(other));
-                return Ok(at(Shape::Root(Some(index), inside)));
-            }
-            Pair::Length => return Ok(length(&one, &other)),
+        let found = match function {
+            Pair::Root => one.inside(|x| Shape::Root(Some(Box::new(other)), x)),
+            Pair::Length => length(&one, &other),
             Pair::Angle => {
-                let below = sum(vec![
-                    (Sign::Plus, length(&one, &other)),
-                    (Sign::Plus, inner(&other)),
-                ]);
-                let arc = Shape::Call(Function::Atan, Box::new(quotient(inner(&one), below)));
-                return Ok(quotient(at(arc), at(Shape::Fraction(number(1), number(2)))));
+                let below = length(&one, &other).plus(Sign::Plus, bracket(&other));
+                let half = bracket(&one).over(below).call(Function::Atan);
+                half.over(number(1).over(number(2)))
             }
-            Pair::Greater => Sign::Plus,
-            Pair::Smaller => Sign::Minus,
+            Pair::Greater | Pair::Smaller => {
+                let sign = match function {
+                    Pair::Greater => Sign::Plus,
+                    _ => Sign::Minus,
+                };
+                let [a, b] = [one, other].map(|w| w.inside(Shape::Bracket));
+                let apart = a.clone().plus(Sign::Minus, b.clone()).inside(Shape::Abs);
+                let terms = vec![(Sign::Plus, a), (Sign::Plus, b), (sign, apart)];
+                Written::new(Shape::Sum(terms), start, end).over(number(2))
+            }
         };
-        let (a, b) = ((Sign::Plus, inner(&one)), inner(&other));
-        let apart = sum(vec![a.clone(), (Sign::Minus, b.clone())]);
-        let apart = at(Shape::Abs(Box::new(apart)));
-        let above = sum(vec![a, (Sign::Plus, b), (sign, apart)]);
-        Ok(quotient(above, *number(2)))
+        Ok(found.at(start, end))
     }
 
     /// Two arguments in round brackets, between which a comma is never a decimal one.
@@ -91,7 +85,7 @@ impl Parser<'_> {
         let open = self.next()?;
         let needs = || {
             let message = format!("{name} takes two arguments, as in {name}(x, 3)");
-            Fault::new(message, open.start, open.end)
+            open.fault(message)
         };
         if open.tok != Tok::Open('(') {
             return Err(needs());

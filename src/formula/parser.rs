@@ -89,11 +89,7 @@ impl<'a> Parser<'a> {
                 Tok::End => return Ok((sides, relations)),
                 Tok::Relation(relation) => {
                     if relations.len() >= 32 {
-                        return Err(Fault::new(
-                            "at most 32 relations in one line",
-                            token.start,
-                            token.end,
-                        ));
+                        return Err(token.fault("at most 32 relations in one line"));
                     }
                     relations.push(relation);
                     sides.push(self.side()?);
@@ -114,19 +110,16 @@ impl<'a> Parser<'a> {
             self.next()?;
             written = self.over(written)?;
         }
+        let mut unit = None;
         if let Tok::Unit(_) = self.peek()?.tok {
             let token = self.next()?;
-            if let Tok::Unit(unit) = token.tok {
-                return Ok(Side {
-                    written,
-                    unit: Some((*unit, token.start, token.end)),
-                    measured: self.units > 0,
-                });
+            if let Tok::Unit(found) = token.tok {
+                unit = Some((*found, token.start, token.end));
             }
         }
         Ok(Side {
             written,
-            unit: None,
+            unit,
             measured: self.units > 0,
         })
     }
@@ -163,11 +156,14 @@ impl<'a> Parser<'a> {
         result
     }
 
+    /// The text of a token, as far as messages show it.
+    pub(super) fn shown(&self, token: &Token) -> String {
+        let text = &self.lexer.text[token.start..token.end];
+        text.chars().take(24).collect()
+    }
+
     pub(super) fn unexpected(&self, token: &Token) -> Box<Fault> {
-        let shown: String = self.lexer.text[token.start..token.end]
-            .chars()
-            .take(24)
-            .collect();
+        let shown = self.shown(token);
         let message = match &token.tok {
             Tok::End => "the formula ends here, and something is missing".to_string(),
             Tok::Close(_) => format!("`{shown}` closes a bracket that was not opened"),
@@ -178,15 +174,12 @@ impl<'a> Parser<'a> {
             Tok::Number(_) => format!("the number `{shown}` directly behind another number"),
             _ => format!("`{shown}` is not expected here"),
         };
-        Fault::new(message, token.start, token.end)
+        token.fault(message)
     }
 
     /// The fault where a value should start.
     pub(super) fn missing(&self, token: &Token) -> Box<Fault> {
-        let shown: String = self.lexer.text[token.start..token.end]
-            .chars()
-            .take(24)
-            .collect();
+        let shown = self.shown(token);
         let message = match &token.tok {
             Tok::End if self.empty => "the formula is empty".to_string(),
             Tok::End => {
@@ -194,7 +187,7 @@ impl<'a> Parser<'a> {
             }
             _ => format!("a number, a name or a bracket is expected before `{shown}`"),
         };
-        Fault::new(message, token.start, token.end)
+        token.fault(message)
     }
 
     pub(super) fn sum(&mut self) -> Faulty<Written> {

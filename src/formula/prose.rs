@@ -84,62 +84,28 @@ pub(super) fn behind_words(text: &str, known: &dyn Fn(&str) -> bool) -> Option<u
 
 /// The value that goes on from what was asked: `≈ 1.2 m/s`, `= 1.2 m/s`, `about 1.2 m/s`.
 pub(super) fn value(text: &str) -> Option<&str> {
-    const WORDS: [&str; 7] = [
-        "about",
-        "approximately",
-        "approx.",
-        "approx",
-        "roughly",
-        "circa",
-        "ca.",
-    ];
+    const WORDS: &str = "about|approximately|approx.|approx|roughly|circa|ca.";
     let text = text.trim_start();
     let signed = |sign: &&str| text.strip_prefix(*sign);
     if let Some(behind) = ["≈", "\\approx", "="].iter().find_map(signed) {
         return (!behind.starts_with(['=', '>', '<'])).then_some(behind);
     }
-    let said = |word: &&str| {
+    let said = |word: &str| {
         let (said, behind) = text.split_at_checked(word.len())?;
         let number = behind.strip_prefix(' ')?.trim_start();
         let is_number = number.starts_with(|c: char| c.is_ascii_digit() || "-−+.".contains(c));
         (said.eq_ignore_ascii_case(word) && is_number).then_some(behind)
     };
-    WORDS.iter().find_map(said)
+    WORDS.split('|').find_map(said)
 }
 
 /// Where the last of several statements starts that follow from each other: `mgh = ½mv² ⟹ v = √(2gh)`; also behind a word
 /// such as `Therefore,`.
 pub(super) fn conclusion(text: &str, held: Held) -> Option<usize> {
-    const ARROWS: [&str; 11] = [
-        "\\implies",
-        "\\Longrightarrow",
-        "\\Rightarrow",
-        "\\therefore",
-        "\\Leftrightarrow",
-        "\\iff",
-        "⟹",
-        "⇒",
-        "∴",
-        "⟺",
-        "⇔",
-    ];
-    const WORDS: [&str; 15] = [
-        "the final answer is",
-        "the answer is",
-        "the solution is",
-        "the result is",
-        "we get",
-        "final answer",
-        "therefore",
-        "hence",
-        "thus",
-        "so",
-        "then",
-        "finally",
-        "consequently",
-        "answer",
-        "it follows that",
-    ];
+    const ARROWS: &str =
+        "\\implies|\\Longrightarrow|\\Rightarrow|\\therefore|\\Leftrightarrow|\\iff|⟹|⇒|∴|⟺|⇔";
+    const WORDS: &str = "the final answer is|the answer is|the solution is|the result is|we get|final answer|\
+        therefore|hence|thus|so|then|finally|consequently|answer|it follows that";
     if !held.leads_on() {
         return None;
     }
@@ -153,7 +119,7 @@ pub(super) fn conclusion(text: &str, held: Held) -> Option<usize> {
     }
     let arrow = match held.any("\\\x01") {
         true => ARROWS
-            .iter()
+            .split('|')
             .filter_map(|arrow| text.rfind(arrow).map(|at| at + arrow.len()))
             .max()
             .filter(|at| !text[*at..].trim().is_empty()),
@@ -172,11 +138,11 @@ pub(super) fn conclusion(text: &str, held: Held) -> Option<usize> {
     // `\text{so } t = …`, `\text{The velocity is } …`
     if let Some((said, behind)) = rest.strip_prefix("\\text{").and_then(|r| r.split_once('}')) {
         let said = said.trim().trim_end_matches([',', ':']);
-        if said.ends_with(" is") || WORDS.iter().any(|word| word.eq_ignore_ascii_case(said)) {
+        if said.ends_with(" is") || WORDS.split('|').any(|word| word.eq_ignore_ascii_case(said)) {
             return Some(text.len() - behind.len());
         }
     }
-    let word = WORDS.iter().find_map(|word| {
+    let word = WORDS.split('|').find_map(|word| {
         let (said, behind) = rest.split_at_checked(word.len())?;
         said.eq_ignore_ascii_case(word).then_some(())?;
         let mark = behind.starts_with([',', ':']);
@@ -185,7 +151,7 @@ pub(super) fn conclusion(text: &str, held: Held) -> Option<usize> {
             let name = behind.split('=').next().unwrap_or_default().trim();
             !name.is_empty() && !name.contains(' ')
         };
-        let short = matches!(*word, "so" | "then");
+        let short = matches!(word, "so" | "then");
         let gap = mark || (behind.starts_with(' ') && (!short || named()));
         let said = behind.contains('=') || word.ends_with(" is");
         let stars = 2 * usize::from(bold && behind[usize::from(mark)..].starts_with("**"));
@@ -200,22 +166,12 @@ pub(super) fn conclusion(text: &str, held: Held) -> Option<usize> {
 
 /// Where a relation starts that a word or an arrow ties to the one before it: `½mv² = mgh so v = √(2gh)`.
 fn said_between(text: &str) -> Option<usize> {
-    const WORDS: [&str; 9] = [
-        " so ",
-        " hence ",
-        " thus ",
-        " therefore ",
-        " gives ",
-        " yields ",
-        " and so ",
-        "=>",
-        "->",
-    ];
+    const WORDS: &str = " so | hence | thus | therefore | gives | yields | and so |=>|->";
     if text.matches(RELATIONS).count() < 2 {
         return None;
     }
     let found = WORDS
-        .iter()
+        .split('|')
         .filter_map(|word| text.rfind(word).map(|at| (at, at + word.len())));
     let (start, end) = found.max_by_key(|(_, end)| *end)?;
     (text[..start].contains(RELATIONS) && text[end..].contains(RELATIONS)).then_some(end)

@@ -217,31 +217,15 @@ pub(crate) fn letters_apart(text: &str, symbols: &Symbols) -> Option<String> {
 
 /// Where the parts of a list end and the next begin: `x = 3 or x = -3`, `2, -2`. In a set any comma parts them.
 fn gaps(text: &str, set: bool) -> Vec<(usize, usize)> {
-    const WORDS: [&str; 16] = [
-        "∨",
-        "∧",
-        "\\lor",
-        "\\land",
-        "\\vee",
-        "\\wedge",
-        "\\text{ or }",
-        "\\text{or}",
-        "\\mathrm{or}",
-        " or ",
-        "\\text{ and }",
-        "\\text{and}",
-        " and ",
-        "\\quad",
-        "\\\\",
-        "; ",
-    ];
+    const WORDS: &str = "∨|∧|\\lor|\\land|\\vee|\\wedge|\\text{ or }|\\text{or}|\\mathrm{or}| or |\
+        \\text{ and }|\\text{and}| and |\\quad|\\\\|; ";
     let mut found: Vec<(usize, usize)> = Vec::new();
     let mut depth = 0i32;
     let mut at = 0;
     let semicolons = text.contains(';');
     let begins = |c: char| c.is_alphabetic() || " \\-−±".contains(c);
     while let Some(c) = text[at..].chars().next() {
-        let word = WORDS.iter().find(|word| text[at..].starts_with(**word));
+        let word = WORDS.split('|').find(|word| text[at..].starts_with(word));
         let length = match (word, c) {
             (Some(word), _) if depth == 0 => word.len(),
             // Behind a comma a sign or a name begins another value: `3,-3`, `x=1,y=2`.

@@ -221,6 +221,14 @@ pub(crate) struct Parts {
 }
 
 impl Parts {
+    /// A base alone.
+    pub fn of(base: impl Into<String>) -> Parts {
+        Parts {
+            base: base.into(),
+            ..Parts::default()
+        }
+    }
+
     /// The one way to write the name.
     pub fn key(&self) -> String {
         let mut key = self.base.clone();
@@ -314,6 +322,16 @@ pub(crate) fn letters() -> impl Iterator<Item = (&'static str, &'static str)> {
     pairs(LETTERS)
 }
 
+/// Whether a word is one of a list.
+pub(super) fn among(list: &str, word: &str) -> bool {
+    list.split(' ').any(|known| known == word)
+}
+
+/// How many letters a text begins with.
+pub(super) fn letters_at(text: &str) -> usize {
+    text.bytes().take_while(u8::is_ascii_alphabetic).count()
+}
+
 /// The words of a table, two and two.
 pub(super) fn pairs(table: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
     let mut words = table.split(' ');
@@ -334,60 +352,22 @@ pub(crate) fn is_greek(word: &str) -> bool {
     }
 }
 
+/// Letters with the names they are read by; capitals that look as their Latin kin do are these.
+const NAMES: &str = "α alpha β beta γ gamma δ delta ε epsilon ϵ epsilon ζ zeta η eta θ theta ϑ theta ι iota κ kappa \
+    λ lambda μ mu µ mu ν nu ξ xi ρ rho ϱ rho σ sigma τ tau υ upsilon φ phi ϕ phi χ chi ψ psi ω omega ħ hbar ℏ hbar \
+    Γ Gamma Δ Delta ∆ Delta Θ Theta Λ Lambda Ξ Xi Σ Sigma Υ Upsilon Φ Phi Ψ Psi Ω Omega \u{2126} Omega ℓ l Α A Β B \
+    Ε E Ζ Z Η H Ι I Κ K Μ M Ν N Ο O Ρ P Τ T Χ X ο o";
+
 /// The name of a Greek letter or a letter that stands for one; π is not among them.
 pub(crate) fn greek_name(c: char) -> Option<&'static str> {
-    Some(match c {
-        'α' => "alpha",
-        'β' => "beta",
-        'γ' => "gamma",
-        'δ' => "delta",
-        'ε' | 'ϵ' => "epsilon",
-        'ζ' => "zeta",
-        'η' => "eta",
-        'θ' | 'ϑ' => "theta",
-        'ι' => "iota",
-        'κ' => "kappa",
-        'λ' => "lambda",
-        'μ' | 'µ' => "mu",
-        'ν' => "nu",
-        'ξ' => "xi",
-        'ρ' | 'ϱ' => "rho",
-        'σ' => "sigma",
-        'τ' => "tau",
-        'υ' => "upsilon",
-        'φ' | 'ϕ' => "phi",
-        'χ' => "chi",
-        'ψ' => "psi",
-        'ω' => "omega",
-        'ħ' | 'ℏ' => "hbar",
-        'Γ' => "Gamma",
-        'Δ' | '∆' => "Delta",
-        'Θ' => "Theta",
-        'Λ' => "Lambda",
-        'Ξ' => "Xi",
-        'Σ' => "Sigma",
-        'Υ' => "Upsilon",
-        'Φ' => "Phi",
-        'Ψ' => "Psi",
-        'Ω' | '\u{2126}' => "Omega",
-        'ℓ' => "l",
-        // Capitals that look as their Latin kin do.
-        'Α' => "A",
-        'Β' => "B",
-        'Ε' => "E",
-        'Ζ' => "Z",
-        'Η' => "H",
-        'Ι' => "I",
-        'Κ' => "K",
-        'Μ' => "M",
-        'Ν' => "N",
-        'Ο' => "O",
-        'Ρ' => "P",
-        'Τ' => "T",
-        'Χ' => "X",
-        'ο' => "o",
-        c => return mathematical(c),
-    })
+    static BY_LETTER: LazyLock<FxHashMap<char, &str>> = LazyLock::new(|| {
+        let letters = pairs(NAMES).flat_map(|(c, name)| c.chars().map(move |c| (c, name)));
+        letters.collect()
+    });
+    match c.is_ascii() {
+        true => None,
+        false => BY_LETTER.get(&c).copied().or_else(|| mathematical(c)),
+    }
 }
 
 /// The plain letter behind one of the styled mathematical letters of Unicode, such as an italic m.
@@ -436,17 +416,8 @@ pub(crate) fn is_angle_name(name: &str) -> bool {
     let index = name[base.len()..].strip_prefix('_');
     let accented = |index: &str| ACCENTS.iter().any(|accent| index.starts_with(accent));
     !index.is_some_and(accented)
-        && matches!(
+        && among(
+            "alpha beta gamma theta vartheta phi varphi psi Theta Phi",
             base,
-            "alpha"
-                | "beta"
-                | "gamma"
-                | "theta"
-                | "vartheta"
-                | "phi"
-                | "varphi"
-                | "psi"
-                | "Theta"
-                | "Phi"
         )
 }

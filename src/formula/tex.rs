@@ -5,7 +5,7 @@ use super::fault::{Fault, Faulty, is_invisible};
 use super::lexer::{Before, Lexer, Matrix, Tok};
 use super::name;
 use super::pair::Pair;
-use super::symbols::Parts;
+use super::symbols::{Parts, letters_at};
 use super::words::function;
 
 /// Words that a condition begins with.
@@ -15,9 +15,7 @@ impl<'a> Lexer<'a> {
     pub(super) fn command(&mut self, single: bool) -> Faulty<Tok> {
         let start = self.pos;
         let rest = &self.text[start + 1..];
-        let length = rest
-            .find(|c: char| !c.is_ascii_alphabetic())
-            .unwrap_or(rest.len());
+        let length = letters_at(rest);
         let word = &rest[..length];
         let end = start + 1 + length;
         if matches!(
@@ -385,9 +383,7 @@ pub(super) fn decoration(rest: &str) -> Option<usize> {
     ) {
         return Some(1);
     }
-    let length = rest
-        .find(|c: char| !c.is_ascii_alphabetic())
-        .unwrap_or(rest.len());
+    let length = letters_at(rest);
     let known = matches!(
         &rest[..length],
         "left"
@@ -471,18 +467,7 @@ pub(super) fn shows_space(text: &[u8], start: usize, end: usize) -> bool {
 pub(super) fn degree_mark(rest: &str) -> Option<usize> {
     let blanks = rest.len() - rest.trim_start_matches(' ').len();
     let body = &rest[blanks..];
-    let marks = [
-        "{\\circ}",
-        "\\circ",
-        "{∘}",
-        "{°}",
-        "∘",
-        "°",
-        "{\\degree}",
-        "\\degree",
-    ];
-    marks
-        .iter()
-        .find(|mark| body.starts_with(**mark))
-        .map(|mark| blanks + mark.len())
+    const MARKS: &str = r"{\circ}|\circ|{∘}|{°}|∘|°|{\degree}|\degree";
+    let mark = MARKS.split('|').find(|mark| body.starts_with(mark))?;
+    Some(blanks + mark.len())
 }

@@ -2,7 +2,7 @@
 
 use super::lexer::{Before, Lexer, Tok};
 use super::note::Remark;
-use super::symbols::pairs;
+use super::symbols::{among, letters_at, pairs};
 use crate::dimension;
 
 /// Longest unit with its decoration, in bytes.
@@ -107,34 +107,9 @@ impl Lexer<'_> {
             }
             if !self.units_first {
                 // Without declarations 3 m g is a force more often than a unit, and m V a momentum.
-                let telling = words(&plain).any(|w| {
-                    matches!(
-                        w,
-                        "kg" | "rad"
-                            | "deg"
-                            | "rpm"
-                            | "cm"
-                            | "mm"
-                            | "km"
-                            | "Hz"
-                            | "Nm"
-                            | "Ns"
-                            | "kN"
-                            | "kJ"
-                            | "MJ"
-                            | "mph"
-                            | "ft"
-                            | "J"
-                            | "N"
-                            | "kWh"
-                            | "eV"
-                            | "keV"
-                            | "MeV"
-                            | "kcal"
-                            | "bar"
-                            | "hp"
-                    )
-                }) || plain.contains("/s")
+                const TELLING: &str = "kg rad deg rpm cm mm km Hz Nm Ns kN kJ MJ mph ft J N kWh eV keV MeV kcal bar hp";
+                let telling = words(&plain).any(|w| among(TELLING, w))
+                    || plain.contains("/s")
                     || plain.contains("s^-")
                     || plain.contains("s⁻");
                 let unit_first = telling || self.before == Before::Number { decimal: true };
@@ -187,9 +162,7 @@ pub(super) fn spelled(text: &str) -> String {
             // Braces of an exponent go with it.
             continue;
         }
-        let length = rest
-            .find(|c: char| !c.is_ascii_alphabetic())
-            .unwrap_or(rest.len());
+        let length = letters_at(rest);
         let word = &rest[..length];
         rest = &rest[length..];
         if word == "per" {
@@ -254,9 +227,7 @@ pub(crate) fn plain_unit(side: &str) -> Option<String> {
         rest = &rest[c.len_utf8()..];
         match c {
             '\\' => {
-                let length = rest
-                    .find(|c: char| !c.is_ascii_alphabetic())
-                    .unwrap_or(rest.len());
+                let length = letters_at(rest);
                 let word = &rest[..length];
                 rest = &rest[length..];
                 match word {

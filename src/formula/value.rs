@@ -30,30 +30,24 @@ impl Parser<'_> {
                         Tok::Caret => self.exponent()?,
                         _ => raised_number(&token),
                     };
-                    let (start, end) = (base.start, exponent.end);
-                    base =
-                        Written::new(Shape::Power(Box::new(base), Box::new(exponent)), start, end);
+                    base = base.power(exponent);
                     if let Tok::Caret | Tok::Raised(_) = self.peek()?.tok {
                         let token = self.next()?;
-                        return Err(Fault::new(
-                            "two exponents on one base",
-                            token.start,
-                            token.end,
-                        )
-                        .hint("write brackets"));
+                        return Err(token
+                            .fault("two exponents on one base")
+                            .hint("write brackets"));
                     }
                 }
                 Tok::Percent => {
                     let end = self.next()?.end;
-                    let start = base.start;
-                    let hundred = Box::new(whole_number(100, start, end));
-                    base = Written::new(Shape::Fraction(Box::new(base), hundred), start, end);
+                    let hundred = whole_number(100, base.start, end);
+                    base = base.over(hundred);
                 }
                 Tok::Degree => {
                     let token = self.next()?;
                     if !base.is_numeric() {
                         let message = "degrees stand behind a number";
-                        return Err(Fault::new(message, token.start, token.end));
+                        return Err(token.fault(message));
                     }
                     let (start, end) = (base.start, token.end);
                     base = Written::new(Shape::Degrees(Box::new(base)), start, end);
@@ -71,8 +65,7 @@ impl Parser<'_> {
             if let Tok::Caret = p.peek()?.tok {
                 p.next()?;
                 let above = p.exponent()?;
-                let (from, to) = (inner.start, above.end);
-                inner = Written::new(Shape::Power(Box::new(inner), Box::new(above)), from, to);
+                inner = inner.power(above);
             }
             let end = inner.end;
             Ok(match sign {
@@ -91,37 +84,25 @@ impl Parser<'_> {
             Tok::Vulgar(n, d) => Ok(vulgar(n, d, start, end)),
             Tok::Open(open) => self.bracket(open, start, end),
             Tok::Relation(Relation::Less) => self.bracket('<', start, end),
-            Tok::Bar => {
-                let outer = std::mem::replace(&mut self.bars, 1);
+            Tok::Bar | Tok::OpenBar => {
+                let (bars, closing) = match token.tok {
+                    Tok::Bar => (1, Tok::Bar),
+                    _ => (0, Tok::CloseBar),
+                };
+                let outer = std::mem::replace(&mut self.bars, bars);
                 let inner = self.sum()?;
                 self.bars = outer;
                 let close = self.next()?;
-                match close.tok {
-                    Tok::Bar => Ok(Written::new(Shape::Abs(Box::new(inner)), start, close.end)),
-                    _ => Err(self.unclosed("|", start, end, &close)),
-                }
-            }
-            Tok::OpenBar => {
-                let outer = std::mem::replace(&mut self.bars, 0);
-                let inner = self.sum()?;
-                self.bars = outer;
-                let close = self.next()?;
-                match close.tok {
-                    Tok::CloseBar => {
-                        Ok(Written::new(Shape::Abs(Box::new(inner)), start, close.end))
-                    }
-                    _ => Err(self.unclosed("|", start, end, &close)),
+                match close.tok == closing {
+                    true => Ok(inner.inside(Shape::Abs).at(start, close.end)),
+                    false => Err(self.unclosed("|", start, end, &close)),
                 }
             }
             Tok::Fraction => self.deeper(|p| {
                 let above = p.argument("the numerator")?;
                 let below = p.argument("the denominator")?;
                 let stop = below.end;
-                Ok(Written::new(
-                    Shape::Fraction(Box::new(above), Box::new(below)),
-                    start,
-                    stop,
-                ))
+                Ok(above.over(below).at(start, stop))
             }),
             Tok::Root(index) => self.deeper(|p| p.root(index, start, end)),
             Tok::Call(function) => self.deeper(|p| p.call(function, false, start, end)),
@@ -150,11 +131,11 @@ impl Parser<'_> {
                 end,
             ),
             _ => {
-                let shown: String = self.lexer.text[at.start..at.end].chars().take(24).collect();
+                let shown = self.shown(at);
                 let message = format!(
                     "`{shown}` stands where the `{open}` opened at byte {start} should be closed"
                 );
-                Fault::new(message, at.start, at.end)
+                at.fault(message)
             }
         }
     }
@@ -162,9 +143,7 @@ impl Parser<'_> {
     /// What stands above `\over`, with what follows as its divisor.
     pub(super) fn over(&mut self, above: Written) -> Faulty<Written> {
         let below = self.sum()?;
-        let (start, end) = (above.start, below.end);
-        let shape = Shape::Fraction(Box::new(above), Box::new(below));
-        Ok(Written::new(shape, start, end))
+        Ok(above.over(below))
     }
 
     fn bracket(&mut self, open: char, start: usize, opened: usize) -> Faulty<Written> {
@@ -182,11 +161,7 @@ impl Parser<'_> {
         }
         while token.tok == Tok::Comma && open != '{' {
             if parts.len() >= 3 {
-                return Err(Fault::new(
-                    "a vector has at most three components",
-                    token.start,
-                    token.end,
-                ));
+                return Err(token.fault("a vector has at most three components"));
             }
             parts.push(self.sum()?);
             token = self.next()?;
@@ -235,24 +210,14 @@ impl Parser<'_> {
             | Tok::Vulgar(..) => self.primary(),
             _ => {
                 let token = self.next()?;
-                Err(Fault::new(
-                    format!("{what} is expected here"),
-                    token.start,
-                    token.end,
-                ))
+                Err(token.fault(format!("{what} is expected here")))
             }
         }
     }
 }
 
 pub(super) fn whole_number(value: i64, start: usize, end: usize) -> Written {
-    let literal = Literal {
-        value: ratio(value, 1),
-        digits: 1,
-        place: 0,
-        decimal: false,
-    };
-    Written::new(Shape::Number(literal), start, end)
+    Written::new(Shape::Number(Literal::of(ratio(value, 1))), start, end)
 }
 
 pub(super) fn raised_number(token: &Token) -> Written {
@@ -260,34 +225,21 @@ pub(super) fn raised_number(token: &Token) -> Written {
         Tok::Raised(value) => value.clone(),
         _ => ratio(1, 1),
     };
-    let literal = Literal {
-        value,
-        digits: 1,
-        place: 0,
-        decimal: false,
-    };
-    Written::new(Shape::Number(literal), token.start, token.end)
+    Written::new(Shape::Number(Literal::of(value)), token.start, token.end)
 }
 
 fn vulgar(n: i64, d: i64, start: usize, end: usize) -> Written {
-    let part = |value| Box::new(whole_number(value, start, end));
-    Written::new(Shape::Fraction(part(n), part(d)), start, end)
+    whole_number(n, start, end).over(whole_number(d, start, end))
 }
 
 /// The bytes of the mark of a transpose behind `^`.
 fn transposed(rest: &str) -> Option<usize> {
     let inside = rest.strip_prefix('{');
     let mark = inside.unwrap_or(rest).trim_start_matches(' ');
-    let marks = [
-        "T",
-        "\\top",
-        "\\intercal",
-        "\\mathsf{T}",
-        "\\mathsf T",
-        "\\mathrm{T}",
-        "\\mathrm T",
-    ];
-    let behind = marks.iter().find_map(|known| mark.strip_prefix(known))?;
+    const MARKS: &str = r"T|\top|\intercal|\mathsf{T}|\mathsf T|\mathrm{T}|\mathrm T";
+    let behind = MARKS
+        .split('|')
+        .find_map(|known| mark.strip_prefix(known))?;
     let behind = match inside {
         Some(_) => behind.strip_prefix('}')?,
         None => behind,

@@ -19,10 +19,7 @@ impl Lexer<'_> {
         let start = self.pos;
         let rest = &self.text[start..];
         if single {
-            let parts = Parts {
-                base: rest[..1].to_string(),
-                ..Parts::default()
-            };
+            let parts = Parts::of(rest[..1].to_string());
             return self.resolve(start, start + 1, parts);
         }
         // A longer run is read in pieces.
@@ -331,10 +328,7 @@ impl Lexer<'_> {
         // A word that starts with declared letters is one fault, not a product and a fault.
         let from = self.run_from.min(start);
         let (start, run) = (from, run + start - from);
-        let mut parts = Parts {
-            base: self.text[start..start + run].to_string(),
-            ..Parts::default()
-        };
+        let mut parts = Parts::of(self.text[start..start + run].to_string());
         let mut took = false;
         let end = name::tail(
             self.text,
@@ -380,10 +374,7 @@ impl Lexer<'_> {
 
     /// A declared name whose base is these bytes.
     pub(super) fn declared_name(&mut self, start: usize, end: usize) -> Option<Tok> {
-        let mut parts = Parts {
-            base: self.text[start..end].to_string(),
-            ..Parts::default()
-        };
+        let mut parts = Parts::of(self.text[start..end].to_string());
         let at = name::combining(self.text, end, &mut parts);
         let mut took = false;
         let stop = name::tail(self.text, at, &mut parts, self.symbols, false, &mut took);
@@ -512,10 +503,7 @@ impl Lexer<'_> {
                 return Some(self.resolve(start, stop, parts.clone()));
             }
         }
-        let whole = Parts {
-            base: format!("{}({})", parts.key(), when.key()),
-            ..Parts::default()
-        };
+        let whole = Parts::of(format!("{}({})", parts.key(), when.key()));
         let declared = |parts: &Parts| name::find(parts, self.symbols).is_some();
         let factor = !self.symbols.is_open() || declared(parts) || declared(&when);
         if time != "0" && factor && !declared(&whole) {

@@ -1,5 +1,6 @@
 //! A formula as somebody wrote it: minus signs, fractions, brackets and products without a sign, each with its place.
 
+use super::Fault;
 use crate::dimension::Unit;
 use crate::expr::{Function, Rational, Symbol};
 
@@ -53,6 +54,18 @@ pub struct Literal {
     pub decimal: bool,
 }
 
+impl Literal {
+    /// A number of one digit.
+    pub(crate) fn of(value: Rational) -> Literal {
+        Literal {
+            value,
+            digits: 1,
+            place: 0,
+            decimal: false,
+        }
+    }
+}
+
 /// The kinds of written piece.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Shape {
@@ -91,6 +104,68 @@ impl Written {
         Written { shape, start, end }
     }
 
+    pub(crate) fn fault(&self, message: impl Into<String>) -> Box<Fault> {
+        Fault::new(message, self.start, self.end)
+    }
+
+    /// The same at another place.
+    pub(super) fn at(self, start: usize, end: usize) -> Written {
+        Written::new(self.shape, start, end)
+    }
+
+    /// A fraction with it above.
+    pub(super) fn over(self, below: Written) -> Written {
+        let (start, end) = (self.start, below.end);
+        Written::new(Shape::Fraction(Box::new(self), Box::new(below)), start, end)
+    }
+
+    /// A power of it.
+    pub(super) fn power(self, exponent: Written) -> Written {
+        let (start, end) = (self.start, exponent.end);
+        let shape = Shape::Power(Box::new(self), Box::new(exponent));
+        Written::new(shape, start, end)
+    }
+
+    /// A sum of two terms.
+    pub(super) fn plus(self, sign: Sign, other: Written) -> Written {
+        let (start, end) = (self.start, other.end);
+        Written::new(
+            Shape::Sum(vec![(Sign::Plus, self), (sign, other)]),
+            start,
+            end,
+        )
+    }
+
+    /// Something made of it alone.
+    pub(super) fn inside(self, shape: impl FnOnce(Box<Written>) -> Shape) -> Written {
+        let (start, end) = (self.start, self.end);
+        Written::new(shape(Box::new(self)), start, end)
+    }
+
+    /// A function of it.
+    pub(super) fn call(self, function: Function) -> Written {
+        self.inside(|x| Shape::Call(function, x))
+    }
+
+    /// The pieces it is made of.
+    pub(crate) fn pieces(&self) -> Vec<&Written> {
+        match &self.shape {
+            Shape::Sum(terms) => terms.iter().map(|(_, term)| term).collect(),
+            Shape::Product(factors) => factors.iter().map(|(_, factor)| factor).collect(),
+            Shape::Fraction(a, b) | Shape::Power(a, b) => vec![a, b],
+            Shape::Root(Some(index), inner) => vec![index, inner],
+            Shape::Root(None, a)
+            | Shape::Call(_, a)
+            | Shape::Reciprocal(_, a)
+            | Shape::Bracket(a)
+            | Shape::Abs(a)
+            | Shape::Degrees(a)
+            | Shape::Measured(a, _) => vec![a],
+            Shape::List(parts) => parts.iter().collect(),
+            Shape::Number(_) | Shape::Symbol(_) => Vec::new(),
+        }
+    }
+
     /// Whether it is a vector by the way it is written: an arrow, a unit vector, components, or a sum or multiple of such.
     pub(crate) fn is_vector(&self) -> bool {
         match &self.shape {
@@ -118,31 +193,20 @@ impl Written {
     /// Whether vectors with arrows are multiplied with vectors, measured, or added to components, so that theirs matter.
     pub(crate) fn multiplies_vectors(&self) -> bool {
         let arrow = |w: &Written| w.is_vector() && w.has_arrow();
-        let inside = |w: &Written| w.multiplies_vectors();
-        match &self.shape {
+        let here = match &self.shape {
             Shape::Product(factors) => {
                 let vectors = factors.iter().filter(|(_, f)| f.is_vector()).count();
                 vectors > 1 && factors.iter().any(|(_, f)| arrow(f))
-                    || factors.iter().any(|(_, f)| inside(f))
             }
-            Shape::Abs(inner) => arrow(inner) || inside(inner),
-            Shape::Power(base, exponent) => arrow(base) || inside(base) || inside(exponent),
+            Shape::Abs(inner) | Shape::Power(inner, _) => arrow(inner),
             // `\vec{v} + 2\hat{\imath}` adds components too.
             Shape::Sum(terms) => {
                 let plain = |w: &Written| w.is_vector() && !w.has_arrow();
-                terms.iter().any(|(_, t)| inside(t))
-                    || terms.iter().any(|(_, t)| arrow(t)) && terms.iter().any(|(_, t)| plain(t))
+                terms.iter().any(|(_, t)| arrow(t)) && terms.iter().any(|(_, t)| plain(t))
             }
-            Shape::Fraction(a, b) => inside(a) || inside(b),
-            Shape::Root(_, a)
-            | Shape::Call(_, a)
-            | Shape::Reciprocal(_, a)
-            | Shape::Bracket(a)
-            | Shape::Degrees(a)
-            | Shape::Measured(a, _) => inside(a),
-            Shape::List(parts) => parts.iter().any(inside),
-            Shape::Number(_) | Shape::Symbol(_) => false,
-        }
+            _ => false,
+        };
+        here || self.pieces().into_iter().any(Written::multiplies_vectors)
     }
 
     fn has_arrow(&self) -> bool {
@@ -196,11 +260,8 @@ impl Written {
                         return None;
                     };
                     let (base, exponent) = (base.literal()?, exponent.literal()?);
-                    let k = exponent
-                        .value
-                        .is_integer()
-                        .then(|| exponent.value.numer().as_i64())
-                        .flatten()?;
+                    let whole = exponent.value.is_integer();
+                    let k = exponent.value.numer().as_i64().filter(|_| whole)?;
                     if base.value != crate::expr::ratio(10, 1)
                         || k.abs() > super::number::MAX_EXPONENT
                     {

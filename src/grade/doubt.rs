@@ -353,16 +353,10 @@ pub(super) fn told(expected: &str, reading: &Reading) -> Option<String> {
 pub(super) fn unclear_slash(text: &str, reading: &Reading) -> Option<Fault> {
     let slash = |n: &&Note| matches!(n.remark, Remark::Slash { .. });
     let note = reading.notes.iter().find(slash)?;
-    Some(Fault {
-        message: format!(
-            "what stands below the slash is unclear: {}",
-            note.message(text)
-        ),
-        start: note.start,
-        end: note.end,
-        hint: Some("write brackets around all that stands below".into()),
-        also: Vec::new(),
-    })
+    let reading = note.message(text);
+    let message = format!("what stands below the slash is unclear: {reading}");
+    let hint = "write brackets around all that stands below";
+    Some(*Fault::new(message, note.start, note.end).hint(hint))
 }
 
 /// Where a text could be read in another way and that would be right, the grade says so; the usual reading decides.

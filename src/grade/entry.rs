@@ -78,21 +78,9 @@ pub fn entry(line: &str, defaults: &Options) -> Result<Entry, BadLine> {
 pub use strict::id_in;
 
 fn fill(fields: &Map<String, Value>, id: &Value, defaults: &Options) -> Result<Entry, String> {
-    const FIELDS: [&str; 8] = [
-        "id",
-        "expected",
-        "answer",
-        "scene",
-        "quantity",
-        "symbols",
-        "tolerance",
-        "form",
-    ];
-    if let Some(name) = fields.keys().find(|k| !FIELDS.contains(&k.as_str())) {
-        return Err(format!(
-            "unknown field {name:?}; known are {}",
-            FIELDS.join(", ")
-        ));
+    const FIELDS: &str = "id, expected, answer, scene, quantity, symbols, tolerance, form";
+    if let Some(name) = fields.keys().find(|k| !FIELDS.split(", ").any(|f| f == *k)) {
+        return Err(format!("unknown field {name:?}; known are {FIELDS}"));
     }
     let text = |name: &str| match fields.get(name) {
         None | Some(Value::Null) => Ok(None),
@@ -306,13 +294,7 @@ impl Keys {
 
 /// The grade of a line that cannot be judged for a reason outside the formulas.
 pub fn refused(message: String) -> Grade {
-    let mut grade = super::unreadable_key(Fault {
-        message,
-        start: 0,
-        end: 0,
-        hint: None,
-        also: Vec::new(),
-    });
+    let mut grade = super::unreadable_key(*Fault::new(message, 0, 0));
     grade.note = "INVALID_LINE";
     grade.proof = Proof::of("none", "the line cannot be judged");
     grade.verdict = Verdict::Invalid;

@@ -158,17 +158,12 @@ fn reducible(w: &Written) -> bool {
             .filter(|l| l.value.is_integer())
             .and_then(|l| l.value.numer().as_i64())
     };
-    match &w.shape {
-        Shape::Fraction(a, b) => match (whole(a), whole(b)) {
-            (Some(a), Some(b)) => num_integer::gcd(a, b) != 1,
-            _ => reducible(a) || reducible(b),
-        },
-        Shape::Sum(terms) => terms.iter().any(|(_, t)| reducible(t)),
-        Shape::Product(factors) => factors.iter().any(|(_, f)| reducible(f)),
-        Shape::Bracket(inner) | Shape::Root(_, inner) | Shape::Call(_, inner) => reducible(inner),
-        Shape::Power(a, b) => reducible(a) || reducible(b),
-        _ => false,
+    if let Shape::Fraction(a, b) = &w.shape
+        && let (Some(a), Some(b)) = (whole(a), whole(b))
+    {
+        return num_integer::gcd(a, b) != 1;
     }
+    w.pieces().into_iter().any(reducible)
 }
 
 /// Whether no sum at the top or in a factor has more than one factor in its normal form.

@@ -44,13 +44,11 @@ pub(super) fn expected(text: &str, symbols: &Symbols) -> Result<Reading, Fault> 
     // Authors say which product they mean.
     match reading.notes.iter().find(|n| n.remark == Remark::Cross) {
         None => Ok(reading),
-        Some(note) => Err(Fault {
-            message: "× between symbols could be a cross product".into(),
-            start: note.start,
-            end: note.end,
-            hint: Some("write * for a product of numbers, and arrows over vectors, as in \\vec{r} \\times \\vec{p}".into()),
-            also: Vec::new(),
-        }),
+        Some(note) => {
+            let words = "× between symbols could be a cross product";
+            let hint = "write * for a product of numbers, and arrows over vectors, as in \\vec{r} \\times \\vec{p}";
+            Err(*Fault::new(words, note.start, note.end).hint(hint))
+        }
     }
 }
 
@@ -68,16 +66,10 @@ fn english(text: &str, reading: &Reading) -> Option<Fault> {
         run.len() > 2 && WORDS.split(' ').any(|word| run.eq_ignore_ascii_case(word))
     };
     let note = split.clone().find(word)?;
-    Some(Fault {
-        message: format!(
-            "`{}` is a word and no product of its letters",
-            &text[note.start..note.end]
-        ),
-        start: note.start,
-        end: note.end,
-        hint: Some("give the formula alone, with signs such as >= for what words say".into()),
-        also: Vec::new(),
-    })
+    let word = &text[note.start..note.end];
+    let message = format!("`{word}` is a word and no product of its letters");
+    let hint = "give the formula alone, with signs such as >= for what words say";
+    Some(*Fault::new(message, note.start, note.end).hint(hint))
 }
 
 /// A text with letters for the vectors that the expected formula writes with arrows over them.
@@ -187,13 +179,9 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         Err(fault) => fault,
     };
     if quantitative(&key.reading) && dimension::unit(text.trim()).is_ok() {
-        return Err(Fault {
-            message: "a unit without a number".into(),
-            start: 0,
-            end: text.len(),
-            hint: Some("the value is missing".into()),
-            also: Vec::new(),
-        });
+        return Err(
+            *Fault::new("a unit without a number", 0, text.len()).hint("the value is missing")
+        );
     }
     if !key.question.closed {
         return Err(fault);
@@ -253,48 +241,29 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
 
 /// Refuses a direction in words behind a formula: `9.31 rad/s clockwise`, `5 N to the left`.
 fn direction(text: &str) -> Option<Fault> {
-    const WORDS: [&str; 13] = [
-        "clockwise",
-        "to the right",
-        "to the left",
-        "upward",
-        "upwards",
-        "downward",
-        "downwards",
-        "rightward",
-        "leftward",
-        "eastward",
-        "westward",
-        "northward",
-        "southward",
-    ];
+    const WORDS: &str = "clockwise|to the right|to the left|upward|upwards|downward|downwards|rightward|\
+        leftward|eastward|westward|northward|southward";
     let said = text.trim_end_matches([' ', '.', ')', '}']);
-    let ends = |word: &&&str| {
+    let ends = |word: &&str| {
         let at = said.len().checked_sub(word.len()).filter(|at| *at > 0);
         let found = at.and_then(|at| said.get(at..));
         found.is_some_and(|end| end.eq_ignore_ascii_case(word))
     };
-    let word = WORDS.iter().find(ends)?;
+    let word = WORDS.split('|').find(ends)?;
     let at = said.len() - word.len();
-    let (what, message) = match *word {
+    let (what, message) = match word {
         "clockwise" => ("sense", "a sense of rotation is no part of the formula"),
         _ => (
             "direction",
             "a direction in words is no part of the formula",
         ),
     };
-    Some(Fault {
-        message: message.into(),
-        start: match said[..at].ends_with(' ') {
-            true => at,
-            false => said[..at].rfind(' ').map_or(0, |at| at + 1),
-        },
-        end: said.len(),
-        hint: Some(format!(
-            "which {what} counts as positive is told by the question"
-        )),
-        also: Vec::new(),
-    })
+    let start = match said[..at].ends_with(' ') {
+        true => at,
+        false => said[..at].rfind(' ').map_or(0, |at| at + 1),
+    };
+    let hint = format!("which {what} counts as positive is told by the question");
+    Some(*Fault::new(message, start, said.len()).hint(hint))
 }
 
 /// Whether a side is the size of something, as in `|v| = 5 m/s`.
@@ -460,16 +429,9 @@ fn worded(key: &Key, text: &str, reading: Reading) -> Result<Reading, Fault> {
             } else {
                 "name of the question"
             };
-            return Err(Fault {
-                message: format!("`{word}` is no {kind}"),
-                start: before.len(),
-                end: note.end,
-                hint: Some(
-                    "write * between the factors of a product; words do not belong to a formula"
-                        .into(),
-                ),
-                also: Vec::new(),
-            });
+            let fault = Fault::new(format!("`{word}` is no {kind}"), before.len(), note.end);
+            let hint = "write * between the factors of a product; words do not belong to a formula";
+            return Err(*fault.hint(hint));
         }
     }
     Ok(reading)

@@ -6,70 +6,16 @@ use crate::formula::Fault;
 const SIGNS: [char; 5] = ['<', '>', '≤', '≥', '≈'];
 
 /// Words and arrows before an equation.
-const LEADS: [&str; 30] = [
-    "=>",
-    "⇒",
-    "⟹",
-    "∴",
-    "→",
-    "->",
-    "\\Rightarrow",
-    "\\implies",
-    "\\therefore",
-    "therefore",
-    "hence",
-    "thus",
-    "so",
-    "then",
-    "with",
-    "and",
-    "where",
-    "gives",
-    "which gives",
-    "this gives",
-    "we get",
-    "we find",
-    "we have",
-    "it follows that",
-    "that is",
-    "i.e.",
-    "since",
-    "because",
-    "as",
-    "from",
-];
+const LEADS: &str = "=>|⇒|⟹|∴|→|->|\\Rightarrow|\\implies|\\therefore|therefore|hence|thus|so|then|with|\
+     and|where|gives|which gives|this gives|we get|we find|we have|it follows that|that is|i.e.|since|because|\
+     as|from";
 
 /// What stands between two equations of one line.
-const BETWEEN: [&str; 18] = [
-    "<=>",
-    "⇔",
-    "\\Leftrightarrow",
-    "\\iff",
-    "=>",
-    "⇒",
-    "⟹",
-    "∴",
-    "\\Rightarrow",
-    "\\implies",
-    "\\therefore",
-    "→",
-    "->",
-    "; ",
-    ", ",
-    " so ",
-    " where ",
-    " with ",
-];
+const BETWEEN: &str = "<=>|⇔|\\Leftrightarrow|\\iff|=>|⇒|⟹|∴|\\Rightarrow|\\implies|\\therefore|\
+    →|->|; |, | so | where | with ";
 
 /// Words behind an equation that tell the moment it speaks of.
-const MOMENTS: [&str; 6] = [
-    "(just before)",
-    "(just after)",
-    "(before)",
-    "(after)",
-    "just before",
-    "just after",
-];
+const MOMENTS: &str = "(just before)|(just after)|(before)|(after)|just before|just after";
 
 /// First words of a remark in brackets behind an equation, which are never names.
 const REMARKS: &str = "anticlockwise as because by clockwise conservation counterclockwise down downward downwards \
@@ -86,7 +32,7 @@ pub(super) fn equations(text: &str) -> Vec<&str> {
     let (mut start, mut at, mut depth) = (0, 0, 0i32);
     while at < text.len() {
         let rest = &text[at..];
-        let sign = (depth == 0).then(|| BETWEEN.iter().find(|sign| rest.starts_with(**sign)));
+        let sign = (depth == 0).then(|| BETWEEN.split('|').find(|sign| rest.starts_with(sign)));
         match sign.flatten() {
             // A comma may part components, and an arrow may begin the line: equations stand on both sides.
             Some(sign) if relates(&text[start..at]) && parts(sign, &rest[sign.len()..]) => {
@@ -153,7 +99,11 @@ pub(super) fn measured_end(text: &str) -> Option<[String; 2]> {
 
 /// Whether what follows a separator is an equation of its own; behind an arrow a chain may go on without a name.
 fn parts(sign: &str, behind: &str) -> bool {
-    let next = BETWEEN[5..].iter().filter_map(|s| behind.find(s)).min();
+    let next = BETWEEN
+        .split('|')
+        .skip(5)
+        .filter_map(|s| behind.find(s))
+        .min();
     let own = &behind[..next.unwrap_or(behind.len())];
     let words = |text: &str| {
         let mut all = text.split_whitespace();
@@ -183,7 +133,7 @@ fn equation(text: &str) -> &str {
     }
     loop {
         let lower = rest.to_ascii_lowercase();
-        let lead = LEADS.iter().find(|lead| {
+        let lead = LEADS.split('|').find(|lead| {
             let word = lead.ends_with(|c: char| c.is_ascii_alphabetic());
             lower
                 .strip_prefix(&lead.to_ascii_lowercase())
@@ -198,7 +148,9 @@ fn equation(text: &str) -> &str {
         }
     }
     let rest = without_remark(rest.trim_end_matches(['$', ' ', '.', ',', ';']));
-    let moment = MOMENTS.iter().find_map(|words| rest.strip_suffix(words));
+    let moment = MOMENTS
+        .split('|')
+        .find_map(|words| rest.strip_suffix(words));
     moment.unwrap_or(rest).trim_end()
 }
 
