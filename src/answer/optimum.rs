@@ -175,12 +175,9 @@ fn over_positive(
         best.proved.then_some(true),
     ));
     let at_best = |e: &Expr| put(e, best.value.clone());
+    let flat = "the derivative at that place";
     out.put_in = vec![
-        (
-            at_best(&slope),
-            Expr::zero(),
-            "the derivative at that place",
-        ),
+        (at_best(&slope), Expr::zero(), flat),
         (at_best(&f), value.clone(), "the value there"),
     ];
     let mut at = out.clone();
@@ -191,15 +188,9 @@ fn over_positive(
     at.discarded = Vec::new();
     at.text = Vec::new();
     if let Some([p, q]) = &reduced.pair {
-        at.text.push(sentence![
-            "every pair ",
-            p,
-            ", ",
-            q,
-            " with this ",
-            &reduced.combination,
-            " does it: the maximisers form a curve"
-        ]);
+        let pair = sentence!["every pair ", p, ", ", q, " with this "];
+        let end = " does it: the maximisers form a curve";
+        at.text.push(sentence![pair, &reduced.combination, end]);
     }
     let combination = reduced.combination.clone();
     at.dimension = super::formulas::dimension_of(scene, &combination, &name)?;
@@ -215,13 +206,10 @@ fn elsewhere(name: &str, variable: &Symbol, roots: &[super::calc::Root]) -> Refu
         1 => String::from("where the derivative vanishes there is no maximum"),
         count => format!("the derivative vanishes at {count} values of {variable}"),
     };
-    Refused::question(
-        name,
-        reason,
-        format!(
-            "with a \"domain\" of `min` and `max` for {variable} the values at its ends are compared too"
-        ),
-    )
+    let hint = format!(
+        "with a \"domain\" of `min` and `max` for {variable} the values at its ends are compared too"
+    );
+    Refused::question(name, reason, hint)
 }
 
 /// The largest value over one parameter in an interval: where the derivative vanishes once, or at an end.
@@ -230,10 +218,8 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
     let name = out.name.clone();
     let refused = |reason: String| Refused::question(&name, reason, "");
     if let Some(pole) = pole(f, p, domains) {
-        return Err(refused(format!(
-            "{} may vanish within the interval",
-            write_plain(&pole)
-        )));
+        let pole = write_plain(&pole);
+        return Err(refused(format!("{pole} may vanish within the interval")));
     }
     let search = Search {
         name: &name,
@@ -248,22 +234,22 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
     let mut inside = search.flat(&mut out)?;
     inside.retain(|x| !is_end(x));
     let bends = match inside.as_slice() {
-        [only] => Some(sign(
-            &search.at(only, &search.slope.derivative(p))?,
-            domains,
-        )),
+        [only] => Some(search.at(only, &search.slope.derivative(p))?),
         _ => None,
     };
-    let place = match inside.as_slice() {
-        [best] if bends.is_some_and(Seen::is_negative) => {
-            out.checks.push(Check::new("maximum", "the derivative vanishes there and nowhere else in the interval, and the second derivative is negative", bends.is_some_and(Seen::is_proved).then_some(true)));
+    let bends = bends.map(|bends| sign(&bends, domains));
+    let place = match (inside.as_slice(), bends) {
+        ([best], Some(bends)) if bends.is_negative() => {
+            let words = "the derivative vanishes there and nowhere else in the interval, and the second derivative is negative";
+            let holds = bends.is_proved().then_some(true);
+            out.checks.push(Check::new("maximum", words, holds));
             best.clone()
         }
-        [] => match search.at_an_end(&mut out)? {
+        ([], _) => match search.at_an_end(&mut out)? {
             Some(place) => place,
             None => return Ok(vec![at_the_rim(out, &search.slope, p, domains)]),
         },
-        several => search.compared(several, &mut out)?,
+        (several, _) => search.compared(several, &mut out)?,
     };
     let value = search.at(&place, f)?;
     out.dimension = super::formulas::dimension_of(scene, &value, &name)?;
@@ -340,12 +326,10 @@ impl Search<'_> {
         let words = "the derivative has one sign inside the interval ({how})";
         out.checks
             .push(by_signs("maximum", words, rising.is_proved()));
-        out.text.push(sentence![
-            "the derivative by ",
-            p,
-            " does not vanish inside: the largest value is ",
-            self.bound(&value, open)
-        ]);
+        let why = " does not vanish inside: the largest value is ";
+        let bound = self.bound(&value, open);
+        out.text
+            .push(sentence!["the derivative by ", p, why, bound]);
         Ok(Some(value))
     }
 
@@ -387,9 +371,8 @@ impl Search<'_> {
                         s if s.is_positive() => true,
                         s if s.is_negative() || s == Seen::Proved(Sign::NotPositive) => false,
                         _ => {
-                            return Err(
-                                self.refused(format!("several relations end the range of {p}"))
-                            );
+                            let why = format!("several relations end the range of {p}");
+                            return Err(self.refused(why));
                         }
                     }
                 }
@@ -411,14 +394,13 @@ impl Search<'_> {
             *open && divisors.any(|d| !sign(&d.substitute(&there), self.domains).is_proved())
         };
         let [Some(low), Some(high)] = ends.map(|end| end.filter(|end| !is_pole(end))) else {
-            return Err(Refused {
-                hint: format!(
-                    "give {p} a \"domain\" with `min` and `max`: the ends are then compared too"
-                ),
-                ..self.refused(format!(
-                    "the derivative by {p} vanishes where the value is not largest, and the interval does not end"
-                ))
-            });
+            let why = format!(
+                "the derivative by {p} vanishes where the value is not largest, and the interval does not end"
+            );
+            let hint = format!(
+                "give {p} a \"domain\" with `min` and `max`: the ends are then compared too"
+            );
+            return Err(Refused::question(self.name, why, hint));
         };
         let flat = flat.iter().map(|x| (x.clone(), None));
         let places = flat.chain([low, high].map(|(x, open)| (x, Some(open))));
@@ -435,9 +417,8 @@ impl Search<'_> {
         };
         let is_above =
             |s: &Seen| s.is_positive() || matches!(s, Seen::Proved(s) if s.is_not_negative());
-        let best = (0..found.len())
-            .map(|i| (&found[i], above(i)))
-            .find(|(_, above)| above.iter().all(is_above));
+        let mut all = (0..found.len()).map(|i| (&found[i], above(i)));
+        let best = all.find(|(_, above)| above.iter().all(is_above));
         let Some(((place, end, _), above)) = best else {
             return Err(self.refused(format!(
                 "which of the values where the derivative by {p} vanishes and at the ends is largest hangs on the other parameters"
@@ -484,31 +465,19 @@ fn joint(of: &Expr, p: &Symbol, q: &Symbol, domains: &Domains) -> Option<Expr> {
 /// No place inside: the largest value is approached at an end.
 fn at_the_rim(mut out: Answer, slope: &Expr, words: &str, domains: &Domains) -> Answer {
     let s = sign(slope, domains);
-    let how = if s.is_proved() {
-        "proved"
-    } else {
-        "seen at points"
+    let how = match s.is_proved() {
+        true => "proved",
+        false => "seen at points",
     };
     out.text.push(if s.is_positive() {
-        sentence![
-            "there is no largest value: it grows with ",
-            words,
-            " throughout (",
-            how,
-            "), and the end, ",
-            words,
-            " → ∞, is never reached"
-        ]
+        let lead = "there is no largest value: it grows with ";
+        let grows = sentence![lead, words, " throughout (", how, ")"];
+        sentence![grows, ", and the end, ", words, " → ∞, is never reached"]
     } else if s.is_negative() {
-        sentence![
-            "there is no largest value inside: it falls as ",
-            words,
-            " grows (",
-            how,
-            "), so it is approached as ",
-            words,
-            " → 0 and not reached there"
-        ]
+        let lead = "there is no largest value inside: it falls as ";
+        let falls = sentence![lead, words, " grows (", how, ")"];
+        let end = " → 0 and not reached there";
+        sentence![falls, ", so it is approached as ", words, end]
     } else {
         Sentence::words("whether there is a largest value could not be decided")
     });

@@ -47,11 +47,8 @@ pub(super) fn fill(
             return;
         }
         Err(Unsolved::Inside) => {
-            out.text.push(sentence![
-                "not solved: ",
-                parameter,
-                " stands inside a function"
-            ]);
+            let why = " stands inside a function";
+            out.text.push(sentence!["not solved: ", parameter, why]);
             return;
         }
         Err(Unsolved::Limit(what)) => {
@@ -68,13 +65,10 @@ pub(super) fn fill(
         let rest = essential(&gap, domains);
         let idle = !rest.symbols().contains(parameter);
         out.text.push(match relation {
-            Relation::Equal if idle && rest.as_number().is_none() => sentence![
-                "no value of ",
-                parameter,
-                " does, unless ",
-                &rest,
-                " = 0, when every value does"
-            ],
+            Relation::Equal if idle && rest.as_number().is_none() => {
+                let [unless, else_all] = [" does, unless ", " = 0, when every value does"];
+                sentence!["no value of ", parameter, unless, &rest, else_all]
+            }
             _ => always(&gap, relation, domains),
         });
         return;
@@ -82,31 +76,27 @@ pub(super) fn fill(
     for root in &roots.inside {
         if root.proved {
             let put = BTreeMap::from([(parameter.clone(), root.value.clone())]);
-            let sides = (left.substitute(&put), right.substitute(&put));
-            out.put_in
-                .push((sides.0, sides.1, "both sides with the value substituted"));
+            let (left, right) = (left.substitute(&put), right.substitute(&put));
+            let why = "both sides with the value substituted";
+            out.put_in.push((left, right, why));
         }
         out.assumptions.extend(root.given.iter().cloned());
-        out.checks.push(Check::new(
-            "identity",
-            if root.proved {
-                String::from("with the value substituted, both sides are identical")
-            } else {
-                String::from("whether both sides meet at this value was not proved")
-            },
-            root.proved.then_some(true),
-        ));
+        let words = match root.proved {
+            true => "with the value substituted, both sides are identical",
+            false => "whether both sides meet at this value was not proved",
+        };
+        let holds = root.proved.then_some(true);
+        out.checks.push(Check::new("identity", words, holds));
     }
     if relation == Relation::Equal {
-        for root in &roots.inside {
-            out.range
-                .push((Expr::symbol(parameter), Relation::Equal, root.value.clone()));
-        }
+        let values = roots.inside.iter().map(|root| root.value.clone());
+        let at = |value| (Expr::symbol(parameter), Relation::Equal, value);
+        out.range.extend(values.map(at));
         if let [root] = roots.inside.as_slice() {
             out.form = Form::value(root.value.clone());
         } else {
-            out.text
-                .push(sentence![roots.inside.len().to_string(), " solutions"]);
+            let count = roots.inside.len().to_string();
+            out.text.push(sentence![count, " solutions"]);
         }
         return;
     }
@@ -114,9 +104,8 @@ pub(super) fn fill(
     if rooted {
         for check in out.checks.iter_mut().filter(|c| c.kind == "sign") {
             let under = "what stands under the root has opposite signs";
-            check.words = check
-                .words
-                .replace("the sides differ with opposite signs", under);
+            let plain = "the sides differ with opposite signs";
+            check.words = check.words.replace(plain, under);
         }
     }
 }
@@ -145,29 +134,23 @@ fn argument(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Expr> {
     let [rest, one, two] = [at(0)?, at(1)?, at(2)?];
     let step = tidy(&(&one - &rest), domains).ok()?;
     let linear = is_zero(&(two - &one - &step), domains) == Some(true);
-    let factor = step
-        .as_number()
-        .filter(|_| linear && !rest.mentions(parameter))?;
+    let is_fit = linear && !rest.mentions(parameter);
+    let factor = step.as_number().filter(|_| is_fit)?;
     let target = tidy(&-(&rest / &step), domains).ok()?;
     // The value as a share of half a turn tells whether the arc takes it.
     let share = tidy(&(&target / &Expr::pi()), domains).ok()?;
     let share = share.as_number()?.clone();
     let half = ratio(1, 2);
-    let (value, grows, taken) = match function {
-        Acos => (
-            target.cos(),
-            false,
-            share >= ratio(0, 1) && share <= ratio(1, 1),
-        ),
-        Asin => (target.sin(), true, share >= -&half && share <= half),
-        _ => (
-            target.sin() / target.cos(),
-            true,
-            share > -&half && share < half,
-        ),
+    let (value, taken) = match function {
+        Acos => (target.cos(), (ratio(0, 1)..=ratio(1, 1)).contains(&share)),
+        Asin => (target.sin(), (-&half..=half).contains(&share)),
+        _ => {
+            let taken = share > -&half && share < half;
+            (target.sin() / target.cos(), taken)
+        }
     };
     let difference = inside - &value;
-    let upward = grows == factor.is_positive();
+    let upward = (function != Acos) == factor.is_positive();
     taken.then(|| if upward { difference } else { -difference })
 }
 
@@ -184,15 +167,10 @@ fn sides(
     let gap = &without_idle(out, parameter, gap, domains);
     if let Some(words) = jumps(gap, parameter, domains) {
         let values = roots.inside.iter().map(|r| Sentence::from(&r.value));
-        out.text.push(sentence![
-            "the sides meet at ",
-            parameter,
-            " = ",
-            Sentence::join(values, " and at "),
-            "; ",
-            words,
-            ", so that it is not told where it holds"
-        ]);
+        let meet = sentence!["the sides meet at ", parameter, " = "];
+        let values = Sentence::join(values, " and at ");
+        let end = ", so that it is not told where it holds";
+        out.text.push(sentence![meet, values, "; ", words, end]);
         if let [root] = roots.inside.as_slice() {
             out.form = Form::value(root.value.clone());
         }
@@ -209,36 +187,19 @@ fn sides(
         None => [(&domain.low, -1), (&domain.high, 1)]
             .map(|(end, way)| beside(gap, parameter, value, end.as_ref(), way, domains)),
     };
-    let wants_negative = relation.is_below();
+    let falls = below.is_positive() && above.is_negative();
+    let grows = below.is_negative() && above.is_positive();
+    let [holds_below, holds_above] = match relation.is_below() {
+        true => [grows, falls],
+        false => [falls, grows],
+    };
     let strict = matches!(relation, Relation::Less | Relation::Greater);
-    let holds = |s: Seen| {
-        if wants_negative {
-            s.is_negative()
-        } else {
-            s.is_positive()
-        }
-    };
-    let fails = |s: Seen| {
-        if wants_negative {
-            s.is_positive()
-        } else {
-            s.is_negative()
-        }
-    };
-    let found = if holds(below) && fails(above) {
-        Some(if strict {
-            Relation::Less
-        } else {
-            Relation::LessEqual
-        })
-    } else if fails(below) && holds(above) {
-        Some(if strict {
-            Relation::Greater
-        } else {
-            Relation::GreaterEqual
-        })
-    } else {
-        None
+    let found = match strict {
+        true if holds_below => Some(Relation::Less),
+        false if holds_below => Some(Relation::LessEqual),
+        true if holds_above => Some(Relation::Greater),
+        false if holds_above => Some(Relation::GreaterEqual),
+        _ => None,
     };
     out.form = Form::value(value.clone());
     match found {
@@ -290,11 +251,8 @@ fn without_idle(out: &mut Answer, parameter: &Symbol, gap: &Expr, domains: &Doma
 /// The domains within which there are such values: a symbol they are divided by is not zero.
 fn exists(out: &mut Answer, roots: &Roots, domains: &Domains) -> Domains {
     let mut domains = domains.clone();
-    let symbols: BTreeSet<Symbol> = roots
-        .inside
-        .iter()
-        .flat_map(|r| r.value.symbols())
-        .collect();
+    let values = roots.inside.iter().map(|r| &r.value);
+    let symbols: BTreeSet<Symbol> = values.flat_map(Expr::symbols).collect();
     for symbol in symbols {
         let Some(low) = domains.symbols.get(&symbol).and_then(|d| d.low.clone()) else {
             continue;
@@ -305,19 +263,13 @@ fn exists(out: &mut Answer, roots: &Roots, domains: &Domains) -> Domains {
         if low.open || low.of_pi || !roots.inside.iter().any(lost) {
             continue;
         }
-        if let Some(low) = domains
-            .symbols
-            .get_mut(&symbol)
-            .and_then(|d| d.low.as_mut())
-        {
+        let own = domains.symbols.get_mut(&symbol);
+        if let Some(low) = own.and_then(|d| d.low.as_mut()) {
             low.open = true;
         }
-        out.assumptions.push(sentence![
-            &symbol,
-            " > ",
-            &at_end,
-            " (otherwise there is no such value)"
-        ]);
+        let why = " (otherwise there is no such value)";
+        let needed = sentence![&symbol, " > ", &at_end, why];
+        out.assumptions.push(needed);
     }
     domains
 }
@@ -375,10 +327,7 @@ fn stated(parameter: &Symbol, way: i64, domains: &Domains) -> Option<Expr> {
 /// Words for a difference that has no value somewhere, and may change its sign there without being zero.
 fn jumps(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sentence> {
     let (_, below) = limit::common(gap, domains)?;
-    if matches!(
-        sign(&below, domains),
-        Seen::Proved(Sign::Positive | Sign::Negative)
-    ) {
+    if let Seen::Proved(Sign::Positive | Sign::Negative) = sign(&below, domains) {
         return None;
     }
     match solve(&below, parameter, domains) {
@@ -386,16 +335,11 @@ fn jumps(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sentence> 
         Err(Unsolved::Absent) => None,
         Ok(poles) if poles.open.is_none() => {
             let places = poles.inside.iter().map(|r| Sentence::from(&r.value));
-            Some(sentence![
-                "their difference has no value at ",
-                parameter,
-                " = ",
-                Sentence::join(places, " and ")
-            ])
+            let places = Sentence::join(places, " and ");
+            let words = "their difference has no value at ";
+            Some(sentence![words, parameter, " = ", places])
         }
-        _ => Some(Sentence::words(
-            "their difference may have no value elsewhere",
-        )),
+        _ => Some("their difference may have no value elsewhere".into()),
     }
 }
 

@@ -9,8 +9,8 @@ use crate::derive;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, listed, sentence};
 use crate::scene::{
-    BlowImpulse, ContactLaw, FallEnd, OneSided, Scene, Slide, SlideEnd, Stage, StageKind, Turn,
-    Until,
+    BlowImpulse, ContactLaw, Fall, FallEnd, OneSided, Scene, Slide, SlideEnd, Stage, StageKind,
+    Turn, Until,
 };
 
 /// Which supports act in an outcome.
@@ -72,10 +72,9 @@ impl Case {
         if let [Some(one), Some(other)] = bounds.as_slice()
             && one.is_least != other.is_least
         {
-            let (low, high) = if one.is_least {
-                (one, other)
-            } else {
-                (other, one)
+            let (low, high) = match one.is_least {
+                true => (one, other),
+                false => (other, one),
             };
             return sentence![&low.at, " ≤ ", &low.of, " ≤ ", &high.at];
         }
@@ -144,72 +143,13 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
         }
         StageKind::Turn(turn) => out.push(turning(stage, told, turn)),
         StageKind::Slide(slide) => out.push(sliding(stage, told, slide)),
-        StageKind::Fall(fall) => {
-            let name = &scene.bodies[fall.body].name;
-            let falls = goes_down(told, fall.body);
-            out.push(match (&fall.until, &fall.gravity) {
-                (FallEnd::Drop(h), Some(_)) if fall.rising => {
-                    sentence!["`", name, "` rises freely through ", measured(&-h, "m")]
-                }
-                (FallEnd::Drop(h), Some(_)) if h.is_zero() => {
-                    sentence!["`", name, "` flies freely until it is as high as at first"]
-                }
-                (FallEnd::Drop(h), Some(_)) => match counted(h, [" lower", " higher"]) {
-                    (_, " lower") if falls => {
-                        sentence!["`", name, "` falls freely through ", measured(h, "m")]
-                    }
-                    (down, " lower") => flown(name, (down, " lower")),
-                    (up, _) => sentence![
-                        "`",
-                        name,
-                        "` flies freely until it comes down to a place ",
-                        measured(&up, "m"),
-                        " higher"
-                    ],
-                },
-                (FallEnd::Time(t), Some(_)) if falls => {
-                    sentence!["`", name, "` falls freely for ", measured(t, "s")]
-                }
-                (FallEnd::Time(t), _) => {
-                    sentence!["`", name, "` flies freely for ", measured(t, "s")]
-                }
-                (FallEnd::Range(s), _) => {
-                    flown(name, counted(s, [" further right", " further left"]))
-                }
-                (FallEnd::Drop(h), None) => flown(name, counted(h, [" lower", " higher"])),
-            });
-            for b in &fall.with {
-                let other = &scene.bodies[*b].name;
-                let verb = match fall.gravity.is_some() && goes_down(told, *b) {
-                    true => "falls",
-                    false => "flies",
-                };
-                out.push(sentence![
-                    "`",
-                    other,
-                    "` meanwhile ",
-                    verb,
-                    " freely as well"
-                ]);
-            }
-            for b in fall.bodies() {
-                if is_zero(&told.after.spin[b], &scene.domains) == Some(false) {
-                    out.push(sentence![
-                        "`",
-                        &scene.bodies[b].name,
-                        "` keeps its spin, since nothing has a moment about its center of mass"
-                    ]);
-                }
-            }
-        }
+        StageKind::Fall(fall) => out = falling(told, fall),
         StageKind::Linkage(linkage) => {
-            let names = linkage.places.iter();
-            let names = names.map(|(b, _)| format!("`{}`", scene.bodies[*b].name));
-            let names: Vec<String> = names.collect();
-            let verb = if names.len() == 1 {
-                "moves"
-            } else {
-                "move together"
+            let name = |(b, _): &(usize, _)| format!("`{}`", scene.bodies[*b].name);
+            let names: Vec<String> = linkage.places.iter().map(name).collect();
+            let verb = match names.len() {
+                1 => "moves",
+                _ => "move together",
             };
             let lead = format!("{} {verb}", names.join(" and "));
             let coordinate = Expr::symbol(&linkage.coordinate);
@@ -227,13 +167,65 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
                 out.push(format!("{} {verb} with it", listed(&carried)).into());
             }
         }
-        StageKind::Wind(wind) => out.push(sentence![
-            "the rope winds up until ",
-            &wind.to,
-            " of it is free; `",
-            &scene.bodies[wind.body].name,
-            "` keeps its speed"
-        ]),
+        StageKind::Wind(wind) => {
+            let (free, name) = (" of it is free; `", &scene.bodies[wind.body].name);
+            let words = "the rope winds up until ";
+            out.push(sentence![words, &wind.to, free, name, "` keeps its speed"]);
+        }
+    }
+    out
+}
+
+/// A fall or a flight: how far or how long, and who falls along.
+fn falling(told: &StageTold, fall: &Fall) -> Vec<Sentence> {
+    let scene = &told.placed.scene;
+    let name = &scene.bodies[fall.body].name;
+    let falls = goes_down(told, fall.body);
+    let mut out = vec![match (&fall.until, &fall.gravity) {
+        (FallEnd::Drop(h), Some(_)) if fall.rising => {
+            sentence!["`", name, "` rises freely through ", measured(&-h, "m")]
+        }
+        (FallEnd::Drop(h), Some(_)) if h.is_zero() => {
+            sentence!["`", name, "` flies freely until it is as high as at first"]
+        }
+        (FallEnd::Drop(h), Some(_)) => match counted(h, [" lower", " higher"]) {
+            (_, " lower") if falls => {
+                sentence!["`", name, "` falls freely through ", measured(h, "m")]
+            }
+            (down, " lower") => flown(name, (down, " lower")),
+            (up, _) => {
+                let flies = "` flies freely until it comes down to a place ";
+                sentence!["`", name, flies, measured(&up, "m"), " higher"]
+            }
+        },
+        (FallEnd::Time(t), Some(_)) if falls => {
+            sentence!["`", name, "` falls freely for ", measured(t, "s")]
+        }
+        (FallEnd::Time(t), _) => {
+            sentence!["`", name, "` flies freely for ", measured(t, "s")]
+        }
+        (FallEnd::Range(s), _) => flown(name, counted(s, [" further right", " further left"])),
+        (FallEnd::Drop(h), None) => flown(name, counted(h, [" lower", " higher"])),
+    }];
+    for b in &fall.with {
+        let other = &scene.bodies[*b].name;
+        let verb = match fall.gravity.is_some() && goes_down(told, *b) {
+            true => "falls",
+            false => "flies",
+        };
+        out.push(sentence![
+            "`",
+            other,
+            "` meanwhile ",
+            verb,
+            " freely as well"
+        ]);
+    }
+    for b in fall.bodies() {
+        if is_zero(&told.after.spin[b], &scene.domains) == Some(false) {
+            let why = "` keeps its spin, since nothing has a moment about its center of mass";
+            out.push(sentence!["`", &scene.bodies[b].name, why]);
+        }
     }
     out
 }
@@ -245,11 +237,8 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
     let one = names.len() == 1;
     let is_round = one && !slide.level && stage.scene.bodies[slide.body].shape.radius().is_some();
     let slips = told.work.iter().any(|(what, _)| *what == "friction");
-    let how = match (
-        is_round && !slips && told.way.is_some(),
-        &slide.friction,
-        one,
-    ) {
+    let grips = is_round && !slips && told.way.is_some();
+    let how = match (grips, &slide.friction, one) {
         (true, Some(_), _) => " rolls without slipping",
         _ if slide.rolling => " rolls without slipping",
         (_, Some(_), true) if is_round => " slips on a rough surface, which turns it,",
@@ -272,15 +261,10 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
     let strings = slide.strings.iter().map(|s| {
         let list = |all: &[usize]| all.iter().map(name).collect::<Vec<_>>().join(" and ");
         let rough = s.friction.as_ref().map_or("", |_| " on a rough surface");
-        let under = s
-            .under
-            .map(|p| (format!(" and under {}", name(&p)), ", half as fast"));
-        let (under, half) = under.unwrap_or_default();
-        format!(
-            ", and the string over {}{under} takes {} along{rough}{half}",
-            list(&s.over),
-            list(&s.to)
-        )
+        let under = |p| (format!(" and under {}", name(&p)), ", half as fast");
+        let (under, half) = s.under.map(under).unwrap_or_default();
+        let (over, to) = (list(&s.over), list(&s.to));
+        format!(", and the string over {over}{under} takes {to} along{rough}{half}")
     });
     let strings = strings.collect::<String>();
     match &slide.until {
@@ -294,11 +278,10 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
 
 /// Whether a body is known not to rise at the beginning.
 fn goes_down(told: &StageTold, body: usize) -> bool {
-    let up = sign(&told.before.velocity[body][1], &told.placed.scene.domains);
-    matches!(
-        up,
-        Seen::Proved(Sign::Zero | Sign::Negative | Sign::NotPositive)
-    )
+    match sign(&told.before.velocity[body][1], &told.placed.scene.domains) {
+        Seen::Proved(sign) => matches!(sign, Sign::Zero | Sign::Negative | Sign::NotPositive),
+        _ => false,
+    }
 }
 
 /// A formula, or a number with its unit.
@@ -317,21 +300,17 @@ fn flown(name: &str, (far, way): (Expr, &'static str)) -> Sentence {
 
 /// A distance without the minus sign it may begin with, and the word for its direction.
 fn counted(e: &Expr, [plus, minus]: [&'static str; 2]) -> (Expr, &'static str) {
-    if crate::formula::write_plain(e).starts_with('-') {
-        (-e, minus)
-    } else {
-        (e.clone(), plus)
+    match crate::formula::write_plain(e).starts_with('-') {
+        true => (-e, minus),
+        false => (e.clone(), plus),
     }
 }
 
 /// A rotation: which bodies turn, about what, in which sense, and whether weight or a moment makes them faster or slower.
 fn turning(stage: &Stage, told: &StageTold, turn: &Turn) -> Sentence {
     let domains = &stage.scene.domains;
-    let names: Vec<String> = turn
-        .bodies()
-        .iter()
-        .map(|b| format!("`{}`", stage.scene.bodies[*b].name))
-        .collect();
+    let name = |b: usize| format!("`{}`", stage.scene.bodies[b].name);
+    let names: Vec<String> = turn.bodies().into_iter().map(name).collect();
     let (before, after) = (&told.before.spin[turn.body], &told.after.spin[turn.body]);
     let sense = match super::motion::sense(stage, before, turn) {
         Ok((1, None)) => " counterclockwise",
@@ -354,22 +333,16 @@ fn turning(stage: &Stage, told: &StageTold, turn: &Turn) -> Sentence {
         Some(false) => and_falls,
         None => "",
     };
-    sentence![
-        names.join(" and "),
-        format!(" {turns}{sense} about `{}`", turn.about_name),
-        rate
-    ]
+    let turns = format!(" {turns}{sense} about `{}`", turn.about_name);
+    sentence![names.join(" and "), turns, rate]
 }
 
 /// Which forces have an impulse, and why; which have none.
 pub(super) fn impulsive(told: &StageTold) -> Vec<Sentence> {
     let stage = &told.placed;
     let StageKind::Impact { one_sided, .. } = &stage.kind else {
-        return vec![sentence![
-            "`",
-            &stage.name,
-            "` is a motion: nothing jumps, and no force has an impulse"
-        ]];
+        let why = "` is a motion: nothing jumps, and no force has an impulse";
+        return vec![sentence!["`", &stage.name, why]];
     };
     let scene = &stage.scene;
     let mut out: Vec<Sentence> = Vec::new();
@@ -378,12 +351,13 @@ pub(super) fn impulsive(told: &StageTold) -> Vec<Sentence> {
             BlowImpulse::Given([x, y]) => sentence![" (", x, ", ", y, ")"],
             BlowImpulse::Along(_) => Sentence::default(),
         };
+        let given = " is what is given, however short it lasts";
         out.push(sentence![
             "`",
             &blow.name,
             "` is a blow: its impulse",
             size,
-            " is what is given, however short it lasts"
+            given
         ]);
     }
     for c in &scene.contacts {
@@ -394,19 +368,14 @@ pub(super) fn impulsive(told: &StageTold) -> Vec<Sentence> {
     }
     for o in one_sided {
         let verb = if o.is_string { "pull" } else { "push" };
-        let mut cases = Vec::new();
-        for case in &told.cases {
+        let cases = told.cases.iter().map(|case| {
             let value = case.value(&super::impact::acting(&o.name));
-            let size = match &value {
-                Some(v) => Sentence::from(v),
-                None => "none".into(),
-            };
-            cases.push(if case.conditions.is_empty() {
-                size
-            } else {
-                sentence![size, " where ", case.holds_where()]
-            });
-        }
+            let size = value.map_or_else(|| "none".into(), |v| Sentence::from(&v));
+            match case.conditions.is_empty() {
+                true => size,
+                false => sentence![size, " where ", case.holds_where()],
+            }
+        });
         out.push(sentence![
             "`",
             &o.name,
@@ -426,25 +395,19 @@ pub(super) fn impulsive(told: &StageTold) -> Vec<Sentence> {
 pub(super) fn missing(told: &StageTold) -> Vec<Sentence> {
     let stage = &told.placed;
     let mut bare: Scene = stage.scene.clone();
-    for (body, (v, w)) in bare
-        .bodies
-        .iter_mut()
-        .zip(told.before.velocity.iter().zip(&told.before.spin))
-    {
-        body.velocity = v.clone();
-        body.spin = w.clone();
+    for (b, body) in bare.bodies.iter_mut().enumerate() {
+        body.velocity = told.before.velocity[b].clone();
+        body.spin = told.before.spin[b].clone();
     }
     let mut out: Vec<Sentence> = Vec::new();
     let mut used: Vec<Sentence> = Vec::new();
     for c in &mut bare.contacts {
         used.push(match &c.law {
             ContactLaw::Sticking => sentence!["at `", &c.name, "` the bodies stick"],
-            ContactLaw::Frictionless { restitution } => sentence![
-                "at `",
-                &c.name,
-                "` there is no friction, the normal is the one given, and e = ",
-                restitution
-            ],
+            ContactLaw::Frictionless { restitution } => {
+                let law = "` there is no friction, the normal is the one given, and e = ";
+                sentence!["at `", &c.name, law, restitution]
+            }
             ContactLaw::None | ContactLaw::Friction(_) | ContactLaw::Decided(_) => {
                 sentence!["nothing is supposed at `", &c.name, "`"]
             }
@@ -455,29 +418,13 @@ pub(super) fn missing(told: &StageTold) -> Vec<Sentence> {
     if let StageKind::Impact { one_sided, .. } = &stage.kind {
         for case in &told.cases {
             for o in one_sided {
-                used.push(if case.active.contains(&o.name) {
-                    sentence![
-                        "`",
-                        &o.name,
-                        "` ",
-                        if o.is_string {
-                            "is taut, cannot stretch, and does not rebound"
-                        } else {
-                            "pushes and does not rebound"
-                        }
-                    ]
-                } else {
-                    sentence![
-                        "`",
-                        &o.name,
-                        "` ",
-                        if o.is_string {
-                            "goes slack and has no impulse"
-                        } else {
-                            "is left and has no impulse"
-                        }
-                    ]
-                });
+                let does = match (case.active.contains(&o.name), o.is_string) {
+                    (true, true) => "is taut, cannot stretch, and does not rebound",
+                    (true, false) => "pushes and does not rebound",
+                    (false, true) => "goes slack and has no impulse",
+                    (false, false) => "is left and has no impulse",
+                };
+                used.push(sentence!["`", &o.name, "` ", does]);
             }
         }
     }
@@ -488,23 +435,16 @@ pub(super) fn missing(told: &StageTold) -> Vec<Sentence> {
             return out;
         }
     };
-    out.push(
-        format!(
-            "the balances of `{}` alone are {} equations for {} unknowns, of rank {}: {} short",
-            stage.name,
-            counting.equations,
-            counting.unknowns,
-            counting.rank,
-            counting.unknowns.saturating_sub(counting.rank)
-        )
-        .into(),
+    let (rank, unknowns) = (counting.rank, counting.unknowns);
+    let words = format!(
+        "the balances of `{}` alone are {} equations for {unknowns} unknowns, of rank {rank}: {} short",
+        stage.name,
+        counting.equations,
+        unknowns.saturating_sub(rank)
     );
-    out.extend(
-        counting
-            .closing_laws
-            .iter()
-            .map(|law| sentence!["missing, for instance: ", law]),
-    );
+    out.push(words.into());
+    let closing = counting.closing_laws.iter();
+    out.extend(closing.map(|law| sentence!["missing, for instance: ", law]));
     out.extend(used.into_iter().map(|u| sentence!["supposed here: ", u]));
     out
 }

@@ -47,10 +47,8 @@ pub(super) fn of(stages: &[StageTold]) -> Vec<World> {
     for (i, told) in stages.iter().enumerate() {
         let mut next = Vec::new();
         for mut world in worlds {
-            let happens = told
-                .branch
-                .is_none_or(|(parent, case)| world.outcome.get(&parent) == Some(&case));
-            if !happens {
+            let leads = |(parent, case)| world.outcome.get(&parent) == Some(&case);
+            if !told.branch.is_none_or(leads) {
                 next.push(world);
             } else if told.cases.len() < 2 {
                 world.outcome.insert(i, 0);
@@ -95,12 +93,8 @@ pub(super) fn each(
                 None => world.known.remove(&name),
             };
         }
-        let says = |all: &[Answer]| -> Vec<_> {
-            let parts = all.iter();
-            parts
-                .map(|a| (a.form.clone(), a.range.clone(), a.text.clone()))
-                .collect()
-        };
+        let one = |a: &Answer| (a.form.clone(), a.range.clone(), a.text.clone());
+        let says = |all: &[Answer]| all.iter().map(one).collect::<Vec<_>>();
         match found.iter_mut().find(|(f, ..)| says(f) == says(&answers)) {
             Some((_, holds)) => holds.push(w),
             None => found.push((answers, vec![w])),
@@ -170,10 +164,8 @@ fn alike(worlds: &BTreeMap<usize, World>, ways: Vec<usize>) -> Vec<(Given, Vec<u
             worlds[*w].outcome.get(stage) == first.outcome.get(stage)
         })
     });
-    [here, there]
-        .into_iter()
-        .flat_map(|ways| alike(worlds, ways))
-        .collect()
+    let parts = [here, there].into_iter();
+    parts.flat_map(|ways| alike(worlds, ways)).collect()
 }
 
 /// Later formulas may use the other answers by the name of their question, each where it holds, and by their own.
