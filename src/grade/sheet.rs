@@ -1,7 +1,7 @@
 //! A scene as an answer sheet: its derived answers are the keys, its parameters and domains the declarations.
 
 mod earlier;
-mod judge;
+pub(in crate::grade) mod judge;
 
 use super::believed::{self, Believed, Story, Written};
 use super::{Given, Key, Options, Question, key_of};

@@ -14,7 +14,7 @@ mod why;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::sheet::Sheet;
+use super::sheet::{Sheet, judge};
 use super::{Diagnosis, Options, Verdict};
 use crate::answer::Form;
 use crate::equality::{self, Equality};
@@ -339,6 +339,8 @@ impl<'a> Desk<'a> {
     fn line(&mut self, number: usize, text: &str, options: &Options) -> (Status, Vec<Diagnosis>) {
         let mut line = (Status::Comment, Vec::new());
         for equation in text::equations(text) {
+            let turned = self.with_sense(equation);
+            let equation = turned.as_deref().unwrap_or(equation);
             let (status, diagnosis) = self.equation(number, equation, options);
             if status.weight() > line.0.weight() {
                 line.0 = status;
@@ -412,6 +414,20 @@ impl<'a> Desk<'a> {
             self.note_final(number, text, &reading);
         }
         found
+    }
+
+    /// `ω = 3v/(4a) clockwise` with the sign the question counts by, on every side.
+    fn with_sense(&self, text: &str) -> Option<String> {
+        let (name, right) = names::named(text)?;
+        let spin = |q: &&Question| *q.name == *name && matches!(q.ask, Ask::Spin { .. });
+        let ask = &self.sheet.scene.questions.iter().find(spin)?.ask;
+        judge::in_words(ask, right)?;
+        let (values, word) = right.trim_end().rsplit_once([' ', '('])?;
+        let sides = values.trim_end_matches([' ', ',']).split('=');
+        let sides: Option<Vec<String>> = sides
+            .map(|side| judge::in_words(ask, &format!("{side} {word}")))
+            .collect();
+        Some(format!("{name} = {}", sides?.join(" = ")))
     }
 
     /// Whether texts are read as they stand.

@@ -308,7 +308,7 @@ fn components(entry: &Entry, exact: [Expr; 3], answer: &str, options: &Options) 
 }
 
 /// `9.31 rad/s clockwise` with the sign the question counts by.
-fn in_words(ask: &Ask, answer: &str) -> Option<String> {
+pub(in crate::grade) fn in_words(ask: &Ask, answer: &str) -> Option<String> {
     const SENSES: [(&str, bool); 5] = [
         ("counterclockwise", false),
         ("anticlockwise", false),

@@ -6,8 +6,9 @@ use super::super::relation::solve_for;
 use super::cause::size_in;
 use super::link::Weighed;
 use super::{Desk, Diagnosis, Options, Status};
+use crate::domain::Domains;
 use crate::equality::{self};
-use crate::expr::{Expr, Symbol, dot};
+use crate::expr::{Expr, Function, Symbol, dot};
 use crate::formula::{self, Content, Reading, Remark, Symbols};
 use crate::scene::{Ask, Body};
 
@@ -17,7 +18,7 @@ const MOST_NAMES: usize = 100;
 const MOST_BODIES: usize = 4;
 
 /// The lone name left of the first equality sign, and what stands right of it.
-fn named(text: &str) -> Option<(Symbol, &str)> {
+pub(super) fn named(text: &str) -> Option<(Symbol, &str)> {
     let (left, right) = text.split_once('=')?;
     let left = left.trim_end_matches(':').trim();
     let word = left.starts_with(|c: char| c.is_ascii_alphabetic())
@@ -65,6 +66,28 @@ pub(super) fn is_quantity_first(unit: &str) -> bool {
         unit.trim(),
         "V" | "h" | "A" | "C" | "F" | "H" | "K" | "L" | "T" | "l" | "d" | "W"
     )
+}
+
+/// The angle between 0 and 90° whose sine, cosine or tangent alone occurs.
+fn angle_in(line: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
+    let angle = Expr::symbol(name);
+    let value = Symbol::from(format!("{name}_value"));
+    let forms = [
+        (angle.sin(), Function::Asin),
+        (angle.cos(), Function::Acos),
+        (angle.tan(), Function::Atan),
+    ];
+    forms.into_iter().find_map(|(form, inverse)| {
+        let line = line.replace(&form, &Expr::symbol(&value));
+        let alone = !line.symbols().contains(name);
+        alone.then(|| Some(Expr::call(inverse, solve_for(&line, &value, domains)?)))?
+    })
+}
+
+/// The moment of inertia of a body about a point, by Steiner's theorem.
+fn about(body: &Body, at: &[Expr; 2]) -> Expr {
+    let [x, y] = [0, 1].map(|k| &at[k] - &body.center[k]);
+    &body.inertia + &(&body.mass * &(x.powi(2) + y.powi(2)))
 }
 
 impl Desk<'_> {
@@ -194,11 +217,7 @@ impl Desk<'_> {
         if point.is_none() && place != "G" || scene.bodies.iter().any(|b| b.name == place) {
             return None;
         }
-        let about = |body: &Body| {
-            let at = point.map_or(&body.center, |p| &p.at);
-            let [x, y] = [0, 1].map(|k| &at[k] - &body.center[k]);
-            &body.inertia + &(&body.mass * &(x.powi(2) + y.powi(2)))
-        };
+        let about = |body: &Body| about(body, point.map_or(&body.center, |p| &p.at));
         let free = scene.bodies.iter().filter(|b| !b.is_fixed());
         let each: Vec<Expr> = free.map(about).take(MOST_BODIES).collect();
         let value = self.with_own(value);
@@ -280,23 +299,41 @@ impl Desk<'_> {
             let missing = missing.and_then(|r| r.expr()?.as_symbol().cloned());
             let missing = missing.or_else(|| self.new_letter(word));
             let missing = missing.unwrap_or_else(|| Symbol::from(word.trim()));
-            let (name, right) = self
-                .ahead
-                .iter()
-                .find(|(name, _)| *name == missing && !self.is_known(name))?;
-            let reading = formula::read(right, &symbols).ok()?;
-            let value = match &reading.content {
-                Content::Relations(sides, _) => sides.last()?.expr()?.clone(),
-                one => one.expr()?.clone(),
-            };
-            let name = name.clone();
-            if self.own.len() >= MOST_NAMES {
+            if self.own.len() >= MOST_NAMES || self.is_known(&missing) {
                 return None;
             }
-            self.early.insert(name.clone());
-            self.own.insert(name, value);
+            let said = self.ahead.iter().find(|(name, _)| *name == missing);
+            let value =
+                said.and_then(
+                    |(_, right)| match formula::read(right, &symbols).ok()?.content {
+                        Content::Relations(sides, _) => sides.last()?.expr().cloned(),
+                        one => one.expr().cloned(),
+                    },
+                );
+            let is_said = said.is_some();
+            let value = value.or_else(|| self.lone_inertia(&missing))?;
+            if is_said {
+                self.early.insert(missing.clone());
+            }
+            self.own.insert(missing, value);
         }
         None
+    }
+
+    /// What I_G and I_A stand for where nobody says it and only one body moves.
+    fn lone_inertia(&self, name: &Symbol) -> Option<Expr> {
+        let scene = &self.sheet.scene;
+        let mut free = scene.bodies.iter().filter(|b| !b.is_fixed());
+        let (Some(body), None) = (free.next(), free.next()) else {
+            return None;
+        };
+        match name.strip_prefix("I_")? {
+            "G" => Some(body.inertia.clone()),
+            place => {
+                let point = scene.points.iter().find(|p| p.name == place)?;
+                Some(about(body, &point.at))
+            }
+        }
     }
 
     /// The one letter of a short run that is no name: `a` in `ma`, where m is one.
@@ -346,7 +383,9 @@ impl Desk<'_> {
             return None;
         };
         let (one, domains) = (self.with_own(one), &self.sheet.scene.domains);
-        let value = solve_for(&one, name, domains).or_else(|| size_in(&one, name, domains))?;
+        let value = solve_for(&one, name, domains)
+            .or_else(|| size_in(&one, name, domains))
+            .or_else(|| angle_in(&one, name, domains))?;
         self.own.insert(name.clone(), value);
         Some(Status::Defines)
     }

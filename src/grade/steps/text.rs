@@ -12,14 +12,19 @@ const LEADS: &str = "=>|⇒|⟹|∴|→|->|\\Rightarrow|\\implies|\\therefore|th
 
 /// What stands between two equations of one line.
 const BETWEEN: &str = "<=>|⇔|\\Leftrightarrow|\\iff|=>|⇒|⟹|∴|\\Rightarrow|\\implies|\\therefore|\
-    →|->|; |, | so | where | with ";
+    →|->|; |, | so | where | with | and ";
 
 /// Words behind an equation that tell the moment it speaks of.
 const MOMENTS: &str = "(just before)|(just after)|(before)|(after)|just before|just after";
 
 /// First words of a remark in brackets behind an equation, which are never names.
-const REMARKS: &str = "anticlockwise as because by clockwise conservation counterclockwise down downward downwards \
-    due energy from leftward leftwards momentum rightward rightwards since to towards up upward upwards using";
+const REMARKS: &str = "along angular anticlockwise as because by clockwise conservation counterclockwise definition down \
+    downward downwards due energy from geometry hinge horizontal horizontally in kinematics leftward leftwards linear momentum \
+    newton no restitution rightward rightwards rolling since symmetry to towards up upward upwards using vertical vertically";
+
+/// Words of a description that stands in place of a name left of an equality sign: `kinetic energy before = …`.
+const DESCRIBING: &str = "angular change energy force impulse kinetic loss lost momentum potential rotational speed total \
+    velocity work";
 
 fn relates(text: &str) -> bool {
     text.contains('=') || text.contains(SIGNS) || text.contains("\\le") || text.contains("\\ge")
@@ -147,11 +152,36 @@ fn equation(text: &str) -> &str {
             None => break,
         }
     }
+    if let Some((left, right)) = rest.split_once('=')
+        && describes(left)
+    {
+        rest = if relates(right) {
+            right.trim_start()
+        } else {
+            ""
+        };
+    }
     let rest = without_remark(rest.trim_end_matches(['$', ' ', '.', ',', ';']));
     let moment = MOMENTS
         .split('|')
         .find_map(|words| rest.strip_suffix(words));
     moment.unwrap_or(rest).trim_end()
+}
+
+/// Whether words left of an equality sign describe a quantity and do not end in its name: `the energy lost`, `momentum about A`,
+/// but not `the energy E`.
+fn describes(left: &str) -> bool {
+    let lower = left.to_ascii_lowercase();
+    let words: Vec<&str> = lower.split_whitespace().collect();
+    let [.., before, last] = words[..] else {
+        return false;
+    };
+    let place = ["about", "at", "of", "on"].contains(&before);
+    lower.chars().all(|c| c.is_ascii_alphabetic() || c == ' ')
+        && (last.len() > 2 || place)
+        && words
+            .iter()
+            .any(|word| DESCRIBING.split_whitespace().any(|w| w == *word))
 }
 
 /// An equation without the number or the words in brackets behind it: `(downwards)`, `(by symmetry)`, `\\tag{3}`, and a `(3)`
@@ -165,7 +195,7 @@ fn without_remark(text: &str) -> &str {
     };
     let number = !inside.is_empty() && inside.bytes().all(|b| b.is_ascii_digit());
     let first = inside.split(' ').next().unwrap_or_default();
-    let words = text.ends_with(')') && REMARKS.split(' ').any(|word| word == first);
+    let words = text.ends_with(')') && REMARKS.split_whitespace().any(|word| word == first);
     match before.strip_suffix("\\tag") {
         Some(equation) if number => equation.trim_end(),
         None if words => before.trim_end(),
