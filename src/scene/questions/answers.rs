@@ -220,7 +220,7 @@ impl Reader<'_, '_> {
         }
         let message = format!("no earlier answer is called `{}`", name.text);
         let mut fault = Fault::new(name.span, message);
-        if let Some(near) = nearest(&name.text, answers.into_iter()) {
+        if let Some(near) = nearest(&name.text, answers) {
             fault = fault.hint(format!("did you mean `{near}`?"));
         }
         fault.add_to(&mut self.base.faults)
