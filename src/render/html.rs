@@ -51,7 +51,7 @@ const STYLE: &str = "
 body{margin:0 auto;max-width:46rem;padding:1.2rem 1rem 3rem;font:17px/1.55 Georgia,'Times New Roman',serif;color:#1a1a1a;background:#fff;overflow-wrap:break-word}
 h1{font-size:1.55rem;line-height:1.25;margin:.4rem 0 .1rem}
 h2{font-size:1.12rem;margin:1.9rem 0 .4rem;border-bottom:1px solid #ccc;padding-bottom:.15rem}
-h3{font-size:1rem;margin:1.2rem 0 .3rem}
+h3,h4{font-size:1rem;margin:1.2rem 0 .3rem}h4{font-weight:normal;font-style:italic}
 p{margin:.55rem 0}
 .source{color:#555;font-style:italic;margin-top:0}
 .display{overflow-x:auto;overflow-y:hidden;margin:.5rem 0;padding:.15rem 0}
@@ -76,7 +76,7 @@ figcaption{font-size:.86rem;color:#555}.value{white-space:nowrap}
 .figures figure{flex:1 1 300px;margin:0;min-width:0;max-width:26rem}
 @media (prefers-color-scheme:dark){body{color:#e6e6e6;background:#16181c}h2{border-color:#444}.source,figcaption{color:#aaa}}
 @media (max-width:480px){body{font-size:16px;padding:.8rem .8rem 2rem}.display:not(.result) math{margin-left:.2rem}.desk{display:none}.phone{display:block}}
-@media print{body{max-width:none;font-size:11pt;color:#000;background:#fff}h2,h3,.display,figure{break-inside:avoid}h2,h3{break-after:avoid}.display{overflow:visible}p{orphans:3;widows:3}}
+@media print{body{max-width:none;font-size:11pt;color:#000;background:#fff}h2,h3,h4,.display,figure{break-inside:avoid}h2,h3,h4{break-after:avoid}.display{overflow:visible}p{orphans:3;widows:3}}
 ";
 
 /// The whole page.
@@ -126,7 +126,7 @@ pub fn sections(s: &Solution, pictures: &[Picture]) -> String {
     for section in &s.sections {
         out.push_str("<section>\n");
         if !section.heading.is_empty() {
-            let level = 2 + section.depth.min(1);
+            let level = 2 + section.depth;
             out.push_str(&format!(
                 "<h{level}>{}</h{level}>\n",
                 sentence(s, &section.heading)

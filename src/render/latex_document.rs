@@ -71,8 +71,8 @@ fn body(s: &Solution, pictures: &[Picture]) -> String {
     for section in &s.sections {
         if !section.heading.is_empty() {
             out.push_str(&format!(
-                "\\{}section*{{{}}}\n",
-                "sub".repeat(1 + section.depth.min(1)),
+                "\\{}*{{{}}}\n",
+                ["subsection", "subsubsection", "paragraph"][section.depth.min(2)],
                 sentence(s, &section.heading)
             ));
         }

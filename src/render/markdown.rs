@@ -21,7 +21,7 @@ pub fn solution(s: &Solution, pictures: &[(Picture, String)]) -> String {
     }
     for section in &s.sections {
         if !section.heading.is_empty() {
-            let marks = "#".repeat(2 + section.depth.min(1));
+            let marks = "#".repeat(2 + section.depth);
             blocks.push(format!("{marks} {}", sentence(s, &section.heading)));
         }
         for part in &section.parts {

@@ -253,6 +253,14 @@ impl Scene {
         arms
     }
 
+    /// The name of what stands at a position at the beginning: a point, else a body with its center of mass there.
+    pub fn named_at(&self, at: &Vector) -> Option<&str> {
+        let points = self.points.iter().map(|p| (&p.name, &p.at));
+        let bodies = self.bodies.iter().map(|b| (&b.name, &b.center));
+        let mut all = points.chain(bodies).filter(|(_, place)| *place == at);
+        all.next().map(|(name, _)| name.as_str())
+    }
+
     /// Whether it goes through stages, and is not one impact.
     pub fn has_stages(&self) -> bool {
         !self.stages.is_empty()

@@ -416,13 +416,7 @@ impl Writer<'_> {
             }
             if !found.is_empty() && found.len() <= 4 {
                 let mut text = vec![say("With ")];
-                for (i, symbol) in found.iter().enumerate() {
-                    if i > 0 {
-                        let last = i + 1 == found.len();
-                        text.push(say(if last { " and " } else { ", " }));
-                    }
-                    text.push(words::formula(symbol));
-                }
+                text.extend(words::row(found.iter().map(words::formula), " and "));
                 text.push(say(" from above,"));
                 self.text(text);
             } else if !found.is_empty() {
@@ -450,7 +444,9 @@ impl Writer<'_> {
         for answer in answers {
             match &answer.form {
                 Form::Equation { left, right } => {
-                    self.say("Before = after, in the unknowns that are asked for:");
+                    self.say(
+                        "It is the same before and after; in the unknowns that are asked for,",
+                    );
                     self.claim(
                         left.clone(),
                         right.clone(),

@@ -144,6 +144,12 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     }
     // The name of the answer comes first, so that what shows the answer is a claim about it. A parameter that is asked for keeps
     // its name.
+    if let Ask::AngularMomentum { body, about, .. } = ask
+        && !brief
+    {
+        let line = moment_of_momentum(scene, *body, scene.named_at(about));
+        lines.extend(line.filter(|line| !solution.shows(&line.math)));
+    }
     let named = answer.formula().filter(|_| !parameter);
     let defined = named.map(|formula| defined(solution, answer, formula, fresh));
     let shown = claims(ask, answer, named.map(|f| (&symbol, f)));
@@ -199,6 +205,27 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     if let Some(words) = worth_telling(&answer.checks, solution.detail).filter(|_| !told) {
         solution.text(vec![say(called(scene, &words))]);
     }
+}
+
+/// H = r × m v + I ω of a body about a point with a name.
+fn moment_of_momentum(scene: &Scene, b: usize, about: Option<&str>) -> Option<Line> {
+    let about = about?;
+    let body = &scene.bodies[b];
+    let c = words::center(scene, b);
+    let mut math = vec![words::name("H", about, "", true), Math::Op("=")];
+    if about != body.name {
+        math.extend([
+            words::name("r", &format!("{c}/{about}"), "", true),
+            Math::Op("×"),
+            Math::Factor(body.mass.clone()),
+            words::name("v", &c, "", true),
+        ]);
+    }
+    if !body.is_particle() {
+        math.extend((math.len() > 2).then_some(Math::Op("+")));
+        math.extend([words::name("I", &c, "", false), words::spin(scene, b, "")]);
+    }
+    Some(Line { math, step: None })
 }
 
 /// What an answer rests on beyond what the whole solution does, which is told at its end.
@@ -283,12 +310,7 @@ fn identity(
     one_chain(&mut lines, *relation, right);
     if !with.is_empty() {
         let mut text = vec![say("With ")];
-        for (i, (name, value)) in with.iter().enumerate() {
-            if i > 0 {
-                text.push(say(" and "));
-            }
-            text.push(words::equation(&Expr::symbol(name), value));
-        }
+        text.extend(words::values(with));
         text.push(say(","));
         solution.text(text);
     }

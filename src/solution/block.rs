@@ -152,18 +152,8 @@ impl Writer<'_> {
 
     /// `ω₁, v_x and P`.
     pub(super) fn symbols(&self, unknowns: &[Unknown]) -> Vec<Inline> {
-        let mut out = Vec::new();
-        for (i, u) in unknowns.iter().enumerate() {
-            if i > 0 {
-                out.push(say(if i + 1 == unknowns.len() {
-                    " and "
-                } else {
-                    ", "
-                }));
-            }
-            out.push(words::formula(&Expr::symbol(self.d.names.plain(*u))));
-        }
-        out
+        let plain = |u: &Unknown| words::formula(&Expr::symbol(self.d.names.plain(*u)));
+        words::row(unknowns.iter().map(plain), " and ")
     }
 
     /// The key equation alone, for the brief solution.

@@ -59,7 +59,7 @@ impl Writer<'_> {
             Math::Op("="),
             Math::Expr(known.value.clone()),
         ]);
-        self.say(&format!("Given is a component of {of} just after:"));
+        self.say(&format!("A component of {of} just after is given:"));
         self.show(math, None);
     }
 

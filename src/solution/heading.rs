@@ -56,7 +56,7 @@ pub(super) fn further(solution: &mut Solution, ask: &Ask, answer: &Answer) {
         return;
     };
     if let Some(Inline::Text(lead)) = section.heading.first_mut() {
-        *lead = lead.replace("Value of", "Values of");
+        *lead = lead.replace("quantity", "quantities");
     }
     section
         .heading
@@ -74,18 +74,12 @@ pub(super) fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> 
             vec![say(words::capital(&called(scene, meaning)))]
         }
         Ask::Value { with, .. } if with.is_empty() => {
-            vec![say("Value of "), math(&Expr::symbol(&answer.name))]
+            vec![say("Derived quantity "), math(&Expr::symbol(&answer.name))]
         }
         Ask::Value { formula, with, .. } => {
             let mut out = vec![math(formula)];
-            for (i, (name, value)) in with.iter().enumerate() {
-                out.push(say(match (i, with.len() - i) {
-                    (0, _) => " at ",
-                    (_, 1) => " and ",
-                    _ => ", ",
-                }));
-                out.push(words::equation(&Expr::symbol(name), value));
-            }
+            out.push(say(" at "));
+            out.extend(words::values(with));
             out
         }
         Ask::Condition {
@@ -116,12 +110,7 @@ pub(super) fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> 
         ],
         Ask::Maximum { of, over } => {
             let mut out = vec![say("Largest value of "), math(of), say(" over ")];
-            for (i, p) in over.iter().enumerate() {
-                if i > 0 {
-                    out.push(say(" and "));
-                }
-                out.push(math(&Expr::symbol(p)));
-            }
+            out.extend(words::symbols(over, " and "));
             out
         }
         Ask::Limit { of, parameter, to } => {

@@ -151,7 +151,7 @@ pub struct Before {
 /// A heading and what stands below it.
 #[derive(Clone, Debug)]
 pub struct Section {
-    /// 0 for a section, 1 for a part of the section before.
+    /// 0 for a section, 1 for a part of the section before, 2 for a part of that.
     pub depth: usize,
     /// The heading; empty for what stands directly below the title.
     pub heading: Vec<Inline>,

@@ -5,7 +5,7 @@ use super::asked::{defined, given_that, is_fresh, stands_for};
 use super::heading::{goes_on, heading};
 use super::known::worth_telling;
 use super::sentence::{called, sentence};
-use super::words::say;
+use super::words::{self, say};
 use super::{Inline, Line, Math, Part, Solution};
 use crate::answer::Answer;
 use crate::expr::Expr;
@@ -61,7 +61,7 @@ pub(super) fn near<'s>(
                 Some(order) => format!("To order {order}, "),
                 None => String::from("Its leading term: "),
             })];
-            text.extend(listed(other));
+            text.extend(words::row(other, " and "));
             text.push(say("."));
             solution.text(text);
         }
@@ -105,7 +105,7 @@ fn left_out(solution: &mut Solution, scene: &Scene, told: &[Vec<Math>], answers:
                 _ => "The next terms are ",
             }));
             let terms = terms.iter().flat_map(|t| sentence(scene, t));
-            text.extend(listed(terms.collect()));
+            text.extend(words::row(terms, " and "));
         }
         None => {
             for (i, (answer, math)) in answers.iter().zip(told).enumerate() {
@@ -118,17 +118,4 @@ fn left_out(solution: &mut Solution, scene: &Scene, told: &[Vec<Math>], answers:
     }
     text.push(say("."));
     solution.text(text);
-}
-
-/// `a, b and c`.
-fn listed(items: Vec<Inline>) -> Vec<Inline> {
-    let count = items.len();
-    let mut out = Vec::new();
-    for (i, item) in items.into_iter().enumerate() {
-        if i > 0 {
-            out.push(say(if i + 1 == count { " and " } else { ", " }));
-        }
-        out.push(item);
-    }
-    out
 }

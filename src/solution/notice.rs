@@ -389,20 +389,13 @@ impl Writer<'_> {
                     ],
                 };
                 let arrow = if to == To::Value { "=" } else { "→" };
-                let mut pieces: Vec<Inline> = zeros
+                let pieces = zeros
                     .iter()
                     .map(|n| (n.clone(), Expr::zero()))
                     .chain(others.iter().cloned())
                     .take(3)
-                    .map(|(n, e)| Inline::Math(words::related(&Expr::symbol(&n), arrow, &e)))
-                    .collect();
-                let count = pieces.len();
-                for (i, piece) in pieces.drain(..).enumerate() {
-                    if i > 0 {
-                        text.push(say(if i + 1 == count { " and " } else { ", " }));
-                    }
-                    text.push(piece);
-                }
+                    .map(|(n, e)| Inline::Math(words::related(&Expr::symbol(&n), arrow, &e)));
+                text.extend(words::row(pieces, " and "));
                 text.push(say("."));
                 let rank = match to {
                     To::Value => 0,

@@ -155,14 +155,22 @@ impl Writer<'_> {
             self.text(law);
         }
         self.case();
-        for (unknown, value) in self.d.given.clone() {
-            let symbol = Expr::symbol(self.d.names.plain(unknown));
-            self.text(vec![
-                say("It is given that just after "),
-                words::equation(&symbol, &value),
-                say("."),
-            ]);
+        self.given_after();
+    }
+
+    /// What is given of the motion just after.
+    pub(super) fn given_after(&mut self) {
+        let given = self.d.given.iter();
+        let given = given.map(|(unknown, value)| {
+            let symbol = Expr::symbol(self.d.names.plain(*unknown));
+            words::equation(&symbol, value)
+        });
+        let given = words::row(given, " and ");
+        if given.is_empty() {
+            return;
         }
+        let lead = [say("It is given that just after ")];
+        self.text(lead.into_iter().chain(given).chain([say(".")]).collect());
     }
 
     /// The motion just before, where the scene has symbols for it that it does not explain.

@@ -16,11 +16,24 @@ impl Solution {
         });
     }
 
-    /// Adds to the section that is open.
+    /// Adds to the section that is open; results that follow on results share their box.
     pub(super) fn push(&mut self, part: Part) {
-        if let Some(section) = self.sections.last_mut() {
-            section.parts.push(part);
+        let Some(section) = self.sections.last_mut() else {
+            return;
+        };
+        match (section.parts.last_mut(), part) {
+            (Some(Part::Result(lines)), Part::Result(more)) => lines.extend(more),
+            (_, part) => section.parts.push(part),
         }
+    }
+
+    /// Whether an equation stands in a display already.
+    pub(super) fn shows(&self, math: &[Math]) -> bool {
+        let mut parts = self.sections.iter().flat_map(|s| &s.parts);
+        parts.any(|part| match part {
+            Part::Display(lines) => lines.iter().any(|l| l.math == math),
+            _ => false,
+        })
     }
 
     pub(super) fn text(&mut self, text: Vec<Inline>) {

@@ -74,12 +74,7 @@ impl Writer<'_> {
         }
         if !open.is_empty() {
             let mut text = vec![say("Momentum balance and the given laws do not determine ")];
-            for (i, e) in open.iter().enumerate() {
-                if i > 0 {
-                    text.push(say(if i + 1 == open.len() { " and " } else { ", " }));
-                }
-                text.push(words::formula(e));
-            }
+            text.extend(words::row(open.iter().map(words::formula), " and "));
             let counting = &self.d.counting;
             text.push(say(format!(
                 ": {} equations, {} of them independent, for {} unknowns.",
@@ -258,13 +253,7 @@ impl Writer<'_> {
                 } else {
                     " Valid for "
                 }));
-                let count = conditions.len();
-                for (i, condition) in conditions.into_iter().enumerate() {
-                    if i > 0 {
-                        text.push(say(if i + 1 == count { " and " } else { ", " }));
-                    }
-                    text.push(condition);
-                }
+                text.extend(words::row(conditions, " and "));
                 text.push(say("."));
             }
         }

@@ -64,12 +64,10 @@ impl Writer<'_> {
         let is_short = |(left, _, right): &&(Expr, _, Expr)| left.size() + right.size() <= LONG;
         if !decided.when.is_empty() && decided.when.iter().all(|c| is_short(&c)) {
             text.push(say(", which is so where "));
-            for (i, (left, relation, right)) in decided.when.iter().enumerate() {
-                if i > 0 {
-                    text.push(say(" and "));
-                }
-                text.push(Inline::Math(words::related(left, relation.sign(), right)));
-            }
+            let all = decided.when.iter().map(|(left, relation, right)| {
+                Inline::Math(words::related(left, relation.sign(), right))
+            });
+            text.extend(words::row(all, " and "));
         }
         text.push(say("."));
         self.text(text);

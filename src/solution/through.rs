@@ -139,13 +139,11 @@ impl Writer<'_> {
         }
         // What is not asked for is said in the sentence.
         let mut line = vec![say(format!("{text}, so "))];
-        for (i, block) in blocks.iter().enumerate() {
-            if i > 0 {
-                line.push(say(if i + 1 == blocks.len() { " and " } else { ", " }));
-            }
+        let kept = blocks.iter().map(|block| {
             let [symbol, value] = self.kept(block);
-            line.push(words::equation(&symbol, &value));
-        }
+            words::equation(&symbol, &value)
+        });
+        line.extend(words::row(kept, " and "));
         line.push(say("."));
         self.text(line);
     }

@@ -5,7 +5,7 @@ use crate::derive::Derivation;
 use crate::expr::{Expr, Symbol};
 pub use crate::formula::{capital, either, listed};
 use crate::laws::{Place, Unknown};
-use crate::scene::{Scene, with_noun};
+use crate::scene::{Parameter, Scene, with_noun};
 use crate::verify::Proof;
 
 /// `the bar`, `ball 1`, `body A`, `the upper body`.
@@ -168,7 +168,7 @@ const WORDS: [&str; 20] = [
     "or", "so", "to", "up",
 ];
 
-/// Words in which the names of parameters stand as their symbols.
+/// Words in which the names of parameters stand as their symbols, with a number before and a divisor behind: 2b, d/2.
 pub fn with_symbols(scene: &Scene, text: &str) -> Vec<Inline> {
     let is_part = |c: char| c.is_alphanumeric() || c == '_';
     let mut out = Vec::new();
@@ -181,44 +181,84 @@ pub fn with_symbols(scene: &Scene, text: &str) -> Vec<Inline> {
             continue;
         }
         let end = rest.find(|c: char| !is_part(c)).unwrap_or(rest.len());
-        let (word, after) = rest.split_at(end);
-        let parameter = scene.parameters.iter().find(|p| *p.name == *word);
-        let made = crate::formula::latex_name(word);
-        // Words of the language stay words: the article a, the pronoun I, names that are spelled out.
-        let symbol = parameter.is_some_and(|p| {
-            let typeset = p.latex.as_deref().is_some_and(is_safe_latex);
-            let short = word.len() == 2 && typeset && !WORDS.contains(&word);
-            let one = word.chars().count() == 1 && !matches!(word, "a" | "A" | "I");
-            let dotted = typeset && p.latex.iter().any(|l| l.starts_with("\\dot"));
-            let indexed = word.contains(|c: char| c.is_ascii_digit() || c == '_');
-            short
-                || dotted
-                || (one || indexed || made.starts_with("\\")) && !made.starts_with("\\mathrm")
-        });
-        if symbol {
-            out.push(say(std::mem::take(&mut words)));
-            out.push(formula(&Expr::symbol(word)));
-        } else {
-            words.push_str(word);
-        }
+        let (whole, after) = rest.split_at(end);
         rest = after;
+        let word = whole.trim_start_matches(|c: char| c.is_ascii_digit());
+        let is_factor = word.len() < whole.len();
+        let in_formula = is_factor || word == "a" && after.starts_with(')');
+        let Some(symbol) = symbol_in(scene, word, in_formula) else {
+            words.push_str(whole);
+            continue;
+        };
+        let number = |digits: &str| digits.parse::<i64>().ok().map(Expr::from);
+        let factor = number(&whole[..whole.len() - word.len()]).unwrap_or_else(Expr::one);
+        let below = after.strip_prefix('/').unwrap_or("");
+        let digits = below
+            .find(|c: char| !c.is_ascii_digit())
+            .unwrap_or(below.len());
+        let (divisor, behind) = below.split_at(digits);
+        let divisor = number(divisor).filter(|n| !n.is_zero() && !behind.starts_with(is_part));
+        if divisor.is_some() {
+            rest = behind;
+        }
+        out.push(say(std::mem::take(&mut words)));
+        let one = Expr::one();
+        out.push(formula(&(&factor * &symbol / divisor.unwrap_or(one))));
     }
     out.push(say(words));
     out
 }
 
-/// `a, b and c` of symbols, with the word before the last one.
-pub fn symbols(names: &[Symbol], last: &'static str) -> Vec<Inline> {
+/// The symbol that a word of a sentence stands for, as it is typed or as it is set: `omega_0`, `ω₀`. Words of the language stay
+/// words unless they stand in a formula: the article a, the pronoun I, names that are spelled out.
+fn symbol_in(scene: &Scene, word: &str, in_formula: bool) -> Option<Expr> {
+    let set = |p: &Parameter| {
+        let latex = p.latex.clone();
+        crate::formula::write_unicode(&Expr::symbol(&p.name), &|_| latex.clone()) == word
+    };
+    let mut all = scene.parameters.iter();
+    let p = match word.is_ascii() {
+        true => all.find(|p| *p.name == *word)?,
+        false => all.find(|p| *p.name == *word || set(p))?,
+    };
+    let made = crate::formula::latex_name(word);
+    let typeset = p.latex.as_deref().is_some_and(is_safe_latex);
+    let short = word.len() == 2 && typeset && !WORDS.contains(&word);
+    let one = word.chars().count() == 1 && (in_formula || !matches!(word, "a" | "A" | "I"));
+    let dotted = typeset && p.latex.iter().any(|l| l.starts_with("\\dot"));
+    let indexed = word.contains(|c: char| c.is_ascii_digit() || c == '_');
+    let is_symbol = !word.is_ascii()
+        || short
+        || dotted
+        || (one || indexed || made.starts_with("\\")) && !made.starts_with("\\mathrm");
+    is_symbol.then(|| Expr::symbol(&p.name))
+}
+
+/// `a, b and c` of formulas, with the word before the last one.
+pub fn row(items: impl IntoIterator<Item = Inline>, last: &'static str) -> Vec<Inline> {
+    let items: Vec<Inline> = items.into_iter().collect();
+    let count = items.len();
     let mut out = Vec::new();
-    for (i, name) in names.iter().enumerate() {
-        match (i, i + 1 == names.len()) {
-            (0, _) => {}
-            (_, true) => out.push(say(last)),
-            _ => out.push(say(", ")),
+    for (i, item) in items.into_iter().enumerate() {
+        if i > 0 {
+            out.push(say(if i + 1 == count { last } else { ", " }));
         }
-        out.push(formula(&Expr::symbol(name)));
+        out.push(item);
     }
     out
+}
+
+/// `a, b and c` of symbols, with the word before the last one.
+pub fn symbols<'s>(names: impl IntoIterator<Item = &'s Symbol>, last: &'static str) -> Vec<Inline> {
+    row(names.into_iter().map(|n| formula(&Expr::symbol(n))), last)
+}
+
+/// `e = 1, m = 0 and α = π/4`.
+pub fn values(of: &[(Symbol, Expr)]) -> Vec<Inline> {
+    let each = of
+        .iter()
+        .map(|(name, value)| equation(&Expr::symbol(name), value));
+    row(each, " and ")
 }
 
 /// A condition that is given as text: its formulas set where it is a relation between such, its words otherwise.

@@ -23,7 +23,7 @@ pub(super) struct Writer<'a> {
     pub(super) reduced: Kinematics<Expr>,
     pub(super) solution: Solution,
     /// Whether its sections are parts of a larger one.
-    pub(super) nested: bool,
+    pub(super) depth: usize,
     /// What the ids of its steps begin with: that of the step they are parts of, and a point.
     pub(super) within: String,
     /// Answers and abbreviations that stand on the page already.
@@ -122,7 +122,7 @@ impl<'a> Writer<'a> {
                 assumptions,
                 mode: super::decided(scene),
             },
-            nested: false,
+            depth: 0,
             within: String::new(),
             told: BTreeSet::new(),
             zero: given_zero,
@@ -135,7 +135,7 @@ impl<'a> Writer<'a> {
     }
 
     pub(super) fn section(&mut self, heading: Vec<Inline>) {
-        self.solution.section(usize::from(self.nested), heading);
+        self.solution.section(self.depth, heading);
     }
 
     pub(super) fn push(&mut self, part: Part) {

@@ -7,6 +7,7 @@ use super::impact;
 use crate::expr::{Expr, Vector, cross, dot, minus};
 use crate::formula::with_subscript;
 use crate::scene::fault::Fault;
+use crate::scene::place_file::PositionFile;
 use crate::scene::question_file::QuestionFile;
 use crate::scene::record::Text;
 use crate::scene::resolve::Resolver;
@@ -135,7 +136,16 @@ pub(super) fn meaning(q: &QuestionFile, stages: &[StageFile]) -> String {
     match &q.of {
         // A velocity names the point, and `of` its body.
         Some(of) => format!("{what} of {} of `{}`{when}", body.text, of.text),
-        None => format!("{what} of `{}`{when}", body.text),
+        None => format!("{what} of `{}`{}{when}", body.text, place(q, &body.text)),
+    }
+}
+
+/// The point to which a question refers, in words.
+fn place(q: &QuestionFile, body: &str) -> String {
+    match &q.about {
+        Some(PositionFile::Name(name)) if name.text == body => " about its center of mass".into(),
+        Some(PositionFile::Name(name)) => format!(" about `{}`", name.text),
+        _ => String::new(),
     }
 }
 

@@ -98,7 +98,7 @@ const fold = (title, ...inner) => make("details", {}, make("summary", {}, title)
 function sections(written) {
   const out = [];
   for (const section of written.querySelectorAll("main > section")) {
-    const heading = section.querySelector("h2, h3");
+    const heading = section.querySelector("h2, h3, h4");
     const part = make("details", {}, make("summary", {}, ...(heading ? [...heading.childNodes] : ["The problem"])));
     heading?.remove();
     part.append(...section.childNodes);

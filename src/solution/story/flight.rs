@@ -50,19 +50,21 @@ impl Page<'_> {
         text.push(say("."));
         self.solution.text(text);
         let mut lines = Vec::new();
-        // The velocity at a height decides when it is reached.
-        if let (FallEnd::Drop(_), Some(_)) = (&fall.until, &fall.gravity)
-            && !self.asked(told, |ask| matches!(ask, Ask::Velocity { .. }))
-        {
-            let raw = self.falls_with(told, fall, time);
-            let value = &told.after.velocity[fall.body][1];
-            let head = name("v", "y", "+", false);
-            lines.push(self.defined(
-                head,
-                &raw,
-                value,
-                "velocity at this height: v² = v₀² + 2 g h",
-            ));
+        let by_height = matches!(fall.until, FallEnd::Drop(_));
+        for b in bodies.iter().filter(|_| fall.gravity.is_some()) {
+            let asks = |ask: &Ask| matches!(ask, Ask::Velocity { body, .. } if body == b);
+            // The velocity at a height decides when it is reached, and what comes next begins with it.
+            if self.asked(told, asks) || !(self.goes_on(told) || by_height && *b == fall.body) {
+                continue;
+            }
+            let raw = self.falls_with(told, fall, *b, time);
+            let index = match bodies.len() {
+                1 => String::from("y"),
+                _ => format!("{},y", words::center(self.scene, *b)),
+            };
+            let value = &told.after.velocity[*b][1];
+            let why = "velocity at the end: v² = v₀² + 2 g h, or v = v₀ + g t";
+            lines.push(self.defined(name("v", &index, "+", false), &raw, value, why));
         }
         let needs_time = self.asked(told, |ask| matches!(ask, Ask::Position { .. }));
         if needs_time
@@ -100,13 +102,16 @@ impl Page<'_> {
         (!is_given && !is_taken).then(|| Symbol::from(TIME))
     }
 
-    /// The velocity upwards at the end of a flight, from that at its beginning.
-    fn falls_with(&self, told: &StageTold, fall: &Fall, time: &Expr) -> Expr {
+    /// The velocity upwards of a body at the end of a flight, from that at its beginning.
+    fn falls_with(&self, told: &StageTold, fall: &Fall, body: usize, time: &Expr) -> Expr {
         let g = fall.gravity.clone().unwrap_or_else(Expr::zero);
-        let v = self.named(&told.before.velocity[fall.body][1]);
+        let [v, first] = [body, fall.body].map(|b| &told.before.velocity[b][1]);
+        // What begins alike falls alike.
+        let alike = v == first;
+        let v = self.named(v);
         match &fall.until {
-            FallEnd::Drop(h) if h.is_zero() && !fall.rising => -v,
-            FallEnd::Drop(h) if !g.is_zero() => {
+            FallEnd::Drop(h) if alike && h.is_zero() && !fall.rising => -v,
+            FallEnd::Drop(h) if alike && !g.is_zero() => {
                 let size = (v.powi(2) + Expr::from(2) * &g * h).sqrt();
                 if fall.rising { size } else { -size }
             }
@@ -174,13 +179,7 @@ impl Page<'_> {
                 let along = direction(along);
                 let x = self.named(&told.before.velocity[*body][0]);
                 [&shown, time].map(|time| {
-                    let y = match *body == fall.body {
-                        true => self.falls_with(told, fall, time),
-                        false => {
-                            let g = fall.gravity.clone().unwrap_or_else(Expr::zero);
-                            self.named(&told.before.velocity[*body][1]) - g * time
-                        }
-                    };
+                    let y = self.falls_with(told, fall, *body, time);
                     dot(&[x.clone(), y], &along)
                 })
             }
@@ -204,8 +203,8 @@ impl Page<'_> {
         })
     }
 
-    /// A flight that is told by its acceleration, and its time: each but those whose energy is asked for, or that go straight up
-    /// or down through a height and are asked for no more than their velocity, which energy gives at once.
+    /// A flight that is told by its acceleration, and its time: each but those whose energy is asked for, or in which
+    /// one body goes straight up or down through a height and is asked for no more than its velocity, which energy gives at once.
     pub(super) fn kinematic<'t>(&self, told: &'t StageTold) -> Option<(&'t Fall, &'t Expr)> {
         let StageKind::Fall(fall) = &told.placed.kind else {
             return None;
@@ -215,6 +214,7 @@ impl Page<'_> {
         let is_upright = |b: &usize| told.before.velocity[*b][0].is_zero();
         let timeless = !self.asked(told, |ask| matches!(ask, Ask::Time | Ask::Position { .. }));
         let at_once = by_height && timeless && fall.bodies().iter().all(is_upright);
+        let at_once = at_once && (fall.with.is_empty() || !self.goes_on(told));
         let by_energy = self.asked(told, |ask| matches!(ask, Ask::Energy { .. }));
         (!by_energy && !at_once).then_some((fall, time))
     }

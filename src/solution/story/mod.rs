@@ -35,6 +35,7 @@ pub(super) fn tell(scene: &Scene, told: &Told, detail: Detail) -> Solution {
         solution: blank(scene, told, detail),
         valid: Vec::new(),
         letters: Vec::new(),
+        stands: Vec::new(),
     };
     page.opening();
     let mut answers = told.answers.clone();
@@ -109,6 +110,8 @@ struct Page<'a> {
     valid: Vec<Inline>,
     /// The letters of motions that were told, with what they stand for.
     letters: Vec<(Math, &'static str)>,
+    /// Equations that later stages need not tell again.
+    stands: Vec<Vec<Math>>,
 }
 
 impl Page<'_> {
@@ -275,7 +278,7 @@ impl Page<'_> {
             self.handed(case);
         }
         let mut writer = Writer::new(&scene, &derivation, &case.proof, self.solution.detail);
-        writer.nested = true;
+        writer.depth = if several { 2 } else { 1 };
         // The text goes on where it stands; symbols belong to the impact.
         let first = self.solution.steps.len();
         std::mem::swap(&mut writer.solution.sections, &mut self.solution.sections);
@@ -285,6 +288,9 @@ impl Page<'_> {
         writer.solution.names = names;
         if self.solution.detail != Detail::Brief && !several {
             writer.case();
+        }
+        if self.solution.detail != Detail::Brief {
+            writer.given_after();
         }
         let full = self.solution.detail == Detail::Full;
         match cases::again(self.scene, &told.cases, k).filter(|_| !full) {
@@ -344,23 +350,27 @@ impl Page<'_> {
         });
     }
 
+    /// Whether no earlier stage has told this equation; notes it, in place of another one for the same quantity.
+    fn is_new(&mut self, equation: &[Math]) -> bool {
+        if self.stands.iter().any(|told| told == equation) {
+            return false;
+        }
+        self.stands.retain(|told| told.first() != equation.first());
+        self.stands.push(equation.to_vec());
+        true
+    }
+
     /// What an earlier stage hands on, where it got a symbol of its own, and the law of a rough contact.
     fn handed(&mut self, case: &Case) {
         // What was asked for stands above by its name.
         let stands = |name: &Symbol| self.solution.meanings.contains_key(name);
-        let all = case.handed.iter();
-        let mut fresh = all.filter(|(name, _)| !stands(name)).peekable();
-        if fresh.peek().is_some() {
+        let all = case.handed.iter().filter(|(name, _)| !stands(name));
+        let all = all.map(|(name, value)| (name.clone(), tidied(self.scene, value)));
+        let mut fresh: Vec<(Symbol, Expr)> = all.collect();
+        fresh.retain(|(name, value)| self.is_new(&words::related(&Expr::symbol(name), "=", value)));
+        if !fresh.is_empty() {
             let mut text = vec![say("From the stage before, ")];
-            for (i, (name, value)) in fresh.enumerate() {
-                if i > 0 {
-                    text.push(say(" and "));
-                }
-                text.push(words::equation(
-                    &Expr::symbol(name),
-                    &tidied(self.scene, value),
-                ));
-            }
+            text.extend(words::values(&fresh));
             text.push(say("."));
             self.solution.text(text);
         }
@@ -380,13 +390,8 @@ impl Page<'_> {
         let mut asks = self.scene.questions.iter().map(|q| &q.ask);
         let is_told = asks.any(|ask| matches!(ask, Ask::Unused(_)));
         if !self.told.unused.is_empty() && !is_told {
-            let mut text = vec![say("Given, but needed for no answer: ")];
-            for (i, p) in self.told.unused.iter().enumerate() {
-                if i > 0 {
-                    text.push(say(", "));
-                }
-                text.push(words::formula(&Expr::symbol(p)));
-            }
+            let mut text = vec![say("Not needed for any answer: ")];
+            text.extend(words::symbols(&self.told.unused, " and "));
             text.push(say("."));
             items.push(text);
         }
@@ -398,20 +403,8 @@ impl Page<'_> {
             _ => true,
         });
         if !self.valid.is_empty() && self.solution.detail == Detail::Normal {
-            let of = match self.told.stages.len() {
-                1 => "The results hold for ",
-                _ => "The impacts hold for ",
-            };
-            let mut text = vec![say(of)];
-            let count = self.valid.len();
-            for (i, condition) in std::mem::take(&mut self.valid).into_iter().enumerate() {
-                text.push(say(match (i, i + 1 == count) {
-                    (0, _) => "",
-                    (_, true) => " and ",
-                    _ => ", ",
-                }));
-                text.push(condition);
-            }
+            let mut text = vec![say("The results hold for ")];
+            text.extend(words::row(std::mem::take(&mut self.valid), " and "));
             text.push(say("."));
             items.push(text);
         }

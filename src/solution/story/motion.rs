@@ -56,16 +56,24 @@ impl Page<'_> {
                 tidy,
                 "moment of inertia about the fixed point: I + m r²",
             );
-            lines.push(Line { math, step });
+            // A body that turns again about the same point has the moment of inertia told before.
+            if self.is_new(&math) {
+                lines.push(Line { math, step });
+            }
         }
         if self.is_of_moments(told) {
-            self.solution.push(Part::Display(lines));
+            if !lines.is_empty() {
+                self.solution.push(Part::Display(lines));
+            }
             return self.whirled(stage, told);
         }
         let t = |mark| vec![words::kinetic("", mark)];
         if let StageKind::Linkage(linkage) = &stage.kind {
             self.velocities(told, linkage);
         }
+        let rises =
+            matches!(&stage.kind, StageKind::Turn(turn) if matches!(turn.until, Until::Stops));
+        self.energies(told, rises);
         let raw = self.energy_at(told, &told.before);
         let math = chain(t("-"), &raw, start);
         let step = claim(
@@ -136,6 +144,27 @@ impl Page<'_> {
         self.whirled(stage, told);
     }
 
+    /// What the letters of a balance of energy stand for; where a rotation comes to rest, only the first is needed.
+    fn energies(&mut self, told: &StageTold, to_rest: bool) {
+        let mut letters = vec![(
+            words::kinetic("", "-"),
+            "the kinetic energy at the beginning",
+        )];
+        if !to_rest {
+            for (what, _) in &told.work {
+                letters.push(match (told.work.len(), *what) {
+                    (1, _) => (name("W", "", "", false), "the work done on the way"),
+                    (_, "weight") => (name("W", what, "", false), "the work of the weight"),
+                    (_, "friction") => (name("W", what, "", false), "the work of friction"),
+                    (_, "moment") => (name("W", what, "", false), "the work of the moment"),
+                    _ => (name("W", what, "", false), "the work of the force"),
+                });
+            }
+            letters.push((words::kinetic("", "+"), "the kinetic energy at the end"));
+        }
+        self.meant(letters);
+    }
+
     /// The answer of a stage to a question of this kind.
     fn to(&self, told: &StageTold, is: fn(&Ask) -> bool) -> Option<&Answer> {
         self.answered(told).find(|answer| {
@@ -203,7 +232,7 @@ impl Page<'_> {
         match &stage.kind {
             StageKind::Turn(turn) if whirls => self.moments(told, turn),
             _ if whirls => self.solution.say(
-                "The balance of energy from the beginning to any place, differentiated by the time, gives the angular acceleration.",
+                "The balance of energy from the beginning to any place, differentiated with respect to time, gives the angular acceleration.",
             ),
             _ => {}
         }
@@ -375,11 +404,11 @@ impl Page<'_> {
         }
         let coordinate = Expr::symbol(&linkage.coordinate);
         let mut text = vec![
-            say("The places of all bodies follow from "),
+            say("The position of every body follows from "),
             words::formula(&coordinate),
-            say(
-                ", and their velocities from its rate; with these, translation and rotation make up the kinetic energy",
-            ),
+            say(", and its velocity from the rate "),
+            words::formula(&rate),
+            say("; translation and rotation together make up the kinetic energy"),
         ];
         if linkage.ends[0] == coordinate {
             text.extend([

@@ -79,6 +79,10 @@ impl Page<'_> {
                 step: Some(claimed),
             });
         }
+        if self.is_steady(told) {
+            self.solution
+                .say("The forces along the line balance, so the velocity stays as it is.");
+        }
         self.meant(letters);
         if !lines.is_empty() {
             self.solution.push(Part::Display(lines));
@@ -86,7 +90,7 @@ impl Page<'_> {
     }
 
     /// What letters stand for; what was told of an earlier motion is not told again.
-    fn meant(&mut self, letters: Vec<(Math, &'static str)>) {
+    pub(super) fn meant(&mut self, letters: Vec<(Math, &'static str)>) {
         let (old, new): (Vec<_>, Vec<_>) =
             letters.into_iter().partition(|l| self.letters.contains(l));
         if self.solution.detail == Detail::Brief || new.is_empty() {
@@ -135,6 +139,12 @@ impl Page<'_> {
             .then_some((symbol, value))
     }
 
+    /// Whether nothing speeds a motion along a line up or slows it down.
+    fn is_steady(&self, told: &StageTold) -> bool {
+        let mut steps = told.steps.iter();
+        steps.any(|s| s.letter == "a" && s.value.is_zero())
+    }
+
     /// Whether a step is worth telling: a time or a way only where a question or another step needs it.
     fn serves(&self, told: &StageTold, step: &Step) -> bool {
         let is_asked = self.asked(told, |ask| match ask {
@@ -146,6 +156,7 @@ impl Page<'_> {
         match step.letter {
             "t" => is_asked || told.steps.iter().any(|s| !s.by_time.is_empty()),
             "s" => is_asked,
+            "a" | "v" | "omega" if self.is_steady(told) => self.answering(told, step).is_some(),
             // What is asked the other way round stands in the box alone.
             "omega" => {
                 let spins = self.asked(told, |ask| matches!(ask, Ask::Spin { .. }));

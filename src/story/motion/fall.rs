@@ -207,7 +207,7 @@ fn conserved(fall: &Fall, turns: bool) -> Vec<crate::story::Kept> {
         "energy",
         true,
         pick(
-            "weight has a potential, and nothing else acts",
+            "only the weight acts, and it has a potential",
             "no force acts",
         ),
     )];

@@ -249,10 +249,10 @@ impl Pulled<'_> {
                     "the pull of the string, of which two parts carry what hangs on the movable pulley"
                 }
                 None => {
-                    "the pull of the string at its other end, by the forces on what hangs there"
+                    "the pull of the string beyond the pulleys, from the forces on what it moves there"
                 }
             },
-            "the pull of the string on this side of the pulleys, by the moment that turns them",
+            "its pull on this side of the pulleys, from the moment that turns them",
         ];
         let letters = ["T", "S"];
         let each = letters

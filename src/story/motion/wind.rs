@@ -59,7 +59,7 @@ pub(in crate::story) fn wind(
     ];
     out.energy = Some([energy.clone(), energy]);
     assumptions.push(Sentence::words(
-        "the pole is thin against the rope, and the axes at the end are turned along the rope",
+        "the pole is thin compared with the rope, and at the end x points along the rope",
     ));
     out.assumptions = assumptions;
     Ok(out)

@@ -196,15 +196,15 @@ impl<'a> Line<'a> {
         }
         let rolls = self.round.is_some() && !self.slips();
         let why = if rolls {
-            "the acceleration, with the inertia of turning added to the mass"
+            "the acceleration along the line, with the inertia of turning added to the mass"
         } else if self.strings.is_empty() {
             "the acceleration along the line"
         } else if self.strings.iter().any(|s| s.string.under.is_some()) {
-            "the acceleration along the string, of all that it ties together, where what moves half as fast counts with half its weight and a quarter of its mass"
+            "the acceleration of all bodies along the string, where one that moves half as fast counts with half its weight and a quarter of its mass"
         } else if self.strings.iter().all(|s| s.turning.is_zero()) {
-            "the acceleration along the string, of all that it ties together"
+            "the acceleration of all bodies along the string"
         } else {
-            "the acceleration along the string, of all that it ties together, the inertia of its pulleys with it"
+            "the acceleration of all bodies along the string, which also turns the pulleys"
         };
         let (force, inertia) = match self.radius().filter(|_| rolls) {
             Some(radius) => self.rolling(radius),
