@@ -237,7 +237,7 @@ pub(super) fn angular_momentum(
     let (b, stage) = (&told.placed.scene.bodies[body], &told.name);
     let arm = minus(&state.center[body], about);
     let h = &(&b.mass * &cross(&arm, &state.velocity[body])) + &(&b.inertia * &state.spin[body]);
-    let place = match scene.named_at(about) {
+    let place = match told.placed.scene.named_at(about) {
         Some(name) if name == b.name => String::from("its center of mass"),
         Some(name) => format!("`{name}`"),
         None => String::from("the point given"),
