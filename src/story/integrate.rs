@@ -28,10 +28,10 @@ pub(super) fn points_of(
     mut names: BTreeSet<Symbol>,
     domains: &Domains,
     count: usize,
-) -> Vec<Point<f64>> {
+) -> impl Iterator<Item = Point<f64>> {
     let bearing = domains.relations_of(&names);
     names.extend(bearing.iter().flat_map(|r| r.excess.symbols()));
-    let value = |name: &Symbol, k: usize, seed: u64| {
+    let value = move |name: &Symbol, k: usize, seed: u64| {
         let domain = domains.symbols.get(name);
         let prime = f64::from(PRIMES[k % PRIMES.len()]);
         let fraction =
@@ -54,7 +54,7 @@ pub(super) fn points_of(
             (None, None) => (4.0 * fraction - 2.0) * size,
         }
     };
-    let all = (1..=DRAWS).map(|seed| Point {
+    let all = (1..=DRAWS).map(move |seed| Point {
         values: (0..)
             .zip(&names)
             .map(|(k, name)| (name.clone(), value(name, k, seed)))
@@ -63,7 +63,6 @@ pub(super) fn points_of(
     });
     all.filter(|point| points::keeps(domains, point))
         .take(count)
-        .collect()
 }
 
 fn check(worst: f64, count: usize, what: &str) -> Check {

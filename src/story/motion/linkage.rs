@@ -171,7 +171,7 @@ fn way(
         return Ok(if positive { 1 } else { -1 });
     }
     let names = grows.symbols().into_iter().collect();
-    let points = integrate::points_of(names, &stage.scene.domains, POINTS);
+    let points: Vec<_> = integrate::points_of(names, &stage.scene.domains, POINTS).collect();
     let seen = |way: f64| {
         let mut all = points.iter().map(|p| grows.evaluate(p));
         all.all(|v| v.is_some_and(|v| way * v >= 0.0))
@@ -387,9 +387,9 @@ fn falls_all_the_way(stage: &Stage, linkage: &Linkage, drawn: &Expr) -> bool {
     const PARTS: u32 = 16;
     let [begin, end] = &linkage.ends;
     let names = [begin, end, drawn].into_iter().flat_map(|e| e.symbols());
-    let points = integrate::points_of(names.collect(), &stage.scene.domains, POINTS);
-    let falls = |point: &Point<f64>| {
-        let ends = [begin, end].map(|e| e.evaluate(point));
+    let mut points = integrate::points_of(names.collect(), &stage.scene.domains, POINTS);
+    let falls = |point: Point<f64>| {
+        let ends = [begin, end].map(|e| e.evaluate(&point));
         let [Some(from), Some(to)] = ends else {
             return false;
         };
@@ -401,5 +401,5 @@ fn falls_all_the_way(stage: &Stage, linkage: &Linkage, drawn: &Expr) -> bool {
             drawn.evaluate(&there).is_some_and(|d| d >= -1e-12)
         })
     };
-    points.iter().all(falls)
+    points.all(falls)
 }

@@ -289,7 +289,7 @@ impl Asked<'_> {
         let mut others = vec![at - ASIDE * scale, at + ASIDE * scale];
         let names = [symbol.clone()].into_iter().collect();
         let far = points_of(names, &self.scene.domains, OTHERS);
-        others.extend(far.iter().filter_map(|p| p.values.get(symbol)));
+        others.extend(far.filter_map(|p| p.values.get(symbol).copied()));
         // Elsewhere the scene may go another way through its cases, where something else is largest.
         others.retain(|value| {
             self.admits(seen, symbol, *value) && self.stays(seen, answer, symbol, *value)

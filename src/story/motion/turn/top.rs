@@ -140,9 +140,8 @@ pub(super) fn hurdle(
     let points = integrate::points_of(names.collect(), &stage.scene.domains, 12);
     // Where the stages before do not come to their ends there is nothing to see.
     let seen: Vec<bool> = points
-        .iter()
         .filter_map(|point| {
-            let [x, y, by] = [&r[0], &r[1], by].map(|e| e.evaluate(point));
+            let [x, y, by] = [&r[0], &r[1], by].map(|e| e.evaluate(&point));
             let (x, y, by) = (x?, y?, by?);
             let to_top = (way as f64 * x).atan2(y).rem_euclid(std::f64::consts::TAU);
             Some(match turn.until {
