@@ -52,9 +52,11 @@ pub(super) fn sign(e: &Expr, domains: &Domains) -> Option<Sign> {
             () => Sign::Zero,
         });
     }
-    if e.size() > LARGEST || has_both_signs(e, domains) {
-        return None;
-    }
+    let may_have_one = e.size() <= LARGEST && !has_both_signs(e, domains);
+    may_have_one.then(|| proved(e, domains)).flatten()
+}
+
+fn proved(e: &Expr, domains: &Domains) -> Option<Sign> {
     let mut field = Field::new(domains);
     field.prepare([e]);
     let element = field.element(e).ok()?;
@@ -65,12 +67,30 @@ pub(super) fn sign(e: &Expr, domains: &Domains) -> Option<Sign> {
 
 /// Where an expression is not negative.
 pub(super) fn decide(e: &Expr, domains: &Domains) -> Decided {
-    match sign(e, domains) {
+    as_like(e, None, domains)
+}
+
+/// The same. What holds on a part only, and by theory just where `like` does, is put like that where no point shows otherwise.
+pub(super) fn as_like(e: &Expr, like: Option<&Decided>, domains: &Domains) -> Decided {
+    let on_a_part = || {
+        let agrees = |other: &&Decided| {
+            let other = other.essential.as_ref();
+            other.is_some_and(|other| signs_agree(e, other, domains))
+        };
+        let like = like.filter(agrees).cloned();
+        like.unwrap_or_else(|| where_it_is(e, domains))
+    };
+    let sign = match e.as_number() {
+        Some(_) => sign(e, domains),
+        None if e.size() > LARGEST => None,
+        None if has_both_signs(e, domains) => return on_a_part(),
+        None => proved(e, domains),
+    };
+    match sign {
         Some(s) if s.is_not_negative() => plain(Verdict::Everywhere),
         Some(Sign::Negative) => plain(Verdict::Nowhere),
-        Some(Sign::NotPositive) => where_it_is(e, domains),
-        _ if e.size() <= LARGEST && has_both_signs(e, domains) => where_it_is(e, domains),
-        _ => UNDECIDED,
+        Some(_) => on_a_part(),
+        None => UNDECIDED,
     }
 }
 
@@ -94,7 +114,7 @@ pub(super) fn need(need: &Need, domains: &Domains) -> Decided {
 }
 
 /// Whether one expression is nowhere below zero where the other is above it, and the reverse, at the points tried.
-pub(super) fn signs_agree(a: &Expr, b: &Expr, domains: &Domains) -> bool {
+fn signs_agree(a: &Expr, b: &Expr, domains: &Domains) -> bool {
     let roles = roles(&[a, b]);
     let (domains, _) = domains.completed(&roles);
     let (mut compared, mut apart) = (0, false);

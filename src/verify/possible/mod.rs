@@ -36,7 +36,7 @@ use crate::laws::{self, Unknown};
 use crate::scene::outline::Need;
 use crate::scene::{Body, Contact, ContactLaw, Scene, touch};
 
-use decide::{Values, decide};
+use decide::{Decided, Values, decide};
 use sides::{Sense, Side};
 
 /// Where in the domain something holds.
@@ -99,6 +99,13 @@ pub struct Condition {
 }
 
 impl Condition {
+    fn decided(&self) -> Decided {
+        Decided {
+            verdict: self.verdict,
+            essential: self.essential.clone(),
+        }
+    }
+
     /// Whether it holds on some of a part of the domain, and not on all of it.
     pub fn divides(&self, part: &Domains) -> bool {
         let essential = self.essential.as_ref().filter(|_| !self.is_equation);
@@ -260,6 +267,7 @@ impl Judge<'_> {
         } in &sides.list
         {
             let from = self.conditions.len();
+            let alone = *is_given && self.acts_alone(contact);
             let opening = dot(&before, normal);
             let sense = match sense {
                 Sense::Out => Expr::one(),
@@ -273,14 +281,18 @@ impl Judge<'_> {
                     format!("the bodies approach at `{name}`"),
                     format!("the bodies separate at `{name}` before: they do not collide"),
                     signed(-&opening),
+                    None,
                 );
             }
+            let approach = self.conditions[from..].first();
+            let approach = approach.filter(|_| alone).map(Condition::decided);
             if contact.passes {
                 self.claim(
                     Rule::Apart,
                     format!("one body comes out behind the other at `{name}`"),
                     format!("neither body gets through the other at `{name}`"),
                     signed(-dot(&after, normal)),
+                    approach.as_ref(),
                 );
             } else if !sticks {
                 self.claim(
@@ -288,6 +300,7 @@ impl Judge<'_> {
                     format!("the bodies do not enter each other at `{name}`"),
                     format!("the bodies pass through each other at `{name}`"),
                     signed(dot(&after, normal)),
+                    approach.as_ref(),
                 );
             }
             let push = signed(dot(&impulse, normal));
@@ -299,6 +312,7 @@ impl Judge<'_> {
                     format!("the bodies push at `{name}`"),
                     format!("the bodies would have to pull each other at `{name}`"),
                     push,
+                    approach.as_ref(),
                 );
             }
             let approaches = self.conditions[from..]
@@ -312,10 +326,8 @@ impl Judge<'_> {
                     format!("the bodies leave `{name}` no faster than they came"),
                     format!("the bodies leave `{name}` faster than they came: e > 1"),
                     signed(-rest),
+                    None,
                 );
-            }
-            if *is_given {
-                self.by_approach_alone(from, contact);
             }
         }
         if !contact.passes {
@@ -340,6 +352,7 @@ impl Judge<'_> {
                     contact.name
                 ),
                 &sense * &dot(&after, &touching.normal),
+                None,
             );
         }
         if sides.unsure {
@@ -438,11 +451,13 @@ impl Judge<'_> {
             String::from("no kinetic energy is gained"),
             String::from("kinetic energy is gained"),
             lost,
+            None,
         );
     }
 
     /// Whether this is the one contact of a scene in which nothing else acts. Then its impulse is −(1 + e)(u⁻·n)/W with the
     /// W > 0 of a quadratic form in the masses (Delassus), so that it pushes, and the bodies part, exactly where they approach.
+    /// Their own forms are long, and the sign of W is out of reach of the algebra.
     fn acts_alone(&self, contact: &Contact) -> bool {
         let scene = self.scene;
         scene.contacts.len() == 1
@@ -451,34 +466,18 @@ impl Judge<'_> {
             && matches!(contact.law, ContactLaw::Frictionless { .. })
     }
 
-    /// Replaces the conditions along the given normal of a contact that acts alone by the approach, where no point shows that
-    /// the derived motion does otherwise. Their own forms are long, and the sign of W is out of reach of the algebra.
-    fn by_approach_alone(&mut self, from: usize, contact: &Contact) {
-        if !self.acts_alone(contact) {
-            return;
-        }
-        let own = &mut self.conditions[from..];
-        let Some(approach) = own.iter().find(|c| c.rule == Rule::Approach) else {
-            return;
-        };
-        let (verdict, Some(essential)) = (approach.verdict, approach.essential.clone()) else {
-            return;
-        };
-        for c in own
-            .iter_mut()
-            .filter(|c| matches!(c.rule, Rule::Apart | Rule::Push))
-        {
-            let agrees = |e: &Expr| decide::signs_agree(e, &essential, &self.scene.domains);
-            if c.essential.as_ref().is_some_and(agrees) {
-                (c.verdict, c.essential) = (verdict, Some(essential.clone()));
-            }
-        }
-    }
-
-    /// Adds the condition that an expression in parameters and unknowns is not negative.
-    fn claim(&mut self, rule: Rule, words: String, otherwise: String, e: Expr) {
+    /// Adds the condition that an expression in parameters and unknowns is not negative; by theory it holds just where `like`
+    /// does.
+    fn claim(
+        &mut self,
+        rule: Rule,
+        words: String,
+        otherwise: String,
+        e: Expr,
+        like: Option<&Decided>,
+    ) {
         let decided = match self.closed(&e) {
-            Some(closed) => decide(&closed, &self.scene.domains),
+            Some(closed) => decide::as_like(&closed, like, &self.scene.domains),
             None => decide::UNDECIDED,
         };
         let at_values = self.values.not_negative(&e);
