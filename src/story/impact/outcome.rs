@@ -6,7 +6,7 @@ use crate::algebra::Sign;
 use crate::answer::Form;
 use crate::answer::calc::{Seen, essential, is_zero, sign, tidy};
 use crate::derive::{self, Derivation};
-use crate::domain::Domains;
+use crate::domain::{Domains, roles, samples_until};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Sentence;
 use crate::laws::Unknown;
@@ -232,7 +232,20 @@ pub(super) fn fits(case: &Case, given: &[(String, Expr)], domains: &Domains) -> 
     all.extend(case.conditions.iter().cloned());
     all.sort_by(|a, b| a.1.cmp(&b.1));
     all.dedup_by(|a, b| a.1 == b.1);
-    independent(all, domains).is_some()
+    has_point(&all, domains) || independent(all, domains).is_some()
+}
+
+/// Points that are looked for to find one of them.
+const TRIED: usize = 24;
+
+/// Whether a point is found at which all conditions hold, none of them as an equation only.
+fn has_point(conditions: &[(String, Expr)], domains: &Domains) -> bool {
+    let all: Vec<&Expr> = conditions.iter().map(|(_, e)| e).collect();
+    let roles = roles(&all);
+    let given = domains.clone();
+    let given = all.iter().fold(given, |given, e| given.given(e, false));
+    let (given, _) = given.completed(&roles);
+    !samples_until(&roles, &given, TRIED, |_| true).is_empty()
 }
 
 /// Adds what must hold so that a case is possible, where its conditions do not say it. Gives what must hold of places, whatever
