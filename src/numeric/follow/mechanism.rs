@@ -100,30 +100,27 @@ pub(super) struct Goal<'a> {
 impl Mechanism {
     /// Accelerations, and the multipliers in the order of the constraints; those of a pin are the force on the body.
     pub fn accelerations(&self, y: &[f64]) -> Option<Solved> {
-        let key = self.changing(y);
-        if let Some((at, solved)) = &*self.asked.last.borrow()
-            && *at == key
+        let mut last = self.asked.last.borrow_mut();
+        if let Some((at, solved)) = &*last
+            && at.iter().copied().eq(self.changing(y))
         {
             return Some(solved.clone());
         }
         let solved = self.solved(y)?;
-        *self.asked.last.borrow_mut() = Some((key, solved.clone()));
+        *last = Some((self.changing(y).collect(), solved.clone()));
         Some(solved)
     }
 
     /// What the accelerations depend on: the forces, and the angle and spin of each body whose arm turns.
-    fn changing(&self, y: &[f64]) -> Vec<f64> {
-        let mut all: Vec<f64> = self.forces.iter().flatten().copied().collect();
-        for constraint in &self.constraints {
-            let body = match constraint {
-                Constraint::Pin { body, .. } => *body,
-                Constraint::Weld { bodies, .. } => bodies[0],
-                Constraint::Sum(_) => continue,
-            };
-            let angle = 3 * body + 2;
-            all.extend([y[angle], y[y.len() / 2 + angle]]);
-        }
-        all
+    fn changing(&self, y: &[f64]) -> impl Iterator<Item = f64> {
+        let turning = self.constraints.iter().filter_map(|c| match c {
+            Constraint::Pin { body, .. } => Some(*body),
+            Constraint::Weld { bodies, .. } => Some(bodies[0]),
+            Constraint::Sum(_) => None,
+        });
+        let angles = turning.map(|body| 3 * body + 2);
+        let angles = angles.flat_map(|angle| [y[angle], y[y.len() / 2 + angle]]);
+        self.forces.iter().flatten().copied().chain(angles)
     }
 
     fn solved(&self, y: &[f64]) -> Option<Solved> {
@@ -133,70 +130,94 @@ impl Mechanism {
             let (s, c) = place[3 * b + 2].sin_cos();
             [x * c - y * s, x * s + y * c]
         };
-        let mut rows: Vec<(Vec<(usize, f64)>, f64)> = Vec::new();
+        let all = n + self.constraints.iter().map(Constraint::rows).sum::<usize>();
+        // Row by row, each with its right side behind.
+        let width = all + 1;
+        let mut system = vec![0.0; all * width];
+        for (b, [mass, inertia]) in self.inertias.iter().enumerate() {
+            for (k, m) in [mass, mass, inertia].into_iter().enumerate() {
+                let row = &mut system[(3 * b + k) * width..];
+                row[3 * b + k] = *m;
+                row[all] = self.forces[b][k];
+            }
+        }
+        let mut i = n;
+        let mut put = |terms: &[(usize, f64)], value: f64| {
+            for (k, factor) in terms {
+                system[i * width + k] = *factor;
+                system[k * width + i] = -factor;
+            }
+            system[i * width + all] = value;
+            i += 1;
+        };
         for constraint in &self.constraints {
             match constraint {
                 Constraint::Pin { body, arm } => {
                     let (r, w) = (turned(*body, *arm), rate[3 * body + 2]);
                     let b = 3 * body;
-                    rows.push((vec![(b, 1.0), (b + 2, -r[1])], w * w * r[0]));
-                    rows.push((vec![(b + 1, 1.0), (b + 2, r[0])], w * w * r[1]));
+                    put(&[(b, 1.0), (b + 2, -r[1])], w * w * r[0]);
+                    put(&[(b + 1, 1.0), (b + 2, r[0])], w * w * r[1]);
                 }
                 Constraint::Weld { bodies, arm } => {
                     let [a, b] = bodies.map(|b| 3 * b);
                     let (r, w) = (turned(bodies[0], *arm), rate[a + 2]);
-                    let x = vec![(b, 1.0), (a, -1.0), (a + 2, r[1])];
-                    let y = vec![(b + 1, 1.0), (a + 1, -1.0), (a + 2, -r[0])];
-                    rows.push((x, -w * w * r[0]));
-                    rows.push((y, -w * w * r[1]));
-                    rows.push((vec![(b + 2, 1.0), (a + 2, -1.0)], 0.0));
+                    let x = [(b, 1.0), (a, -1.0), (a + 2, r[1])];
+                    let y = [(b + 1, 1.0), (a + 1, -1.0), (a + 2, -r[0])];
+                    put(&x, -w * w * r[0]);
+                    put(&y, -w * w * r[1]);
+                    put(&[(b + 2, 1.0), (a + 2, -1.0)], 0.0);
                 }
-                Constraint::Sum(row) => rows.push((row.clone(), 0.0)),
+                Constraint::Sum(row) => put(row, 0.0),
             }
         }
-        let all = n + rows.len();
-        let mut system = vec![vec![0.0; all + 1]; all];
-        for (b, [mass, inertia]) in self.inertias.iter().enumerate() {
-            for (k, m) in [mass, mass, inertia].into_iter().enumerate() {
-                system[3 * b + k][3 * b + k] = *m;
-                system[3 * b + k][all] = self.forces[b][k];
-            }
-        }
-        for (i, (terms, value)) in rows.into_iter().enumerate() {
-            for (k, factor) in terms {
-                system[n + i][k] = factor;
-                system[k][n + i] = -factor;
-            }
-            system[n + i][all] = value;
-        }
-        let found = unknowns(system);
-        let is_sound = found.iter().all(|v| v.is_finite());
-        is_sound.then(|| (found[..n].to_vec(), found[n..].to_vec()))
+        let mut accelerations = unknowns(&mut system, all);
+        let multipliers = accelerations.split_off(n);
+        let mut found = accelerations.iter().chain(&multipliers);
+        let is_sound = found.all(|v| v.is_finite());
+        is_sound.then_some((accelerations, multipliers))
     }
 }
 
-/// The unknowns of equations with their right sides behind, by elimination with partial pivoting; not finite where there is no
+impl Constraint {
+    /// How many equations it is.
+    fn rows(&self) -> usize {
+        match self {
+            Constraint::Pin { .. } => 2,
+            Constraint::Weld { .. } => 3,
+            Constraint::Sum(_) => 1,
+        }
+    }
+}
+
+/// The unknowns of n equations with their right sides behind, by elimination with partial pivoting; not finite where there is no
 /// single solution. (Golub & Van Loan, Matrix Computations, 3.4.)
-fn unknowns(mut rows: Vec<Vec<f64>>) -> Vec<f64> {
-    let n = rows.len();
+fn unknowns(rows: &mut [f64], n: usize) -> Vec<f64> {
+    let width = n + 1;
     for k in 0..n {
-        let size = |i: &usize| rows[*i][k].abs();
+        let size = |i: &usize| rows[i * width + k].abs();
         let largest = (k..n).max_by(|i, j| size(i).total_cmp(&size(j)));
-        rows.swap(k, largest.unwrap_or(k));
-        let (above, below) = rows.split_at_mut(k + 1);
-        let pivot = &above[k][k..];
+        let (above, below) = rows.split_at_mut((k + 1) * width);
+        let pivot = &mut above[k * width..];
+        if let Some(largest) = largest.filter(|largest| *largest > k) {
+            let other = &mut below[(largest - k - 1) * width..][..width];
+            pivot.swap_with_slice(other);
+        }
+        let pivot = &pivot[k..];
         // Most entries are zero.
-        for row in below.iter_mut().filter(|row| row[k] != 0.0) {
-            let factor = row[k] / pivot[0];
-            let both = row[k..].iter_mut().zip(pivot);
-            both.for_each(|(entry, p)| *entry -= factor * p);
+        for row in below.chunks_exact_mut(width) {
+            let row = &mut row[k..];
+            if row[0] != 0.0 {
+                let factor = row[0] / pivot[0];
+                let both = row.iter_mut().zip(pivot);
+                both.for_each(|(entry, p)| *entry -= factor * p);
+            }
         }
     }
     let mut out = vec![0.0; n];
-    for k in (0..n).rev() {
-        let known = rows[k][k + 1..n].iter().zip(&out[k + 1..]);
+    for (k, row) in rows.chunks_exact(width).enumerate().rev() {
+        let known = row[k + 1..n].iter().zip(&out[k + 1..]);
         let known: f64 = known.map(|(factor, x)| factor * x).sum();
-        out[k] = (rows[k][n] - known) / rows[k][k];
+        out[k] = (row[n] - known) / row[k];
     }
     out
 }
@@ -233,21 +254,21 @@ pub(super) trait Mobile {
             let next = self.advance(&run.end, PIECE)?;
             let rates = [&run.end, &next].map(|y| (goal.rate)(y));
             let turns_back = rates[0] * rates[1] < 0.0;
-            let mut reached = (goal.left)(&next) >= 0.0;
-            let mut longest = PIECE;
+            let mut beyond = ((goal.left)(&next) >= 0.0).then(|| (PIECE, next.clone()));
             if turns_back {
                 let sign = rates[1].signum();
-                let (time, rest) = self.root(&run.end, PIECE, &|y| sign * (goal.rate)(y))?;
+                let there = (PIECE, next.clone());
+                let (time, rest) = self.root(&run.end, there, &|y| sign * (goal.rate)(y))?;
                 let left = (goal.left)(&rest);
                 if (-REACHED..0.0).contains(&left) {
                     return Ok(run.ended(time, rest));
                 }
                 if left >= 0.0 {
-                    (reached, longest) = (true, time);
+                    beyond = Some((time, rest));
                 }
             }
-            if reached {
-                let (time, end) = self.root(&run.end, longest, goal.left)?;
+            if let Some(beyond) = beyond {
+                let (time, end) = self.root(&run.end, beyond, goal.left)?;
                 return Ok(run.ended(time, end));
             }
             run = run.ended(PIECE, next);
@@ -278,20 +299,16 @@ pub(super) trait Mobile {
         Ok(run)
     }
 
-    /// The first state within a piece at which a function that begins negative is not, by the Illinois method.
+    /// The first state within a piece at which a function that begins negative is not, by the Illinois method; it is none at
+    /// the time and state that are given. What is left to move through gets shorter with the interval.
     fn root(
         &self,
         start: &[f64],
-        longest: f64,
+        (longest, mut state): (f64, Vec<f64>),
         f: &dyn Fn(&[f64]) -> f64,
     ) -> Result<(f64, Vec<f64>), Stop> {
-        let at = |time: f64| -> Result<(f64, Vec<f64>), Stop> {
-            let state = self.advance(start, time)?;
-            Ok((f(&state), state))
-        };
-        let (mut low, mut high) = ((0.0, f(start)), (longest, f64::NAN));
-        let (value, mut state) = at(longest)?;
-        high.1 = value;
+        let (mut low, mut high) = ((0.0, f(start)), (longest, f(&state)));
+        let mut before = start.to_vec();
         let mut kept = 0i32;
         for _ in 0..80 {
             if high.0 - low.0 <= 4.0 * f64::EPSILON * longest || high.1 == 0.0 {
@@ -304,15 +321,17 @@ pub(super) trait Mobile {
             } else {
                 0.5 * (low.0 + high.0)
             };
-            let (value, there) = at(time)?;
+            let there = self.advance(&before, time - low.0)?;
+            let value = f(&there);
             if value < 0.0 {
                 // The end that stays counts half, or it would stay for ever.
                 if kept > 0 {
                     high.1 /= 2.0;
                 }
                 (low, kept) = ((time, value), kept.max(0) + 1);
+                before = there;
                 if value > -CLOSE {
-                    (high.0, state) = (time, there);
+                    (high.0, state) = (time, before);
                     break;
                 }
             } else {
