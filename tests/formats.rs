@@ -150,7 +150,7 @@ fn formats(text: &str) -> Option<Formats> {
     let picture = Picture {
         slot: Slot::Before,
         svg: drawn.svg.clone(),
-        tikz: drawn.tikz,
+        tikz: drawn.tikz(),
         caption: drawn.caption,
         alternative: drawn.alternative,
     };

@@ -533,8 +533,8 @@ fn an_impact_that_friction_leaves_open_is_drawn_in_its_first_case() {
 fn held(drawing: figure::Drawing) -> render::html::Picture {
     render::html::Picture {
         slot: solution::Slot::Before,
+        tikz: drawing.tikz(),
         svg: drawing.svg,
-        tikz: drawing.tikz,
         caption: drawing.caption,
         alternative: drawing.alternative,
     }
@@ -589,7 +589,7 @@ fn every_picture_says_in_words_what_it_shows() {
                 drawing.alternative
             );
             assert!(
-                drawing.svg.contains("<desc>") && drawing.tikz.contains("\\begin{tikzpicture}")
+                drawing.svg.contains("<desc>") && drawing.tikz().contains("\\begin{tikzpicture}")
             );
         }
     }

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::solution::plots;
 use super::{Failure, SceneArgs, files, of_stage, print, refused, work_out};
-use carom::figure::{self, Chapter, Drawing, Subject, Which};
+use carom::figure::{self, Chapter, Subject, Which};
 use carom::scene::Scene;
 use carom::verify::friction::settled;
 use carom::worked;
@@ -62,7 +62,7 @@ pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
     // One impact by itself has the pictures of a collision.
     match of_stage(&args.input.scene, all, args.stage.as_deref())?.as_slice() {
         [(_, Chapter::Impact(impact))] => scene = impact.clone(),
-        all => return write(args, &figure::chapters(&scene, all)),
+        all => return write(args, &figure::chapters(&scene, all).svg),
     }
     // What comes after is drawn in the case that the values pick; without one all pictures are those of the first case.
     if matches!(args.which, Picture::After | Picture::All) {
@@ -92,11 +92,11 @@ pub fn run(args: &DrawArgs) -> Result<u8, Failure> {
         Picture::After => Which::After,
         Picture::All => Which::All,
     };
-    write(args, &figure::draw(&scene, which))
+    write(args, &figure::draw(&scene, which).svg)
 }
 
-/// One plot of the scene.
-fn plotted(args: &DrawArgs, scene: &mut Scene, name: &str) -> Result<Drawing, Failure> {
+/// One plot of the scene as SVG.
+fn plotted(args: &DrawArgs, scene: &mut Scene, name: &str) -> Result<String, Failure> {
     let refused = |why: String| refused(&args.input.scene, why);
     let names: Vec<String> = scene.plots.iter().map(|p| p.name.clone()).collect();
     scene.plots.retain(|p| p.name == name);
@@ -109,21 +109,16 @@ fn plotted(args: &DrawArgs, scene: &mut Scene, name: &str) -> Result<Drawing, Fa
     }
     let worked = work_out(&args.input.scene, scene)?;
     let graphs = worked.graphs().map_err(|why| refused(why.to_string()))?;
-    let (picture, _) = plots(&worked.scene, &graphs)?
-        .pop()
-        .ok_or_else(|| refused(format!("no plot {name}")))?;
-    Ok(Drawing {
-        svg: picture.svg,
-        tikz: picture.tikz,
-        caption: picture.caption,
-        alternative: picture.alternative,
-    })
+    let drawn = plots(&worked.scene, &graphs)?.pop();
+    drawn
+        .map(|(picture, _)| picture.svg)
+        .ok_or_else(|| refused(format!("no plot {name}")))
 }
 
-/// Writes a drawing where it belongs.
-fn write(args: &DrawArgs, drawing: &Drawing) -> Result<u8, Failure> {
+/// Writes a picture where it belongs.
+fn write(args: &DrawArgs, svg: &str) -> Result<u8, Failure> {
     let Some(output) = &args.output else {
-        print(&drawing.svg)?;
+        print(svg)?;
         return Ok(0);
     };
     let kind = output
@@ -131,9 +126,9 @@ fn write(args: &DrawArgs, drawing: &Drawing) -> Result<u8, Failure> {
         .and_then(|e| e.to_str())
         .map(str::to_ascii_lowercase);
     let bytes = match kind.as_deref() {
-        Some("svg") => drawing.svg.clone().into_bytes(),
+        Some("svg") => svg.as_bytes().to_vec(),
         #[cfg(feature = "png")]
-        Some("png") => figure::png(&drawing.svg).map_err(|fault| refused(output, fault))?,
+        Some("png") => figure::png(svg).map_err(|fault| refused(output, fault))?,
         _ => {
             let why = "unknown picture format\nhint: name the file .svg or .png";
             return Err(refused(output, why));

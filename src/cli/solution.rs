@@ -208,8 +208,8 @@ fn slot(which: Which) -> Slot {
 fn picture(slot: Slot, drawing: figure::Drawing) -> Picture {
     Picture {
         slot,
+        tikz: drawing.tikz(),
         svg: drawing.svg,
-        tikz: drawing.tikz,
         caption: drawing.caption,
         alternative: drawing.alternative,
     }

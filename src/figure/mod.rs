@@ -46,6 +46,7 @@ pub(crate) use place::{Room, Spot};
 #[cfg(feature = "png")]
 pub use png::{PngFault, png};
 pub use sheet::Ink;
+use sheet::Item;
 pub(crate) use sheet::{Line, Sheet};
 pub use svg::{color, escape};
 
@@ -76,12 +77,19 @@ pub enum Subject {
 pub struct Drawing {
     /// The SVG document; may stand alone or inside HTML.
     pub svg: String,
-    /// The same as TikZ.
-    pub tikz: String,
+    /// What lies on it.
+    items: Vec<Item>,
     /// What it shows and the values it is drawn at.
     pub caption: Vec<Piece>,
     /// The picture in words, plain text.
     pub alternative: String,
+}
+
+impl Drawing {
+    /// The same as TikZ.
+    pub fn tikz(&self) -> String {
+        tikz::write(&self.items)
+    }
 }
 
 /// A piece of a caption.

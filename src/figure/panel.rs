@@ -5,7 +5,7 @@ use super::sheet::{Item, SMALL, Sheet};
 use super::stage::Stage;
 use super::{
     Course, Drawing, Label, Piece, Room, Subject, Which, during, geometry, is_readable, label,
-    motion, picture, svg, tikz, values, words,
+    motion, picture, svg, values, words,
 };
 use crate::numeric::Motion;
 use crate::scene::Scene;
@@ -209,13 +209,7 @@ pub(super) fn finish(scene: &Scene, panels: Vec<Panel>) -> Drawing {
     } else {
         &scene.title
     };
-    written(
-        &page,
-        [width, -top],
-        title,
-        caption,
-        &alternatives.join(" "),
-    )
+    written(page, [width, -top], title, caption, &alternatives.join(" "))
 }
 
 /// A sheet as a picture, with a margin on all sides.
@@ -228,12 +222,12 @@ pub(crate) fn framed(
     let room = sheet.room().unwrap_or(Room::around([0.0; 2], 0.0));
     let page = room.grown(MARGIN);
     sheet.shift([-page.low[0], -page.low[1]]);
-    written(&sheet, page.extent(), title, caption, alternative)
+    written(sheet, page.extent(), title, caption, alternative)
 }
 
 /// What lies on a page of this width and height, with its words.
 fn written(
-    page: &Sheet,
+    page: Sheet,
     [width, height]: [f64; 2],
     title: &str,
     caption: Vec<Piece>,
@@ -248,7 +242,7 @@ fn written(
     });
     Drawing {
         svg,
-        tikz: tikz::write(&page.items),
+        items: page.items,
         caption,
         alternative: label::visible(alternative),
     }

@@ -68,7 +68,7 @@ pub fn picture(scene: &Scene, graph: &Graph) -> Result<Picture, Empty> {
         marks,
     };
     let drawing = plot::draw(&whole)?;
-    let mut caption = drawing.caption;
+    let (tikz, mut caption) = (drawing.tikz(), drawing.caption);
     for (i, zero) in whole.marks.iter().enumerate() {
         let lead = if i == 0 { "; zero at " } else { " and " };
         caption.push(Piece::Words(lead.to_string()));
@@ -82,8 +82,8 @@ pub fn picture(scene: &Scene, graph: &Graph) -> Result<Picture, Empty> {
     caption.push(Piece::Words(end.to_string()));
     Ok(Picture {
         slot: Slot::Plot,
+        tikz,
         svg: drawing.svg,
-        tikz: drawing.tikz,
         alternative: format!("Plot of {}", drawing.alternative),
         caption,
     })
