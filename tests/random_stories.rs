@@ -219,6 +219,60 @@ fn on_a_line() -> impl Strategy<Value = String> {
     })
 }
 
+/// A block on a plank that moves too, or on a spring: on which floor, driven by what, and how that begins and ends.
+fn on_what_gives() -> impl Strategy<Value = String> {
+    let along = select(vec![
+        ["1", "0"],
+        ["-1", "0"],
+        ["3/5", "-4/5"],
+        ["-4/5", "3/5"],
+    ]);
+    let other = select(vec![
+        r#""friction": "mu", "on": {"body": "C"}"#,
+        r#""friction": "mu", "on": {"body": "C", "friction": "nu"}"#,
+        r#""friction": "mu", "on": {"body": "C", "force": "-F"}"#,
+        r#""friction": "mu", "with": ["D"], "on": {"body": "C", "friction": "nu"}, "force": "F""#,
+        r#""friction": "mu", "on": {"body": "C", "with": ["D"]}, "force": "-F""#,
+        r#""spring": {"stiffness": "k"}"#,
+        r#""friction": "mu", "with": ["D"], "spring": {"stiffness": "k"}, "force": "F""#,
+        r#""friction": "mu", "spring": {"stiffness": "k", "relaxed": "b"}"#,
+        r#""spring": {"stiffness": "k", "relaxed": "-b"}, "force": "F""#,
+    ]);
+    let end = select(vec![
+        r#""distance": "s""#,
+        r#""for": "t""#,
+        r#""until": "stops""#,
+        r#""until": "together""#,
+    ]);
+    let begin = select(vec![
+        ("v", "0"),
+        ("0", "0"),
+        ("v", "-w"),
+        ("v + w", "w"),
+        ("-v", "-v - w"),
+    ]);
+    (along, other, end, begin).prop_map(|([x, y], other, end, (v, w))| {
+        let rides_below = other.contains(r#""on": {"body": "C", "with""#);
+        let third = if rides_below { w } else { v };
+        format!(
+            r#"{{
+  "parameters": {{
+    "m": {{"unit": "kg"}}, "M": {{"unit": "kg"}}, "v": {{"unit": "m/s"}}, "w": {{"unit": "m/s"}}, "g": {{"unit": "m/s^2"}},
+    "s": {{"unit": "m"}}, "b": {{"unit": "m"}}, "t": {{"unit": "s"}}, "F": {{"unit": "N"}}, "k": {{"unit": "N/m"}},
+    "mu": {{"unit": "1"}}, "nu": {{"unit": "1"}}
+  }},
+  "bodies": {{
+    "B": {{"shape": "particle", "mass": "m", "velocity": ["({v})*({x})", "({v})*({y})"]}},
+    "C": {{"shape": "particle", "mass": "M", "velocity": ["({w})*({x})", "({w})*({y})"]}},
+    "D": {{"shape": "particle", "mass": "m", "velocity": ["({third})*({x})", "({third})*({y})"]}}
+  }},
+  "stages": [{{"name": "way", "slide": {{"body": "B", "along": ["{x}", "{y}"], "gravity": "g", {other}, {end}}}}}],
+  "questions": {{"u": {{"velocity": "B"}}, "s1": {{"distance": "way"}}, "x": {{"position": "C"}}, "K": {{"energy": "lost"}}}}
+}}"#
+        )
+    })
+}
+
 /// A body on a table, an incline or a plumb line, tied over a wheel to what hangs or lies on another incline, and how that
 /// begins and ends.
 fn over_a_wheel() -> impl Strategy<Value = String> {
@@ -347,6 +401,11 @@ fn wheel_spin([ux, uy]: [&str; 2], v: &str) -> String {
 #[test]
 fn what_moves_along_a_line_is_followed_to_the_same_end() {
     same_end(on_a_line());
+}
+
+#[test]
+fn what_slides_on_a_body_or_a_spring_is_followed_to_the_same_end() {
+    same_end(on_what_gives());
 }
 
 #[test]

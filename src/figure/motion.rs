@@ -144,6 +144,7 @@ fn surroundings(
     if let StageKind::Slide(slide) = kind
         && let along = stage.values.pair(&slide.along)?
         && !slide.level
+        && slide.on.is_none()
         && (slide.rolling
             || slide.friction.is_some()
             || slide.gravity.is_some() && along[0].abs() > 1e-9)

@@ -52,8 +52,8 @@ pub use friction::{
 pub use geometry::direction;
 pub use printed::{Print, Printed};
 pub use stage::{
-    Fall, FallEnd, Linkage, Lump, OneSided, Slide, SlideEnd, Stage, StageKind, Strung, Turn, Until,
-    Wind,
+    Carrier, Fall, FallEnd, Linkage, Lump, OneSided, Slide, SlideEnd, Spring, Stage, StageKind,
+    Strung, Turn, Until, Wind,
 };
 
 /// Longest text of a scene file, in bytes.

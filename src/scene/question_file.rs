@@ -71,7 +71,7 @@ record! {
         reaction: Option<Text>,
         /// Name of a stage: how long does it last?
         time: Option<Text>,
-        /// Name of a stage in which a body slides or rolls: how far does it get?
+        /// Name of a stage in which a body slides or rolls: how far does it get? Along the body that it slides `on`, if any.
         distance: Option<Text>,
         /// Acceleration of this body along its own way in the stage `at`, a `slide`: negative where it slows down.
         acceleration: Option<Text>,

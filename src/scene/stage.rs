@@ -203,6 +203,14 @@ impl StageKind {
                     let along = string.along.iter_mut();
                     along.chain(&mut string.friction).for_each(&mut *put);
                 }
+                if let Some(on) = &mut slide.on {
+                    let all = on.friction.iter_mut().chain(&mut on.force);
+                    all.for_each(&mut *put);
+                }
+                if let Some(spring) = &mut slide.spring {
+                    put(&mut spring.stiffness);
+                    put(&mut spring.relaxed);
+                }
                 let forces = slide.gravity.iter_mut().chain(&mut slide.force);
                 forces
                     .chain(&mut slide.friction)
@@ -378,6 +386,10 @@ pub struct Slide {
     pub force: Option<Expr>,
     /// Coefficient of sliding friction μ of the surface; `None` for a smooth guide.
     pub friction: Option<Expr>,
+    /// The body whose surface that is, where it moves too; the direction is then that of the slip on it.
+    pub on: Option<Box<Carrier>>,
+    /// A light spring along the line.
+    pub spring: Option<Spring>,
     /// Whether a round body rolls, by as much friction as that takes.
     pub rolling: bool,
     /// Light inextensible strings from the body to others.
@@ -389,7 +401,8 @@ impl Slide {
     pub fn bodies(&self) -> Vec<usize> {
         let ends = self.strings.iter().flat_map(Strung::hung);
         let all = self.company().into_iter().chain(ends);
-        all.chain(self.pulleys()).collect()
+        let below = self.on.iter().flat_map(|on| on.company());
+        all.chain(below).chain(self.pulleys()).collect()
     }
 
     /// The body and those that move along with it.
@@ -401,6 +414,35 @@ impl Slide {
     pub fn pulleys(&self) -> impl Iterator<Item = usize> {
         self.strings.iter().flat_map(|s| s.over.iter().copied())
     }
+}
+
+/// A body on a level or inclined floor, with another that slides on it.
+#[derive(Clone, Debug)]
+pub struct Carrier {
+    /// Index of the body.
+    pub body: usize,
+    /// Indices of bodies that move along with it.
+    pub with: Vec<usize>,
+    /// Coefficient of sliding friction of the floor; `None` for a smooth one.
+    pub friction: Option<Expr>,
+    /// Constant force on it along the direction of the slide, at the center of mass \[N\].
+    pub force: Option<Expr>,
+}
+
+impl Carrier {
+    /// The body and those that move along with it.
+    pub fn company(&self) -> Vec<usize> {
+        [&[self.body], self.with.as_slice()].concat()
+    }
+}
+
+/// A light spring along a line: its force on a body that has gone the way s is k (relaxed − s) along the direction.
+#[derive(Clone, Debug)]
+pub struct Spring {
+    /// Stiffness k \[N/m\].
+    pub stiffness: Expr,
+    /// The way at which it is relaxed \[m\].
+    pub relaxed: Expr,
 }
 
 /// Bodies at the other end of a string that runs from a body on a line over pulleys, without slipping on them.
@@ -434,7 +476,7 @@ impl Strung {
 /// How a motion along a line ends.
 #[derive(Clone, Debug)]
 pub enum SlideEnd {
-    /// After this distance \[m\].
+    /// After this distance \[m\], along the body below where that moves.
     Distance(Expr),
     /// After this time \[s\].
     Time(Expr),
@@ -442,6 +484,8 @@ pub enum SlideEnd {
     Stops,
     /// When the point of contact of a round body no longer slips.
     Rolls,
+    /// When the body moves with the one below it.
+    Together,
 }
 
 /// Free fall, or free flight where there is no gravity.

@@ -117,6 +117,8 @@ choice! {
         Stops = "stops",
         /// The point of contact of a round body no longer slips.
         Rolls = "rolls",
+        /// The body moves with the one that it slides `on`.
+        Together = "together",
     }
 }
 
@@ -129,7 +131,7 @@ record! {
         with: Option<Vec<Text>>,
         /// Direction.
         along: DirectionFile,
-        /// Distance.
+        /// Distance; along the body that it slides `on`, where that is given.
         distance: Option<Formula>,
         /// Time.
         time as "for": Option<Formula>,
@@ -141,12 +143,42 @@ record! {
         force: Option<Formula>,
         /// Coefficient of sliding friction of the surface below the body; a disk, ring or sphere turns on it.
         friction: Option<Formula>,
+        /// The body whose surface that is, such as a plank or a cart, where it moves too; the direction is then that in which the
+        /// body slides along it.
+        on: Option<CarrierFile>,
+        /// A light spring along the line, which the body presses or stretches.
+        spring: Option<SpringFile>,
         /// Whether a disk, ring or sphere rolls on the surface below it without slipping, however much friction that takes.
         rolling: Option<bool>,
         /// Whether the scene is seen from above: gravity presses the body on a level surface, and pulls it nowhere.
         level: Option<bool>,
         /// Light inextensible strings from the body over pulleys to other bodies, taut all the while.
         strings: Option<Vec<StrungFile>>,
+    }
+}
+
+record! {
+    /// A light spring with its fixed end ahead of or behind a body on a line.
+    SpringFile {
+        /// Force by length.
+        stiffness: Formula,
+        /// Where it is relaxed: so far ahead of the beginning, along the direction. Missing: at the beginning, as where a body comes
+        /// upon it; positive where it is pressed and pushes the body on, negative where it holds it back from the beginning.
+        relaxed: Option<Formula>,
+    }
+}
+
+record! {
+    /// A body on a floor, with another that slides on it.
+    CarrierFile {
+        /// Name of the body.
+        body: Text,
+        /// Names of bodies that move along with it.
+        with: Option<Vec<Text>>,
+        /// Coefficient of sliding friction of the floor below it. Missing: the floor is smooth.
+        friction: Option<Formula>,
+        /// Constant force on it along the direction of the slide, at the center of mass; negative against it.
+        force: Option<Formula>,
     }
 }
 

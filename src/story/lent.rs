@@ -44,6 +44,11 @@ pub fn lent(scene: &Scene, told: &Told) -> Vec<Expr> {
 impl Motion<'_> {
     fn laws(&self) -> Vec<Expr> {
         let mut laws = match &self.told.placed.kind {
+            // Two bodies have each a way of its own.
+            StageKind::Slide(slide) if slide.on.is_some() => Vec::new(),
+            StageKind::Slide(slide) if slide.spring.is_some() => {
+                vec![self.change(&slide.company()) - self.work()]
+            }
             StageKind::Slide(slide) => {
                 let rolls = matches!(slide.until, SlideEnd::Rolls) || slide.rolling;
                 self.along_a_line(slide.body, &slide.along, rolls)

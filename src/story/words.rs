@@ -250,6 +250,22 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
         (_, None, false) => " move together along a line",
     };
     let lead = names.join(" and ");
+    if let Some(on) = &slide.on {
+        let below: Vec<String> = on.company().iter().map(name).collect();
+        let verb = if one { "slides" } else { "slide" };
+        let floor = if on.friction.is_some() {
+            "rough"
+        } else {
+            "smooth"
+        };
+        let below = below.join(" and ");
+        let lead = format!("{lead} {verb} on {below}, which moves on a {floor} floor,");
+        return match &slide.until {
+            SlideEnd::Distance(s) => sentence![lead, " through ", measured(s, "m"), " along it"],
+            SlideEnd::Time(t) => sentence![lead, " for ", measured(t, "s")],
+            _ => sentence![lead, " until both move together"],
+        };
+    }
     if told.time.as_ref().is_some_and(Expr::is_zero) {
         return match (&slide.until, one) {
             (SlideEnd::Rolls, _) => sentence![lead, " rolls already"],
@@ -267,12 +283,18 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
         format!(", and the string over {over}{under} takes {to} along{rough}{half}")
     });
     let strings = strings.collect::<String>();
+    let spring = match &slide.spring {
+        None => "",
+        Some(spring) if spring.relaxed.is_zero() => ", pressing a spring,",
+        Some(_) => ", on a spring,",
+    };
+    let lead = lead + spring;
     match &slide.until {
         SlideEnd::Distance(s) => sentence![lead, " through ", measured(s, "m"), strings],
         SlideEnd::Time(t) => sentence![lead, " for ", measured(t, "s"), strings],
         SlideEnd::Stops if one => sentence![lead, " until it stops", strings],
         SlideEnd::Stops => sentence![lead, " until they stop", strings],
-        SlideEnd::Rolls => sentence![lead, " until it rolls", strings],
+        SlideEnd::Rolls | SlideEnd::Together => sentence![lead, " until it rolls", strings],
     }
 }
 

@@ -138,13 +138,17 @@ pub fn answer(
             let StageKind::Slide(slide) = &stage.kind else {
                 return Err(Unanswered::NotANumber);
             };
-            let [from, to] = [before, &passed.after].map(|s| s.bodies[slide.body].center.clone());
             let along = pair(&course, &slide.along)?;
-            let mut far = 0.0;
-            for ((from, to), way) in from.into_iter().zip(to).zip(along) {
-                far += (to? - from?) * way;
-            }
-            Ok(Answer::Scalar(far))
+            let gone = |body: usize| {
+                let [from, to] = [before, &passed.after].map(|s| s.bodies[body].center.clone());
+                let mut far = 0.0;
+                for ((from, to), way) in from.into_iter().zip(to).zip(along) {
+                    far += (to? - from?) * way;
+                }
+                Ok(far)
+            };
+            let below = slide.on.as_ref().map_or(Ok(0.0), |on| gone(on.body));
+            gone(slide.body).and_then(|far| Ok(Answer::Scalar(far - below?)))
         }
         Ask::Angle { body, clockwise } => {
             let turned = match &passed.what {

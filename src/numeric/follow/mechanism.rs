@@ -232,6 +232,35 @@ impl Mobile for Mechanism {
     }
 }
 
+/// Bodies that move as one along a line, on a spring.
+pub(super) struct Sprung<'a> {
+    /// The bodies without the spring.
+    pub smooth: &'a Mechanism,
+    /// Direction of the line.
+    pub along: [f64; 2],
+    /// Stiffness over mass.
+    pub rate: f64,
+    /// The way of the first body at which the spring is relaxed; it begins at the origin.
+    pub relaxed: f64,
+}
+
+impl Mobile for Sprung<'_> {
+    fn accelerations_of(&self, y: &[f64]) -> Option<Vec<f64>> {
+        let mut all = self.smooth.accelerations_of(y)?;
+        let way = y[0] * self.along[0] + y[1] * self.along[1];
+        let push = self.rate * (self.relaxed - way);
+        for body in all.chunks_mut(3) {
+            body[0] += push * self.along[0];
+            body[1] += push * self.along[1];
+        }
+        Some(all)
+    }
+
+    fn looks(&self) -> &Cell<u32> {
+        self.smooth.looks()
+    }
+}
+
 /// What moves by itself in time, with places in the first half of its state and rates in the second.
 pub(super) trait Mobile {
     /// How the rates change.

@@ -7,11 +7,8 @@ use crate::scene::question_file::QuestionFile;
 use crate::scene::record::Text;
 use crate::scene::resolve::Resolver;
 use crate::scene::stage_file::{EndName, StageFile, TurnFile};
-use crate::scene::stages::{TIME, stage_named};
+use crate::scene::stages::{STIFFNESS, TIME, stage_named};
 use crate::scene::{Ask, Scene};
-
-const STIFFNESS: Quantity =
-    Quantity::other([1, 0, -2], "a stiffness is a force divided by a length");
 
 /// Reads a question about a stage, or about all of them; with the index of that stage.
 pub(super) fn ask(
@@ -156,8 +153,10 @@ impl Asked<'_, '_> {
         let strings = strings.unwrap_or_default();
         let strung = strings.iter().flat_map(|s| &s.to).any(is_it);
         let slides = slide.is_some_and(|slide| {
-            let with = slide.with.iter().flatten();
-            is_it(&slide.body) || with.into_iter().any(is_it)
+            let on = slide.on.iter();
+            let below = on.flat_map(|on| on.with.iter().flatten().chain([&on.body]));
+            let mut with = slide.with.iter().flatten().chain(below);
+            is_it(&slide.body) || with.any(is_it)
         });
         let (ask, what, hint, fits) = match self.q.tension {
             Some(_) => (
@@ -169,8 +168,8 @@ impl Asked<'_, '_> {
             None => (
                 Ask::Acceleration { body },
                 "acceleration",
-                "an acceleration is that of a body which a `slide` moves",
-                strung || slides,
+                "an acceleration is that of a body which a `slide` moves, and on a spring it changes on the way",
+                strung || slides && slide.is_some_and(|slide| slide.spring.is_none()),
             ),
         };
         if !fits {

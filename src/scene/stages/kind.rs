@@ -2,21 +2,17 @@
 //!
 //! In: the record of a stage and the scene it begins with. Out: a [`StageKind`].
 
+use super::slide::slide;
 use crate::expr::Expr;
+use crate::scene::Scene;
 use crate::scene::check::Claim;
 use crate::scene::fault::{Fault, Span};
 use crate::scene::formulas::Quantity;
 use crate::scene::place_file::PositionFile;
 use crate::scene::record::{Formula, Text};
 use crate::scene::resolve::Resolver;
-use crate::scene::stage::{
-    Fall, FallEnd, Linkage, OneSided, Slide, SlideEnd, StageKind, Strung, Turn, Until, Wind,
-};
-use crate::scene::stage_file::{
-    FallFile, ImpactFile, LinkageFile, SlideEndName, SlideFile, StageFile, StrungFile, TurnFile,
-    UntilName,
-};
-use crate::scene::{Scene, Shape};
+use crate::scene::stage::{Fall, FallEnd, Linkage, OneSided, StageKind, Turn, Until, Wind};
+use crate::scene::stage_file::{FallFile, ImpactFile, LinkageFile, StageFile, TurnFile, UntilName};
 
 pub(in crate::scene) const TIME: Quantity =
     Quantity::other([0, 0, 1], "a time, such as t, or a number of seconds");
@@ -25,7 +21,8 @@ const ACCELERATION: Quantity = Quantity::other(
     "gravity is a length per time squared, such as g",
 );
 const MOMENT: Quantity = Quantity::other([1, 2, -2], "a moment is a force times a length");
-const FORCE: Quantity = Quantity::other([1, 1, -2], "a force is a mass times an acceleration");
+pub(super) const FORCE: Quantity =
+    Quantity::other([1, 1, -2], "a force is a mass times an acceleration");
 
 pub(super) fn kind(
     r: &mut Resolver<'_>,
@@ -58,8 +55,8 @@ pub(super) fn kind(
     if let Some(turn) = &stage.turn {
         return turn_of(r, turn, stage.name.span).map(StageKind::Turn);
     }
-    if let Some(slide) = &stage.slide {
-        return slide_of(r, scene, slide, stage.name.span).map(StageKind::Slide);
+    if let Some(sliding) = &stage.slide {
+        return slide(r, scene, sliding, stage.name.span).map(StageKind::Slide);
     }
     if let Some(fall) = &stage.fall {
         return fall_of(r, fall, stage.name.span).map(StageKind::Fall);
@@ -87,7 +84,7 @@ pub(super) fn kind(
 }
 
 /// An optional formula; the outer `None` means that it was given and could not be read.
-fn optional(
+pub(super) fn optional(
     r: &mut Resolver<'_>,
     formula: Option<&Formula>,
     quantity: Quantity,
@@ -145,7 +142,7 @@ fn impact_of(
 }
 
 /// A body and those that move along with it, each of them once.
-fn company(
+pub(super) fn company(
     r: &mut Resolver<'_>,
     body: &Text,
     with: Option<&[Text]>,
@@ -165,97 +162,13 @@ fn company(
     Some((all[0], with))
 }
 
-fn slide_of(r: &mut Resolver<'_>, scene: &Scene, slide: &SlideFile, span: Span) -> Option<Slide> {
-    let ends = usize::from(slide.distance.is_some())
-        + usize::from(slide.until.is_some())
-        + usize::from(slide.time.is_some());
-    if ends != 1 {
-        let message =
-            "a motion along a line ends after a `distance`, a time `for`, or where `until` says";
-        return r.refuse(span, message, "give one of them");
-    }
-    let all = company(r, &slide.body, slide.with.as_deref());
-    let along = r.direction(&slide.along);
-    let gravity = weight(r, slide.gravity.as_ref())?;
-    let force = optional(r, slide.force.as_ref(), FORCE)?;
-    let friction = coefficient(r, slide.friction.as_ref())?;
-    let strings = slide.strings.iter().flatten();
-    let strings = strings
-        .map(|s| strung(r, scene, s))
-        .collect::<Option<Vec<Strung>>>()?;
-    let until = match (&slide.distance, &slide.time, slide.until) {
-        (Some(s), ..) => SlideEnd::Distance(r.read(s, Quantity::LENGTH)?),
-        (_, Some(t), _) => SlideEnd::Time(r.read(t, TIME)?),
-        (.., Some(SlideEndName::Stops)) => SlideEnd::Stops,
-        (.., Some(SlideEndName::Rolls)) => SlideEnd::Rolls,
-        _ => return None,
-    };
-    let (body, with) = all?;
-    let others = strings
-        .iter()
-        .flat_map(|s| s.hung().chain(s.over.iter().copied()));
-    let mut all: Vec<usize> = others.chain([body]).chain(with.clone()).collect();
-    all.sort_unstable();
-    if let Some(twice) = all.windows(2).find(|pair| pair[0] == pair[1]) {
-        let name = &scene.bodies[twice[0]].name;
-        let message = format!("`{name}` moves along with itself");
-        return r.refuse(span, message, "name each body once");
-    }
-    let is_rough = friction.is_some() || strings.iter().any(|s| s.friction.is_some());
-    let shape = &scene.bodies[body];
-    let is_round = with.is_empty() && shape.shape.radius().is_some();
-    let mut refuse = |message: String, hint: &str| {
-        r.faults.push(Fault::new(span, message).hint(hint));
-    };
-    let rolls = slide.rolling == Some(true) || matches!(until, SlideEnd::Rolls);
-    match () {
-        () if rolls && !is_round => refuse(
-            format!("`{}` does not roll", shape.name),
-            "a disk, ring or sphere by itself does",
-        ),
-        () if is_rough && gravity.is_none() => refuse(
-            String::from("what presses the body on the rough surface is not said"),
-            "add \"gravity\": \"g\"",
-        ),
-        () if slide.rolling == Some(true) && friction.is_some() => refuse(
-            String::from("a body that rolls takes as much friction as that needs"),
-            "leave out `friction`, or leave out `rolling` and say where the slip ends with \"until\": \"rolls\"",
-        ),
-        () if friction.is_none() && matches!(until, SlideEnd::Rolls) => refuse(
-            String::from("without friction a body that slips never begins to roll"),
-            "add \"friction\": \"mu\"",
-        ),
-        () if slide.level == Some(true) && (rolls || !strings.is_empty()) => refuse(
-            String::from(
-                "a scene seen from above has bodies that slide, and neither roll nor hang on strings",
-            ),
-            "leave out `level` where the scene is seen from the side",
-        ),
-        () => {
-            return Some(Slide {
-                level: slide.level == Some(true),
-                body,
-                with,
-                along: along?,
-                until,
-                gravity,
-                force,
-                friction,
-                rolling: slide.rolling == Some(true),
-                strings,
-            });
-        }
-    }
-    None
-}
-
 /// A coefficient of friction, which is not negative.
-fn coefficient(r: &mut Resolver<'_>, formula: Option<&Formula>) -> Option<Option<Expr>> {
+pub(super) fn coefficient(r: &mut Resolver<'_>, formula: Option<&Formula>) -> Option<Option<Expr>> {
     bounded(r, formula, Quantity::NUMBER, Claim::Friction)
 }
 
 /// Gravity, told by its size.
-fn weight(r: &mut Resolver<'_>, formula: Option<&Formula>) -> Option<Option<Expr>> {
+pub(super) fn weight(r: &mut Resolver<'_>, formula: Option<&Formula>) -> Option<Option<Expr>> {
     bounded(r, formula, ACCELERATION, Claim::Gravity)
 }
 
@@ -271,49 +184,6 @@ fn bounded(
         r.claim(f.span, claim(e.clone()));
     }
     Some(read)
-}
-
-/// A string over pulleys with what moves at its other end.
-fn strung(r: &mut Resolver<'_>, scene: &Scene, string: &StrungFile) -> Option<Strung> {
-    let to: Vec<_> = string.to.iter().map(|name| r.moving(name)).collect();
-    let over: Vec<_> = string.over.iter().map(|name| r.moving(name)).collect();
-    let along = r.direction(&string.along);
-    let friction = coefficient(r, string.friction.as_ref())?;
-    let under = string.under.as_ref().map(|name| r.moving(name));
-    let (to, over): (Option<Vec<_>>, Option<Vec<_>>) =
-        (to.into_iter().collect(), over.into_iter().collect());
-    let (to, over) = (to?, over?);
-    let under = match under {
-        None => None,
-        Some(pulley) => Some(pulley?),
-    };
-    if to.is_empty() || !(1..=2).contains(&over.len()) {
-        let message = "a string runs over one or two pulleys to one or more bodies";
-        let hint = "a body that is pulled along the same line is named under `with`";
-        return r.refuse(string.span, message, hint);
-    }
-    let pulleys = over.iter().zip(&string.over);
-    for (pulley, name) in pulleys.chain(under.iter().zip(&string.under)) {
-        let body = &scene.bodies[*pulley];
-        if !matches!(body.shape, Shape::Disk { .. } | Shape::Ring { .. }) {
-            let message = format!("`{}` is no pulley", body.name);
-            let hint =
-                "a pulley is a disk or ring; where it is light or smooth, a disk of mass \"0\"";
-            return r.refuse(name.span, message, hint);
-        }
-    }
-    let mut out = Strung {
-        to,
-        along: along?,
-        over,
-        under,
-        friction,
-    };
-    if under.is_some() {
-        let ratio = out.ratio();
-        out.along = out.along.map(|c| &ratio * &c);
-    }
-    Some(out)
 }
 
 fn fall_of(r: &mut Resolver<'_>, fall: &FallFile, span: Span) -> Option<Fall> {

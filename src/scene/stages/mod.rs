@@ -6,8 +6,10 @@
 mod earlier;
 mod kind;
 mod seen;
+mod slide;
 
 pub(super) use kind::TIME;
+pub(super) use slide::STIFFNESS;
 
 use std::collections::{BTreeMap, HashMap};
 

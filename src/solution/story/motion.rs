@@ -4,7 +4,7 @@
 use super::Page;
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol, dot, minus};
-use crate::scene::{Ask, Linkage, Slide, Stage, StageKind, Turn, Until};
+use crate::scene::{Ask, Linkage, Slide, SlideEnd, Spring, Stage, StageKind, Turn, Until};
 use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::words::{self, name, say};
 use crate::solution::{Claim, Line, Math, Part, Solution};
@@ -83,6 +83,15 @@ impl Page<'_> {
             "kinetic energy at the beginning",
         );
         lines.push(Line { math, step });
+        if let StageKind::Slide(Slide {
+            spring: Some(spring),
+            until: SlideEnd::Stops,
+            ..
+        }) = &stage.kind
+        {
+            lines.extend(self.pressed(told, spring));
+            return self.solution.push(Part::Display(lines));
+        }
         if let StageKind::Turn(turn) = &stage.kind
             && matches!(turn.until, Until::Stops)
             && let Some(g) = &turn.gravity
@@ -171,6 +180,35 @@ impl Page<'_> {
             let mut questions = self.scene.questions.iter();
             questions.any(|q| q.name == answer.question && is(&q.ask))
         })
+    }
+
+    /// How a spring stops a body: the work of all forces on the way takes up the kinetic energy.
+    fn pressed(&mut self, told: &StageTold, spring: &Spring) -> Option<Line> {
+        let [start, end] = told.energy.as_ref()?;
+        let way = told.way.as_ref()?;
+        let asked = self.to(told, |ask| matches!(ask, Ask::Distance));
+        let asked = asked.map(|a| a.name.clone());
+        let symbol = Expr::symbol(asked.as_deref().unwrap_or("s"));
+        if asked.is_none() {
+            let latex = String::from("s");
+            self.solution.names.insert(Symbol::from("s"), latex);
+        }
+        let others = told.work.iter().filter(|(what, _)| *what != "spring");
+        let others = others.map(|(_, work)| tidied(self.scene, &(work / way)) * &symbol);
+        let stored = &spring.stiffness * (Expr::ratio(1, 2) * symbol.powi(2));
+        let given = &spring.stiffness * &spring.relaxed * &symbol;
+        let work = Expr::sum(others) + given - stored;
+        let total = Expr::sum(told.work.iter().map(|(_, w)| w.clone()));
+        let claim = Claim::new(start + total, end.clone());
+        let why = "the work of all forces takes up the kinetic energy";
+        let step = Some(self.solution.step(Vec::new(), vec![claim], why));
+        let mut math = vec![words::kinetic("", "-"), Math::Op("=")];
+        math.push(Math::Expr(neat(self.scene, &-work)));
+        if asked.is_none() {
+            math.extend([Math::Op("⇒"), Math::Expr(symbol)]);
+            math.extend([Math::Op("="), Math::Expr(way.clone())]);
+        }
+        Some(Line { math, step })
     }
 
     /// How a moment alone stops a rotation: its work takes up the kinetic energy.

@@ -3,7 +3,7 @@
 use super::Page;
 use crate::answer::Answer;
 use crate::expr::{Expr, Node, Symbol, dot};
-use crate::scene::{Ask, StageKind};
+use crate::scene::{Ask, SlideEnd, StageKind};
 use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::words::{self, name, say};
 use crate::solution::{Claim, Detail, Inline, Line, Math, Meaning, Part};
@@ -36,7 +36,7 @@ impl Page<'_> {
             });
         }
         for step in steps {
-            let mark = if matches!(step.letter, "v" | "omega") {
+            let mark = if matches!(step.letter, "v" | "V" | "omega") {
                 "+"
             } else {
                 ""
@@ -206,11 +206,26 @@ impl Page<'_> {
             return Vec::new();
         }
         let time = told.steps.iter().find(|s| s.letter == "t");
+        let relative = ["A", "a"].map(|letter| told.steps.iter().find(|s| s.letter == letter));
+        let until = |kind: &StageKind| matches!(kind, StageKind::Slide(s) if matches!(s.until, SlideEnd::Together));
         let raw = match time.filter(|_| !step.by_time.is_empty()) {
+            // The slip at the beginning over what it loses in a time.
+            None if step.letter == "t" && until(&told.placed.kind) => {
+                let [Some(below), Some(own)] = relative else {
+                    return Vec::new();
+                };
+                let slip = tidied(self.scene, &(&step.value * (&below.value - &own.value)));
+                let loses = self.letter_of(told, below) - self.letter_of(told, own);
+                self.by_names(&slip, &step.value) / loses
+            }
             Some(time) => {
                 let time = self.letter_of(told, time);
                 let powers = step.by_time.iter().zip(0..);
-                Expr::sum(powers.map(|(k, n)| self.by_names(k, &step.value) * time.powi(n)))
+                let named = |k: &Expr| match *k == step.value {
+                    true => k.clone(),
+                    false => self.named(k),
+                };
+                Expr::sum(powers.map(|(k, n)| self.by_names(&named(k), &step.value) * time.powi(n)))
             }
             None => {
                 let raw = self.by_names(&step.raw, &step.value);
@@ -234,9 +249,9 @@ impl Page<'_> {
         let fits = |ask: &Ask| match step.letter {
             "t" => matches!(ask, Ask::Time),
             "s" => matches!(ask, Ask::Distance | Ask::Position { .. }),
-            "v" => matches!(ask, Ask::Velocity { point: None, .. }),
+            "v" | "V" => matches!(ask, Ask::Velocity { point: None, .. }),
             "omega" => matches!(ask, Ask::Spin { .. }),
-            "a" => matches!(ask, Ask::Acceleration { .. }),
+            "a" | "A" => matches!(ask, Ask::Acceleration { .. }),
             "T" | "S" => matches!(ask, Ask::Tension { .. }),
             _ => false,
         };

@@ -121,15 +121,19 @@ pub(super) fn time(question: &Question, told: &StageTold) -> Answer {
 /// How a body on a line gets faster.
 pub(super) fn acceleration(question: &Question, told: &StageTold, body: usize) -> Answer {
     let words = format!("acceleration along its way in `{}`", told.name);
-    let strings = match &told.placed.kind {
-        StageKind::Slide(slide) => slide.strings.as_slice(),
-        _ => &[],
+    let (strings, below) = match &told.placed.kind {
+        StageKind::Slide(slide) => (slide.strings.as_slice(), slide.on.as_ref()),
+        _ => (Default::default(), None),
     };
     let its_own = strings.iter().find(|s| s.hung().any(|b| b == body));
-    let rate = told.acceleration.as_ref().map(|a| match its_own {
-        Some(string) => &string.ratio() * a,
-        None => a.clone(),
-    });
+    let is_below = below.is_some_and(|on| on.company().contains(&body));
+    let rate = match is_below {
+        true => (told.steps.iter().find(|s| s.letter == "A")).map(|s| s.value.clone()),
+        false => told.acceleration.as_ref().map(|a| match its_own {
+            Some(string) => &string.ratio() * a,
+            None => a.clone(),
+        }),
+    };
     measured(question, told, words, rate, "what comes before is open")
 }
 
@@ -152,10 +156,16 @@ pub(super) fn distance(question: &Question, told: &StageTold) -> Answer {
     let stage = &told.name;
     let words = match turns_back(told) {
         true => format!("displacement in `{stage}`, negative where it ends behind its beginning"),
+        false if is_carried(told) => format!("distance along the body below in `{stage}`"),
         false => format!("distance covered in `{stage}`"),
     };
     let value = told.way.clone();
     measured(question, told, words, value, "where it leads is open")
+}
+
+/// Whether a body slides on another that moves too.
+fn is_carried(told: &StageTold) -> bool {
+    matches!(&told.placed.kind, StageKind::Slide(slide) if slide.on.is_some())
 }
 
 /// Whether friction may turn a body round before it rolls.

@@ -4,6 +4,7 @@
 //! In: a stage and the state before. Out: the stage as [`Passed`], or why the motion does not get to its end. Sense of a
 //! rotation, end and time come from the motion itself.
 
+mod carried;
 mod fall;
 mod linkage;
 mod slide;

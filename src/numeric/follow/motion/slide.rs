@@ -3,10 +3,11 @@
 //! What presses a body on a rough surface is the multiplier of the constraint that keeps it there. Friction of that size
 //! times its coefficient acts at the point of contact against the way this point moves, for as long as it moves.
 
+use super::carried::carried;
 use super::strings::{Ropes, across, fixed};
 use super::{Driven, Moved, Movers, REST, ROUNDING, Units, all_open, others, stopped};
 use crate::numeric::follow::impact::first_open;
-use crate::numeric::follow::mechanism::{Asked, Constraint, Goal, Mechanism, Mobile, Run};
+use crate::numeric::follow::mechanism::{Asked, Constraint, Goal, Mechanism, Mobile, Run, Sprung};
 use crate::numeric::follow::{Course, Lost, Passed, State, What, Why};
 use crate::numeric::number::{cross, dot};
 use crate::scene::{Slide, SlideEnd};
@@ -22,6 +23,8 @@ struct Acting {
     rough: Option<f64>,
     /// From the center to the point of contact, of a round body.
     contact: Option<[f64; 2]>,
+    /// Stiffness of a spring, and the way at which it is relaxed.
+    spring: Option<[f64; 2]>,
 }
 
 impl Acting {
@@ -42,6 +45,13 @@ impl Acting {
             [-along[1], along[0]]
         };
         let gravity = course.optional(slide.gravity.as_ref(), "gravity")?;
+        let spring = match &slide.spring {
+            None => None,
+            Some(spring) => Some([
+                course.number(&spring.stiffness, "stiffness")?,
+                course.number(&spring.relaxed, "length")?,
+            ]),
+        };
         let fall = if slide.level { down } else { [0.0, -1.0] };
         Ok(Acting {
             along,
@@ -52,6 +62,7 @@ impl Acting {
                 .map(|mu| course.number(mu, "coefficient of friction"))
                 .transpose()?,
             contact: radius.map(|r| [r * down[0], r * down[1]]),
+            spring,
         })
     }
 
@@ -93,9 +104,12 @@ pub(in crate::numeric::follow) fn slide(
             _ => {}
         }
     }
-    let acting = Acting::of(course, slide)?;
     let movers = Movers::of(course, &bodies, &begin, from)
         .map_err(|_| course.out_of_reach("the place of the body is open"))?;
+    if let Some(below) = &slide.on {
+        return carried(course, before, (slide, below), &movers);
+    }
+    let acting = Acting::of(course, slide)?;
     let ropes = Ropes::of(course, slide, acting.along, &movers)?;
     let company = slide.company().len();
     let own: f64 = movers.inertias[..company].iter().map(|i| i[0]).sum();
@@ -174,12 +188,22 @@ pub(in crate::numeric::follow) fn slide(
         return Err(course.contradiction("a string goes slack"));
     }
     let way = if slip < 0.0 { -1.0 } else { 1.0 };
+    let sprung = acting.spring.map(|[stiffness, relaxed]| Sprung {
+        smooth: &mechanism,
+        along: acting.along,
+        rate: stiffness / own * units.time * units.time,
+        relaxed: relaxed / units.length,
+    });
+    let mobile: &dyn Mobile = match &sprung {
+        Some(sprung) => sprung,
+        None => &mechanism,
+    };
     let run = to_the_end(
         course,
         slide,
         &acting,
         &units,
-        &mechanism,
+        mobile,
         &start,
         (way, rubs > 0.0),
     )?;
@@ -284,7 +308,8 @@ fn sizes(
                 return Err(course.contradiction("the distance is negative"));
             }
             let fastest = begins + (rate * s).sqrt();
-            if s > 0.0 && speed <= REST * fastest && pull <= 0.0 && rim == 0.0 {
+            let pushed = acting.spring.is_some_and(|[_, relaxed]| relaxed > 0.0);
+            if s > 0.0 && !pushed && speed <= REST * fastest && pull <= 0.0 && rim == 0.0 {
                 return Err(course.never(NEVER));
             }
             (s, fastest, s / fastest / 8.0)
@@ -297,9 +322,24 @@ fn sizes(
             let fastest = begins + rate * t;
             (fastest * t, fastest, t / 8.0)
         }
-        SlideEnd::Stops | SlideEnd::Rolls => {
+        SlideEnd::Stops | SlideEnd::Rolls | SlideEnd::Together => {
             let time = begins / rate;
             (begins * time, begins, time / 8.0)
+        }
+    };
+    let (length, fastest, time) = match acting.spring {
+        None => (length, fastest, time),
+        Some([stiffness, relaxed]) => {
+            // A quarter of a swing takes a little more than this.
+            let swing = (movers.inertias.iter().map(|i| i[0]).sum::<f64>() / stiffness).sqrt();
+            let reach = begins * swing + 2.0 * (rate * swing * swing + relaxed.abs());
+            match &slide.until {
+                SlideEnd::Distance(_) => {
+                    let fastest = begins + (reach + length) / swing;
+                    (length, fastest, (length / fastest / 8.0).min(swing))
+                }
+                _ => (reach, begins + reach / swing, swing),
+            }
         }
     };
     let or_one = |v: f64| if v > 0.0 && v.is_finite() { v } else { 1.0 };
@@ -351,7 +391,13 @@ fn on_line(
 }
 
 /// Adds friction of this size along a line, in units of force, at an arm from the center of a body.
-fn rub(mechanism: &mut Mechanism, body: usize, along: [f64; 2], arm: [f64; 2], size: f64) {
+pub(super) fn rub(
+    mechanism: &mut Mechanism,
+    body: usize,
+    along: [f64; 2],
+    arm: [f64; 2],
+    size: f64,
+) {
     let force = along.map(|u| size * u);
     let moment = cross(&arm, &force);
     let all = &mut mechanism.forces[body];
@@ -372,7 +418,7 @@ fn to_the_end(
     slide: &Slide,
     acting: &Acting,
     units: &Units,
-    mechanism: &Mechanism,
+    mechanism: &dyn Mobile,
     start: &[f64],
     (way, rubs): (f64, bool),
 ) -> Result<Run, Lost> {
@@ -388,7 +434,7 @@ fn to_the_end(
     match &slide.until {
         SlideEnd::Distance(distance) => {
             let far = course.number(distance, "distance")? / units.length;
-            let slows = !gains(&rate);
+            let slows = acting.spring.is_some() || !gains(&rate);
             let mut goal = Goal {
                 left: &|y| dot(&[y[0], y[1]], &along) - far,
                 rate: &rate,
@@ -405,7 +451,7 @@ fn to_the_end(
                 false => Ok(run),
             }
         }
-        SlideEnd::Stops | SlideEnd::Rolls => {
+        SlideEnd::Stops | SlideEnd::Rolls | SlideEnd::Together => {
             let slip = |y: &[f64]| way * slipping(acting, units, y) / units.speed();
             // What comes to nothing in the end.
             let stops = matches!(slide.until, SlideEnd::Stops);
@@ -419,15 +465,35 @@ fn to_the_end(
                 true => "nothing slows it down",
                 false => "its slip grows",
             };
-            if gains(wanes) && wanes(start) > 0.0 {
+            if acting.spring.is_none() && gains(wanes) && wanes(start) > 0.0 {
                 return Err(course.never(never));
+            }
+            // At rest a spring first has to set it going.
+            let first = match acting.spring.is_some() && wanes(start) <= ROUNDING {
+                true => 0.1,
+                false => 0.0,
+            };
+            let first = mechanism.lasting(start, first).map_err(stopped(never))?;
+            if acting.spring.is_some() && wanes(&first.end) < 0.0 {
+                return Err(course.never("nothing moves it"));
             }
             let mut goal = Goal {
                 left: &|y| -wanes(y),
                 rate: &|_| 1.0,
                 never: &mut |_, _| false,
             };
-            mechanism.until(start, &mut goal).map_err(stopped(never))
+            let mut run = mechanism
+                .until(&first.end, &mut goal)
+                .map_err(stopped(never))?;
+            if acting.spring.is_some() {
+                // It rests there: what is left of its speed is rounding, and there may be no other speed to measure it by.
+                run.end[n..].fill(0.0);
+            }
+            run.time += first.time;
+            run.samples
+                .iter_mut()
+                .for_each(|(time, _)| *time += first.time);
+            Ok(run)
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What a body has to do at the beginning so that it can move along its line.
 
-use super::line::Line;
+use super::line::{Line, proved};
 use super::lumps;
 use crate::answer::calc::{Seen, at_least_zero, is_zero, sign, tidy};
 use crate::expr::{Expr, Vector, dot};
@@ -27,7 +27,7 @@ pub(super) fn fits(stage: &Stage, before: &State, slide: &Slide) -> Result<(), R
     Ok(())
 }
 
-fn fits_line(
+pub(super) fn fits_line(
     stage: &Stage,
     before: &State,
     slide: &Slide,
@@ -86,6 +86,21 @@ fn fits_line(
         }
     }
     Ok(())
+}
+
+/// Whether the line leads to the right, 1, or to the left, −1: the surface is below it. Refused where that is not decided.
+pub(super) fn directed(stage: &Stage, slide: &Slide) -> Result<i64, Refused> {
+    match proved(&slide.along[0], &stage.scene.domains) {
+        Some(way @ (1 | -1)) => Ok(way),
+        _ => Err(Refused::new(
+            &stage.name,
+            format!(
+                "`{}`: whether its line leads to the right or to the left is not decided, and so is which side the surface is on",
+                stage.scene.bodies[slide.body].name
+            ),
+            "say it by the domain of an angle, or by `relations`",
+        )),
+    }
 }
 
 /// Refuses a heavy pulley whose rim does not begin to move with the string.

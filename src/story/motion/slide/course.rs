@@ -1,7 +1,7 @@
 //! The course of a motion with constant acceleration, from its beginning to its end.
 
 use super::super::{arrival, arrives, half, never_arrives};
-use super::line::{Line, proved};
+use super::line::{Line, proved, spring_work};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, above_zero, at_least_zero, essential, is_zero, sign};
 use crate::expr::Expr;
@@ -35,7 +35,11 @@ impl Line<'_> {
 
     /// v² = v₀² + 2 a s.
     fn square_after(&self, s: &Expr) -> Expr {
-        &self.speed.powi(2) + &(&(&Expr::from(2) * &self.acceleration) * s)
+        let square = &self.speed.powi(2) + &(&(&Expr::from(2) * &self.acceleration) * s);
+        match &self.slide.spring {
+            Some(spring) => &square + &(&(&Expr::from(2) * &spring_work(spring, s)) / &self.mass),
+            None => square,
+        }
     }
 
     /// How the motion goes to its end.
@@ -58,11 +62,15 @@ impl Line<'_> {
                 }
                 (Some(t.clone()), self.tidied(&self.way(t))?, speed)
             }
+            SlideEnd::Stops if self.slide.spring.is_some() => {
+                let (time, distance) = self.to_greatest(assumptions)?;
+                (time, distance, Expr::zero())
+            }
             SlideEnd::Stops => {
                 let [time, distance] = self.to_rest(steps, assumptions)?;
                 (Some(time), distance, Expr::zero())
             }
-            SlideEnd::Rolls => {
+            SlideEnd::Rolls | SlideEnd::Together => {
                 let time = self.to_rolling(steps, assumptions)?;
                 let distance = self.tidied(&self.way(&time))?;
                 let speed = self.tidied(&self.speed_after(&time))?;
@@ -95,6 +103,9 @@ impl Line<'_> {
         assumptions: &mut Vec<Sentence>,
     ) -> Result<(Option<Expr>, Expr), Refused> {
         let a = &self.acceleration;
+        if self.slide.spring.is_some() {
+            return Ok((None, self.arrival(s, assumptions)?));
+        }
         let still = is_zero(a, self.domains()) == Some(true);
         let speed = match still {
             true => self.speed.clone(),
@@ -143,6 +154,49 @@ impl Line<'_> {
         steps.push(Step::new("t", &raw, &time, why));
         let way = &self.speed.powi(2) / &(&Expr::from(2) * &slowing);
         Ok([time, self.tidied(&way)?])
+    }
+
+    /// Time and distance until a spring stops it: the time where nothing else acts and the spring is relaxed at the beginning.
+    fn to_greatest(
+        &self,
+        assumptions: &mut Vec<Sentence>,
+    ) -> Result<(Option<Expr>, Expr), Refused> {
+        let Some(spring) = &self.slide.spring else {
+            return Err(self.refused("no spring stops it", ""));
+        };
+        let k = &spring.stiffness;
+        // m v₀²/2 + f s − k s²/2 = 0, f the force at the beginning; the other root lies behind.
+        let force = self.tidied(&(&self.net() + &(k * &spring.relaxed)))?;
+        let from_rest = is_zero(&self.speed, self.domains()) == Some(true);
+        if from_rest {
+            match sign(&force, self.domains()) {
+                Seen::Proved(Sign::Positive) => {}
+                Seen::Proved(_) | Seen::Negative => {
+                    return Err(self.refused("it is at rest, and nothing moves it", ""));
+                }
+                _ => assumptions.push(sentence![
+                    above_zero(&force, self.domains()),
+                    ", so that `",
+                    self.name(),
+                    "` begins to move"
+                ]),
+            }
+        }
+        let is_free = is_zero(&force, self.domains()) == Some(true);
+        let root = &force.powi(2) + &(&(k * &self.mass) * &self.speed.powi(2));
+        let distance = match (from_rest, is_free) {
+            (true, _) => &(&Expr::from(2) * &force) / k,
+            (_, true) => &self.speed * &(&self.mass / k).sqrt(),
+            _ => &(&force + &root.sqrt()) / k,
+        };
+        let quarter = half(&Expr::pi()) * (&self.mass / k).sqrt();
+        let time = match (from_rest, is_free) {
+            (true, _) => Some(&Expr::from(2) * &quarter),
+            (_, true) => Some(quarter),
+            _ => None,
+        };
+        let time = time.map(|t| self.tidied(&t)).transpose()?;
+        Ok((time, self.tidied(&distance)?))
     }
 
     /// The time until it rolls.

@@ -2,11 +2,12 @@
 
 use super::super::strings::{Pulled, pulled};
 use super::super::{half, kept, tidied};
+use super::begins::directed;
 use super::course::Course;
 use crate::answer::calc::{is_zero, sign};
 use crate::domain::Domains;
 use crate::expr::{Expr, dot};
-use crate::scene::{Slide, Stage};
+use crate::scene::{Slide, Spring, Stage};
 use crate::story::{Kept, Refused, State, Step};
 
 /// How a body moves along a line.
@@ -54,6 +55,11 @@ pub(super) fn proved(e: &Expr, domains: &Domains) -> Option<i64> {
     Some(if positive { 1 } else { -1 })
 }
 
+/// What a spring does on the way s, k (relaxed s − s²/2) \[J\].
+pub(super) fn spring_work(spring: &Spring, s: &Expr) -> Expr {
+    &spring.stiffness * &(&(&spring.relaxed * s) - &half(&s.powi(2)))
+}
+
 impl<'a> Line<'a> {
     /// The forces along a line, and the acceleration they give; what friction has to keep to is added to the needs.
     pub fn of(
@@ -63,7 +69,6 @@ impl<'a> Line<'a> {
         needs: &mut Vec<Expr>,
     ) -> Result<Line<'a>, Refused> {
         let scene = &stage.scene;
-        let domains = &scene.domains;
         let own = slide.company().into_iter();
         let own = tidied(stage, &Expr::sum(own.map(|b| scene.bodies[b].mass.clone())))?;
         let strings = pulled(stage, before, slide)?;
@@ -94,14 +99,8 @@ impl<'a> Line<'a> {
         };
         let rough = slide.rolling || slide.friction.is_some();
         let steep = rough && !slide.level;
-        let right = proved(&slide.along[0], domains).filter(|_| steep);
-        if steep && !matches!(right, Some(1 | -1)) {
-            return Err(line.refused(
-                "whether its line leads to the right or to the left is not decided, and so is which side the surface is on",
-                "say it by the domain of an angle, or by `relations`",
-            ));
-        }
-        let right = Expr::from(right.unwrap_or(1));
+        let right = if steep { directed(stage, slide)? } else { 1 };
+        let right = Expr::from(right);
         // What presses the body on the surface: the weight across the line.
         let limit = match (&slide.friction, &weight) {
             (Some(mu), Some(weight)) if slide.level => mu * weight,
@@ -250,7 +249,7 @@ impl<'a> Line<'a> {
     }
 
     /// All forces along the lines \[N\].
-    fn net(&self) -> Expr {
+    pub fn net(&self) -> Expr {
         &(&self.pull + &self.friction) + &self.drag
     }
 
@@ -271,6 +270,10 @@ impl<'a> Line<'a> {
             () if self.slide.force.is_some() => {
                 (false, "the force does work, its size times the distance")
             }
+            () if self.slide.spring.is_some() => (
+                true,
+                "the spring keeps what it takes, and weight has a potential",
+            ),
             () if self.round.is_some() => (
                 true,
                 "the lowest point is at rest, so that friction there does no work, and weight has a potential",
@@ -298,6 +301,9 @@ impl<'a> Line<'a> {
         }
         if let Some(force) = &self.slide.force {
             out.push(("force", force * &course.distance));
+        }
+        if let Some(spring) = &self.slide.spring {
+            out.push(("spring", spring_work(spring, &course.distance)));
         }
         if self.rubs() {
             let way = match (&self.round, &course.time) {

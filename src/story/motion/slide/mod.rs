@@ -7,6 +7,7 @@
 //! `course`.
 
 mod begins;
+mod carried;
 mod course;
 mod line;
 
@@ -27,6 +28,9 @@ pub(in crate::story) fn slide(
     slide: &Slide,
     is_driven: bool,
 ) -> Result<StageTold, Refused> {
+    if let Some(below) = &slide.on {
+        return carried::carried(stage, before, slide, below);
+    }
     let mut assumptions = Vec::new();
     let mut needs = Vec::new();
     begins::fits(stage, &before, slide)?;
@@ -37,7 +41,8 @@ pub(in crate::story) fn slide(
     }
     let mut steps = line.steps();
     let course = line.course(&mut steps, &mut assumptions, &mut needs)?;
-    if !matches!(slide.until, SlideEnd::Distance(_)) || line.round.is_some() || is_driven {
+    let by_newton = !matches!(slide.until, SlideEnd::Distance(_)) && slide.spring.is_none();
+    if by_newton || line.round.is_some() || is_driven {
         line.told(&course, &mut steps);
     } else {
         steps.clear();
@@ -68,7 +73,7 @@ pub(in crate::story) fn slide(
     out.time = course.time;
     out.way = Some(course.distance);
     out.steps = steps;
-    out.acceleration = Some(line.acceleration.clone());
+    out.acceleration = (slide.spring.is_none()).then(|| line.acceleration.clone());
     out.tensions = tensions;
     out.assumptions = assumptions;
     needs.push(line.speed.clone());

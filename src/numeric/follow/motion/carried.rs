@@ -1,0 +1,254 @@
+//! Motion of a body that slides on another, which moves on a floor.
+//!
+//! What presses the two on each other, and the lower one on the floor, are the multipliers of the constraints that keep them
+//! there. Friction of that size times its coefficient acts on either body against its motion over the other, and on the lower
+//! one against its motion over the floor, for as long as these last.
+
+use super::slide::rub;
+use super::strings::{across, fixed};
+use super::{Driven, Moved, Movers, REST, ROUNDING, Units, others, stopped};
+use crate::numeric::follow::mechanism::{Asked, Constraint, Goal, Mechanism, Mobile};
+use crate::numeric::follow::{Course, Lost, Passed, State, What};
+use crate::numeric::number::{cross, dot};
+use crate::scene::{Carrier, Slide, SlideEnd};
+
+/// The two bodies with their companies, in numbers.
+struct Pair<'a> {
+    movers: &'a Movers,
+    along: [f64; 2],
+    gravity: f64,
+    /// Coefficients of friction between the two, and of the floor.
+    rough: [f64; 2],
+    /// Forces along the line on the upper body and on the lower one.
+    forces: [f64; 2],
+    /// How many bodies move with the upper one, itself among them: the place of the lower one in the list.
+    company: usize,
+}
+
+impl Pair<'_> {
+    /// The bodies on each other and on the floor, without friction.
+    fn smooth(&self, units: &Units) -> Mechanism {
+        let (movers, first) = (self.movers, 3 * self.company);
+        let [x, y] = self.along;
+        let pressed = vec![(0, -y), (1, x), (first, y), (first + 1, -x)];
+        let mut held = vec![
+            Constraint::Sum(pressed),
+            across(self.company, self.along),
+            fixed(2),
+            fixed(first + 2),
+        ];
+        for i in 1..movers.bodies.len() {
+            let lead = if i < self.company { 0 } else { self.company };
+            if i == lead {
+                continue;
+            }
+            let [from, to] = [lead, i].map(|i| movers.arm(i));
+            held.push(Constraint::Weld {
+                bodies: [lead, i],
+                arm: [0, 1].map(|k| (to[k] - from[k]) / units.length),
+            });
+        }
+        let masses = movers.inertias.iter().map(|[m, _]| m / units.force());
+        let mut forces: Vec<[f64; 3]> = masses.map(|m| [0.0, -m * self.gravity, 0.0]).collect();
+        for (body, force) in [0, self.company].into_iter().zip(self.forces) {
+            for (total, along) in forces[body].iter_mut().zip(self.along) {
+                *total += force * along / units.force();
+            }
+        }
+        let mut inertias = movers.scaled(units);
+        for inertia in inertias.iter_mut().filter(|i| i[1] <= 0.0) {
+            // What does not turn needs no inertia; none would leave the equations open.
+            inertia[1] = 1.0;
+        }
+        Mechanism {
+            inertias,
+            constraints: held,
+            forces,
+            asked: Asked::default(),
+        }
+    }
+
+    /// Velocities of both along the line, in the units of a state.
+    fn speeds(&self, y: &[f64]) -> [f64; 2] {
+        let n = y.len() / 2;
+        [0, self.company].map(|i| dot(&[y[n + 3 * i], y[n + 3 * i + 1]], &self.along))
+    }
+
+    fn slip(&self, y: &[f64]) -> f64 {
+        let [upper, lower] = self.speeds(y);
+        upper - lower
+    }
+
+    /// The same with friction, and the way in which the lower body moves over its floor.
+    fn rough(&self, course: &Course<'_>, units: &Units) -> Result<(Mechanism, f64), Lost> {
+        let mut mechanism = self.smooth(units);
+        let start = self.movers.start(units);
+        let broken = || course.out_of_reach("the equations of motion have no solution");
+        let (_, held) = mechanism.accelerations(&start).ok_or_else(broken)?;
+        let rubs = self.rough[0] * held[0].abs();
+        rub(&mut mechanism, 0, self.along, [0.0; 2], -rubs);
+        rub(&mut mechanism, self.company, self.along, [0.0; 2], rubs);
+        let (rates, held) = mechanism.accelerations(&start).ok_or_else(broken)?;
+        let [upper, lower] = self.speeds(&start);
+        let begins = |i: usize| dot(&[rates[3 * i], rates[3 * i + 1]], &self.along);
+        let is_at_rest = lower.abs() <= ROUNDING * (upper.abs() + lower.abs());
+        let way = if is_at_rest {
+            begins(self.company)
+        } else {
+            lower
+        }
+        .signum();
+        let limit = self.rough[1] * held[1].abs();
+        rub(
+            &mut mechanism,
+            self.company,
+            self.along,
+            [0.0; 2],
+            -way * limit,
+        );
+        let (rates, _) = mechanism.accelerations(&start).ok_or_else(broken)?;
+        let goes = way
+            * dot(
+                &rates[3 * self.company..][..2]
+                    .try_into()
+                    .unwrap_or([0.0; 2]),
+                &self.along,
+            );
+        if self.rough[1] > 0.0 && is_at_rest && goes <= 0.0 {
+            return Err(course.contradiction("the floor holds the body below"));
+        }
+        Ok((mechanism, way))
+    }
+}
+
+/// Motion on a body that moves too.
+pub(super) fn carried(
+    course: &Course<'_>,
+    before: State,
+    (slide, below): (&Slide, &Carrier),
+    movers: &Movers,
+) -> Result<Passed, Lost> {
+    let rough = |mu: &Option<_>| match mu {
+        Some(mu) => course.number(mu, "coefficient of friction"),
+        None => Ok(0.0),
+    };
+    let force = |f: &Option<_>| course.optional(f.as_ref(), "force");
+    let pair = Pair {
+        movers,
+        along: course.pair(&slide.along, "direction")?,
+        gravity: course.optional(slide.gravity.as_ref(), "gravity")?,
+        rough: [rough(&slide.friction)?, rough(&below.friction)?],
+        forces: [force(&slide.force)?, force(&below.force)?],
+        company: slide.company().len(),
+    };
+    if movers.inertias.iter().any(|[m, _]| *m <= 0.0) {
+        return Err(course.contradiction("what slides has no mass"));
+    }
+    fits(course, &pair)?;
+    let plain = Units {
+        length: 1.0,
+        time: 1.0,
+        mass: 1.0,
+    };
+    let (mechanism, way) = pair.rough(course, &plain)?;
+    let start = movers.start(&plain);
+    let slip = pair.slip(&start);
+    let rates = mechanism.accelerations(&start).map(|(rates, _)| rates);
+    let rates =
+        rates.ok_or_else(|| course.out_of_reach("the equations of motion have no solution"))?;
+    let grows = |i: usize| dot(&[rates[3 * i], rates[3 * i + 1]], &pair.along);
+    let rate = grows(0) - grows(pair.company);
+    let fastest = pair.speeds(&start).map(f64::abs).into_iter().sum::<f64>();
+    if slip < -ROUNDING * fastest || slip <= ROUNDING * fastest && rate <= 0.0 {
+        return Err(course.contradiction("it does not slide along the line over the body below"));
+    }
+    let time = match &slide.until {
+        SlideEnd::Distance(s) => {
+            let s = course.number(s, "distance")?;
+            s / (slip + (rate.abs() * s).sqrt())
+        }
+        SlideEnd::Time(t) => course.number(t, "time")?,
+        _ if rate >= 0.0 => return Err(course.never("it never comes to move with it")),
+        _ => slip / -rate,
+    };
+    if !(time > 0.0 && time.is_finite()) {
+        return Err(course.contradiction("the motion takes no time"));
+    }
+    let largest = grows(0).abs().max(grows(pair.company).abs());
+    let units = Units {
+        length: (fastest + largest * time) * time,
+        time: time / 4.0,
+        mass: movers.inertias.iter().map(|i| i[0]).sum(),
+    };
+    let (mechanism, _) = pair.rough(course, &units)?;
+    let start = movers.start(&units);
+    let never = "it comes to move with the body below before";
+    let run = match &slide.until {
+        SlideEnd::Time(_) => mechanism.lasting(&start, time / units.time),
+        SlideEnd::Distance(s) => {
+            let far = course.number(s, "distance")? / units.length;
+            let apart = |y: &[f64]| {
+                let i = 3 * pair.company;
+                dot(&[y[0] - y[i], y[1] - y[i + 1]], &pair.along)
+            };
+            let from = apart(&start);
+            mechanism.until(
+                &start,
+                &mut Goal {
+                    left: &|y| apart(y) - from - far,
+                    rate: &|y| pair.slip(y),
+                    never: &mut |y, _| pair.slip(y) <= 0.0,
+                },
+            )
+        }
+        _ => mechanism.until(
+            &start,
+            &mut Goal {
+                left: &|y| -pair.slip(y),
+                rate: &|_| 1.0,
+                never: &mut |_, _| false,
+            },
+        ),
+    };
+    let run = run.map_err(|stop| stopped(course, stop, never))?;
+    let tiny = ROUNDING * (fastest + largest * time) / units.speed();
+    if pair.slip(&run.end) < -tiny {
+        return Err(course.never(never));
+    }
+    if pair.rough[1] > 0.0 && way * pair.speeds(&run.end)[1] < -tiny {
+        return Err(course.never("the floor stops the body below before"));
+    }
+    let (mut after, samples) = movers.ended(course, &units, &run, &before);
+    let time = Ok(run.time * units.time);
+    others(course, &before, &mut after, &movers.bodies, &time, true);
+    let driven = movers.bodies.iter().enumerate().map(|(i, body)| Driven {
+        body: *body,
+        acceleration: grows(if i < pair.company { 0 } else { pair.company }),
+        tension: None,
+    });
+    let moved = Moved {
+        bodies: movers.bodies.clone(),
+        driven: driven.collect(),
+        samples,
+        ..Moved::default()
+    };
+    Ok(course.passed(time, before, after, What::Motion(moved)))
+}
+
+/// Both begin to move along the line without turning, each with its company.
+fn fits(course: &Course<'_>, pair: &Pair<'_>) -> Result<(), Lost> {
+    let states = &pair.movers.states;
+    let fastest = states.iter().map(|s| s[3].hypot(s[4]));
+    let fastest = fastest.fold(0.0, f64::max);
+    for (i, [.., u, v, spin]) in states.iter().enumerate() {
+        let lead = states[if i < pair.company { 0 } else { pair.company }];
+        let off = cross(&pair.along, &[*u, *v]).abs();
+        let apart = (u - lead[3]).abs().max((v - lead[4]).abs());
+        if off.max(apart) > ROUNDING * fastest || spin.abs() > REST {
+            return Err(
+                course.contradiction("it does not begin to move along the line without turning")
+            );
+        }
+    }
+    Ok(())
+}

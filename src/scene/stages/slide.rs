@@ -1,0 +1,225 @@
+//! A motion along a line as the file writes it becomes a [`Slide`].
+//!
+//! In: its record. Out: the motion, or what does not go together in it.
+
+use super::kind::{FORCE, TIME, coefficient, company, optional, weight};
+use crate::expr::Expr;
+use crate::scene::fault::Span;
+use crate::scene::formulas::Quantity;
+use crate::scene::resolve::Resolver;
+use crate::scene::stage::{Carrier, Slide, SlideEnd, Spring, Strung};
+use crate::scene::stage_file::{CarrierFile, SlideEndName, SlideFile, SpringFile, StrungFile};
+use crate::scene::{Scene, Shape};
+
+pub(in crate::scene) const STIFFNESS: Quantity =
+    Quantity::other([1, 0, -2], "a stiffness is a force by a length");
+
+pub(super) fn slide(
+    r: &mut Resolver<'_>,
+    scene: &Scene,
+    slide: &SlideFile,
+    span: Span,
+) -> Option<Slide> {
+    let until = end(r, slide, span)?;
+    let all = company(r, &slide.body, slide.with.as_deref());
+    let along = r.direction(&slide.along);
+    let gravity = weight(r, slide.gravity.as_ref())?;
+    let force = optional(r, slide.force.as_ref(), FORCE)?;
+    let friction = coefficient(r, slide.friction.as_ref())?;
+    let strings = slide.strings.iter().flatten();
+    let strings = strings
+        .map(|s| strung(r, scene, s))
+        .collect::<Option<Vec<Strung>>>()?;
+    let on = match &slide.on {
+        None => None,
+        Some(on) => Some(Box::new(carrier(r, on)?)),
+    };
+    let spring = match &slide.spring {
+        None => None,
+        Some(spring) => Some(self::spring(r, spring)?),
+    };
+    let (body, with) = all?;
+    let out = Slide {
+        level: slide.level == Some(true),
+        body,
+        with,
+        along: along?,
+        until,
+        gravity,
+        force,
+        friction,
+        on,
+        spring,
+        rolling: slide.rolling == Some(true),
+        strings,
+    };
+    let mut all = out.bodies();
+    all.sort_unstable();
+    let twice = all.windows(2).find(|pair| pair[0] == pair[1]);
+    let wrong = twice.map(|twice| {
+        let name = &scene.bodies[twice[0]].name;
+        let message = format!("`{name}` moves along with itself");
+        (message, "name each body once")
+    });
+    match wrong.or_else(|| unfit(scene, &out)) {
+        Some((message, hint)) => r.refuse(span, message, hint),
+        None => Some(out),
+    }
+}
+
+/// How the motion ends.
+fn end(r: &mut Resolver<'_>, slide: &SlideFile, span: Span) -> Option<SlideEnd> {
+    match (&slide.distance, &slide.time, slide.until) {
+        (Some(s), None, None) => r.read(s, Quantity::LENGTH).map(SlideEnd::Distance),
+        (None, Some(t), None) => r.read(t, TIME).map(SlideEnd::Time),
+        (None, None, Some(name)) => Some(match name {
+            SlideEndName::Stops => SlideEnd::Stops,
+            SlideEndName::Rolls => SlideEnd::Rolls,
+            SlideEndName::Together => SlideEnd::Together,
+        }),
+        _ => {
+            let message = "a motion along a line ends after a `distance`, a time `for`, or where `until` says";
+            r.refuse(span, message, "give one of them")
+        }
+    }
+}
+
+/// What does not go together in a motion, and what to do about it.
+fn unfit(scene: &Scene, slide: &Slide) -> Option<(String, &'static str)> {
+    let is_rough = slide.friction.is_some() || slide.strings.iter().any(|s| s.friction.is_some());
+    let shape = &scene.bodies[slide.body];
+    let is_round = slide.with.is_empty() && shape.shape.radius().is_some();
+    let rolls = slide.rolling || matches!(slide.until, SlideEnd::Rolls);
+    let goes_alone = slide.strings.is_empty() && !rolls;
+    Some(match () {
+        () if rolls && !is_round => (
+            format!("`{}` does not roll", shape.name),
+            "a disk, ring or sphere by itself does",
+        ),
+        () if is_rough && slide.gravity.is_none() => (
+            String::from("what presses the body on the rough surface is not said"),
+            "add \"gravity\": \"g\"",
+        ),
+        () if slide.rolling && slide.friction.is_some() => (
+            String::from("a body that rolls takes as much friction as that needs"),
+            "leave out `friction`, or leave out `rolling` and say where the slip ends with \"until\": \"rolls\"",
+        ),
+        () if slide.friction.is_none() && matches!(slide.until, SlideEnd::Rolls) => (
+            String::from("without friction a body that slips never begins to roll"),
+            "add \"friction\": \"mu\"",
+        ),
+        () if slide.level && !goes_alone => (
+            String::from(
+                "a scene seen from above has bodies that slide, and neither roll nor hang on strings",
+            ),
+            "leave out `level` where the scene is seen from the side",
+        ),
+        () if slide.on.is_none() && matches!(slide.until, SlideEnd::Together) => (
+            String::from("what it comes to move together with is not said"),
+            "name the body below it, such as \"on\": {\"body\": \"plank\"}",
+        ),
+        () if slide.on.is_some() => return not_carried(slide, is_round || !goes_alone),
+        () if slide.spring.is_some()
+            && (!goes_alone
+                || is_round && is_rough
+                || matches!(slide.until, SlideEnd::Time(_))) =>
+        {
+            (
+                String::from(
+                    "a spring acts on a body that slides without rolling or strings, through a distance or until it stops",
+                ),
+                "end the stage with `distance` or with \"until\": \"stops\"",
+            )
+        }
+        () => return None,
+    })
+}
+
+/// What does not go together where the body below moves too.
+fn not_carried(slide: &Slide, rolls: bool) -> Option<(String, &'static str)> {
+    Some(match () {
+        () if rolls || slide.level || slide.spring.is_some() => (
+            String::from(
+                "what slides on a body that moves too neither rolls, nor hangs on strings or a spring, and is seen from the side",
+            ),
+            "a block does; a ball on a body that moves is not supported",
+        ),
+        () if slide.friction.is_none() => (
+            String::from("without friction the body below does not feel what slides on it"),
+            "add \"friction\": \"mu\" between the two, or let each `slide` by itself",
+        ),
+        () if matches!(slide.until, SlideEnd::Stops) => (
+            String::from("whether it stops on the body below it or over the ground is not said"),
+            "write \"until\": \"together\", or a time `for`",
+        ),
+        () => return None,
+    })
+}
+
+/// The body below, where it moves too.
+fn carrier(r: &mut Resolver<'_>, on: &CarrierFile) -> Option<Carrier> {
+    let all = company(r, &on.body, on.with.as_deref());
+    let friction = coefficient(r, on.friction.as_ref())?;
+    let force = optional(r, on.force.as_ref(), FORCE)?;
+    let (body, with) = all?;
+    Some(Carrier {
+        body,
+        with,
+        friction,
+        force,
+    })
+}
+
+/// A spring along the line.
+fn spring(r: &mut Resolver<'_>, spring: &SpringFile) -> Option<Spring> {
+    let relaxed = optional(r, spring.relaxed.as_ref(), Quantity::LENGTH)?;
+    Some(Spring {
+        stiffness: r
+            .symbols
+            .read(&spring.stiffness, STIFFNESS, &mut r.faults)?,
+        relaxed: relaxed.unwrap_or_else(Expr::zero),
+    })
+}
+
+/// A string over pulleys with what moves at its other end.
+fn strung(r: &mut Resolver<'_>, scene: &Scene, string: &StrungFile) -> Option<Strung> {
+    let to: Vec<_> = string.to.iter().map(|name| r.moving(name)).collect();
+    let over: Vec<_> = string.over.iter().map(|name| r.moving(name)).collect();
+    let along = r.direction(&string.along);
+    let friction = coefficient(r, string.friction.as_ref())?;
+    let under = string.under.as_ref().map(|name| r.moving(name));
+    let (to, over): (Option<Vec<_>>, Option<Vec<_>>) =
+        (to.into_iter().collect(), over.into_iter().collect());
+    let (to, over) = (to?, over?);
+    let under = match under {
+        None => None,
+        Some(pulley) => Some(pulley?),
+    };
+    if to.is_empty() || !(1..=2).contains(&over.len()) {
+        let message = "a string runs over one or two pulleys to one or more bodies";
+        let hint = "a body that is pulled along the same line is named under `with`";
+        return r.refuse(string.span, message, hint);
+    }
+    let pulleys = over.iter().zip(&string.over);
+    for (pulley, name) in pulleys.chain(under.iter().zip(&string.under)) {
+        let body = &scene.bodies[*pulley];
+        if !matches!(body.shape, Shape::Disk { .. } | Shape::Ring { .. }) {
+            let message = format!("`{}` is no pulley", body.name);
+            let hint =
+                "a pulley is a disk or ring; where it is light or smooth, a disk of mass \"0\"";
+            return r.refuse(name.span, message, hint);
+        }
+    }
+    let mut out = Strung {
+        to,
+        along: along?,
+        over,
+        under,
+        friction,
+    };
+    if under.is_some() {
+        let ratio = out.ratio();
+        out.along = out.along.map(|c| &ratio * &c);
+    }
+    Some(out)
+}

@@ -1,0 +1,422 @@
+//! A body that slides on another, which moves on a floor: friction between the two drives one and holds the other back.
+//!
+//! In: a slide with a body below. Out: the motion at its end. Both accelerations are constant, so that the slip, the velocity of
+//! the upper body less that of the lower one, changes uniformly as well.
+
+use super::super::{half, kept, meanwhile, tidied};
+use super::begins::{directed, fits_line};
+use super::line::proved;
+use crate::algebra::Sign;
+use crate::answer::calc::{Seen, above_zero, at_least_zero, is_zero, sign};
+use crate::expr::{Expr, dot};
+use crate::formula::{Sentence, sentence, write_plain};
+use crate::scene::{Carrier, Slide, SlideEnd, Stage};
+use crate::story::{Refused, StageTold, State, Step};
+
+/// The upper body and the lower one, each with what moves along with it; velocities and forces along the line.
+struct Pair<'a> {
+    stage: &'a Stage,
+    slide: &'a Slide,
+    below: &'a Carrier,
+    masses: [Expr; 2],
+    /// Velocities at the beginning \[m/s\].
+    speeds: [Expr; 2],
+    /// Friction on the lower body by the upper one \[N\].
+    friction: Expr,
+    /// Force of the rough floor on the lower body \[N\].
+    floor: Expr,
+    accelerations: [Expr; 2],
+    assumptions: Vec<Sentence>,
+    needs: Vec<Expr>,
+}
+
+pub(super) fn carried(
+    stage: &Stage,
+    before: State,
+    slide: &Slide,
+    below: &Carrier,
+) -> Result<StageTold, Refused> {
+    let mut pair = Pair::of(stage, &before, slide, below)?;
+    let rate = pair.tidied(&(&pair.accelerations[0] - &pair.accelerations[1]))?;
+    let slip = pair.tidied(&(&pair.speeds[0] - &pair.speeds[1]))?;
+    pair.slips(&slip, &rate)?;
+    let mut steps = pair.steps();
+    let (time, way) = pair.course(&slip, &rate, &mut steps)?;
+    let speeds_after = [0, 1].map(|i| &pair.speeds[i] + &(&pair.accelerations[i] * &time));
+    let mut after = before.clone();
+    let mut works = Vec::new();
+    let mut ends = Vec::new();
+    for (i, bodies) in [slide.company(), below.company()].iter().enumerate() {
+        let speed = pair.tidied(&speeds_after[i])?;
+        let gone = &(&pair.speeds[i] * &time) + &half(&(&pair.accelerations[i] * &time.powi(2)));
+        let gone = pair.tidied(&gone)?;
+        for (b, k) in bodies.iter().flat_map(|b| [(*b, 0), (*b, 1)]) {
+            after.center[b][k] = &after.center[b][k] + &(&slide.along[k] * &gone);
+            after.velocity[b][k] = pair.tidied(&(&speed * &slide.along[k]))?;
+        }
+        ends.push(speed);
+        works.push(gone);
+    }
+    pair.goes_on(&ends[1])?;
+    pair.told(&ends, &mut steps);
+    let energy = |speeds: &[Expr]| {
+        let all = pair.masses.iter().zip(speeds);
+        pair.tidied(&half(&Expr::sum(all.map(|(m, v)| m * &v.powi(2)))))
+    };
+    let energies = [energy(&pair.speeds)?, energy(&ends)?];
+    let work = pair.work(&works, &way);
+    let momentum = pair.keeps_momentum();
+    let Pair {
+        mut assumptions,
+        needs,
+        accelerations,
+        ..
+    } = pair;
+    assumptions.extend(meanwhile::others(stage, &before, &mut after, Some(&time)));
+    let mut out = StageTold::new(stage, before, after);
+    out.kept = vec![kept("energy", false, "friction does work against the slip")];
+    if momentum {
+        let why = "friction between the two is the only force along the line";
+        out.kept.push(kept("momentum", true, why));
+    }
+    out.energy = Some(energies);
+    out.work = work;
+    out.time = Some(time);
+    out.way = Some(way);
+    out.steps = steps;
+    let [own, _] = accelerations;
+    out.acceleration = Some(own);
+    out.assumptions = assumptions;
+    out.needs = needs;
+    Ok(out)
+}
+
+impl<'a> Pair<'a> {
+    fn of(
+        stage: &'a Stage,
+        before: &State,
+        slide: &'a Slide,
+        below: &'a Carrier,
+    ) -> Result<Pair<'a>, Refused> {
+        let scene = &stage.scene;
+        let sum = |e: Expr| tidied(stage, &e);
+        let companies = [slide.company(), below.company()];
+        let mut masses = Vec::new();
+        let mut speeds = Vec::new();
+        for bodies in &companies {
+            let speed = sum(dot(&before.velocity[bodies[0]], &slide.along))?;
+            fits_line(stage, before, slide, bodies, &slide.along, &speed)?;
+            let all = bodies.iter().map(|b| scene.bodies[*b].mass.clone());
+            masses.push(sum(Expr::sum(all))?);
+            speeds.push(speed);
+        }
+        let [Ok(masses), Ok(speeds)] = [masses, speeds].map(<[Expr; 2]>::try_from) else {
+            return Err(Refused::new(
+                &stage.name,
+                "two bodies slide on each other",
+                "",
+            ));
+        };
+        let zero = Expr::zero();
+        let g = slide.gravity.as_ref().unwrap_or(&zero);
+        let right = Expr::from(directed(stage, slide)?);
+        let across = &right * &slide.along[0];
+        let press = [&masses[0] * g, &(&masses[0] + &masses[1]) * g].map(|w| &w * &across);
+        let pull = |i: usize, force: &Option<Expr>| {
+            let weight = &(&masses[i] * g) * &slide.along[1];
+            force.as_ref().unwrap_or(&zero) - &weight
+        };
+        let pulls = [pull(0, &slide.force), pull(1, &below.force)];
+        let friction = slide.friction.as_ref().unwrap_or(&zero) * &press[0];
+        let limit = below.friction.as_ref().unwrap_or(&zero) * &press[1];
+        let mut out = Pair {
+            stage,
+            slide,
+            below,
+            masses,
+            speeds,
+            friction: sum(friction)?,
+            floor: Expr::zero(),
+            accelerations: [Expr::zero(), Expr::zero()],
+            assumptions: Vec::new(),
+            needs: Vec::new(),
+        };
+        let drive = sum(&out.friction + &pulls[1])?;
+        if below.friction.is_some() {
+            out.floor = sum(&Expr::from(-out.way(&drive, &limit)?) * &limit)?;
+        }
+        let forces = [&pulls[0] - &out.friction, &drive + &out.floor];
+        for (i, force) in forces.iter().enumerate() {
+            out.accelerations[i] = sum(force / &out.masses[i])?;
+        }
+        Ok(out)
+    }
+
+    fn name(&self, body: usize) -> &'a str {
+        &self.stage.scene.bodies[body].name
+    }
+
+    fn refused(&self, body: usize, why: &str, hint: &str) -> Refused {
+        let message = format!("`{}`: {why}", self.name(body));
+        Refused::new(&self.stage.name, message, hint)
+    }
+
+    fn tidied(&self, e: &Expr) -> Result<Expr, Refused> {
+        tidied(self.stage, e)
+    }
+
+    fn sign(&self, e: &Expr) -> Seen {
+        sign(e, &self.stage.scene.domains)
+    }
+
+    /// The way of the lower body on its rough floor, 1 or −1: as it moves, or as it is driven from rest.
+    fn way(&mut self, drive: &Expr, limit: &Expr) -> Result<i64, Refused> {
+        let domains = &self.stage.scene.domains;
+        let undecided = |what: &str, e: &Expr| {
+            let why = format!("which way it {what}, {}, is not decided", write_plain(e));
+            self.refused(self.below.body, &why, "say it by `relations`")
+        };
+        let speed = &self.speeds[1];
+        match proved(speed, domains) {
+            None => return Err(undecided("moves over the floor", speed)),
+            Some(0) => {}
+            Some(way) => return Ok(way),
+        }
+        let way = match proved(drive, domains) {
+            None => return Err(undecided("is driven", drive)),
+            Some(way) => way,
+        };
+        let left = self.tidied(&(&(&Expr::from(way) * drive) - limit))?;
+        match self.sign(&left) {
+            Seen::Proved(Sign::Positive) => {}
+            Seen::Proved(_) | Seen::Negative => {
+                return Err(self.refused(
+                    self.below.body,
+                    "the floor holds it, so that it stays where it is",
+                    "leave out `on`: the surface below a body is at rest unless it is said to move",
+                ));
+            }
+            _ => self.assume(&left, true, self.below.body, "begins to move"),
+        }
+        Ok(way)
+    }
+
+    /// Adds what must be positive, or not negative, and what a body does then.
+    fn assume(&mut self, e: &Expr, is_positive: bool, body: usize, does: &str) {
+        let domains = &self.stage.scene.domains;
+        let need = match is_positive {
+            true => above_zero(e, domains),
+            false => at_least_zero(e, domains),
+        };
+        let name = self.name(body);
+        let words = sentence![need, ", so that `", name, "` ", does];
+        self.assumptions.push(words);
+        self.needs.push(e.clone());
+    }
+
+    /// The slip has the direction of the line, or begins to have it.
+    fn slips(&mut self, slip: &Expr, rate: &Expr) -> Result<(), Refused> {
+        let domains = &self.stage.scene.domains;
+        let (upper, below) = (self.slide.body, self.name(self.below.body));
+        let does = format!("slides forward on `{below}`");
+        let begins = is_zero(slip, domains) == Some(true);
+        if begins && self.is_undriven() {
+            let why = "it moves with the body below already, and no force makes it slide";
+            return Err(self.refused(upper, why, ""));
+        }
+        let (left, why, hint) = match begins {
+            true => (
+                rate,
+                format!("friction is enough to take it along with `{below}`"),
+                "where both move as one, name one of them in `with` of the other; a body that lags behind slides the other way",
+            ),
+            false => (
+                slip,
+                format!("it does not slide along this line over `{below}`"),
+                "turn the direction round",
+            ),
+        };
+        match self.sign(left) {
+            Seen::Proved(Sign::Positive) => {}
+            Seen::Proved(_) | Seen::Negative => return Err(self.refused(upper, &why, hint)),
+            _ => self.assume(left, true, upper, &does),
+        }
+        Ok(())
+    }
+
+    /// Time, and the way along the lower body.
+    fn course(
+        &mut self,
+        slip: &Expr,
+        rate: &Expr,
+        steps: &mut Vec<Step>,
+    ) -> Result<(Expr, Expr), Refused> {
+        let domains = &self.stage.scene.domains;
+        let upper = self.slide.body;
+        let far = |t: &Expr| &(slip * t) + &half(&(rate * &t.powi(2)));
+        let (raw, way) = match &self.slide.until {
+            SlideEnd::Time(t) => {
+                let end = self.tidied(&(slip + &(rate * t)))?;
+                self.needs(
+                    &end,
+                    "it comes to move together with the body below before",
+                    "slides to the end of the stage",
+                    upper,
+                )?;
+                let step = Step::new("s", &far(t), &self.tidied(&far(t))?, WAY);
+                let way = step.value.clone();
+                steps.push(step);
+                return Ok((t.clone(), way));
+            }
+            SlideEnd::Distance(s) => {
+                let square = &slip.powi(2) + &(&(&Expr::from(2) * rate) * s);
+                let square = self.tidied(&square)?;
+                self.needs(
+                    &square,
+                    "it comes to move together with the body below before",
+                    "slides so far",
+                    upper,
+                )?;
+                let end = self.tidied(&square.sqrt())?;
+                let time = match is_zero(rate, domains) {
+                    Some(true) => s / slip,
+                    _ => &(&end - slip) / rate,
+                };
+                (time, Some(s.clone()))
+            }
+            _ => {
+                let slows = -rate;
+                match self.sign(&slows) {
+                    Seen::Proved(Sign::Positive) => {}
+                    Seen::Proved(_) | Seen::Negative => {
+                        let why = "it never comes to move together with the body below";
+                        let hint = "end the stage after a `distance` along that body, or after a time `for`";
+                        return Err(self.refused(upper, why, hint));
+                    }
+                    _ => self.assume(
+                        &slows,
+                        true,
+                        upper,
+                        "comes to move together with the body below",
+                    ),
+                }
+                (slip / &slows, None)
+            }
+        };
+        let time = self.tidied(&raw)?;
+        let why = match &way {
+            Some(_) => "the time it takes",
+            None => "the time until both move together",
+        };
+        steps.push(Step::new("t", &raw, &time, why));
+        if let Some(way) = way {
+            return Ok((time, way));
+        }
+        // Together, the slip has gone down to nothing.
+        let mut step = Step::new("s", &half(&(slip * &time)), &self.tidied(&far(&time))?, WAY);
+        step.by_time = vec![Expr::zero(), half(slip)];
+        let way = step.value.clone();
+        steps.push(step);
+        Ok((time, way))
+    }
+
+    /// What must not be negative for the motion to go on to its end.
+    fn needs(&mut self, e: &Expr, never: &str, does: &str, body: usize) -> Result<(), Refused> {
+        match self.sign(e) {
+            Seen::Proved(s) if s.is_not_negative() => {}
+            Seen::Proved(_) | Seen::Negative => {
+                return Err(self.refused(body, never, "end the stage earlier"));
+            }
+            _ => self.assume(e, false, body, does),
+        }
+        Ok(())
+    }
+
+    /// On a rough floor the lower body may stop, and stays then.
+    fn goes_on(&mut self, end: &Expr) -> Result<(), Refused> {
+        let domains = &self.stage.scene.domains;
+        if self.below.friction.is_none() || is_zero(&self.floor, domains) == Some(true) {
+            return Ok(());
+        }
+        let against = proved(&self.floor, domains).unwrap_or(-1);
+        let forward = self.tidied(&(&Expr::from(-against) * end))?;
+        let never = "the floor stops it before the stage ends";
+        self.needs(&forward, never, "does not stop before", self.below.body)
+    }
+
+    /// Friction and accelerations, as they follow from each other.
+    fn steps(&self) -> Vec<Step> {
+        let [m, below] = &self.masses;
+        let [a, b] = &self.accelerations;
+        let friction = &self.friction;
+        let upper = &(m * a);
+        let lower = &(below * b);
+        let own = self
+            .tidied(&(upper + friction))
+            .unwrap_or_else(|_| upper + friction);
+        let rest = lower - &(friction + &self.floor);
+        let rest = self.tidied(&rest).unwrap_or(rest);
+        let driven = &(friction + &rest) + &self.floor;
+        vec![
+            Step::new("F", friction, friction, "the friction between the two"),
+            Step::by_newton(
+                "a",
+                [&(&own - friction), m],
+                a,
+                "the acceleration along the line",
+            ),
+            Step::by_newton("A", [&driven, below], b, "that of the body below"),
+        ]
+    }
+
+    /// The velocities at the end.
+    fn told(&self, ends: &[Expr], steps: &mut Vec<Step>) {
+        let together = matches!(self.slide.until, SlideEnd::Together);
+        let of = [
+            ("v", "the velocity along the line at the end"),
+            ("V", "that of the body below at the end"),
+        ];
+        for (i, (letter, why)) in of.into_iter().enumerate() {
+            if i == 1 && together {
+                break;
+            }
+            let mut step = Step::new(letter, &ends[i], &ends[i], why);
+            if !matches!(self.slide.until, SlideEnd::Time(_)) {
+                step.by_time = vec![self.speeds[i].clone(), self.accelerations[i].clone()];
+            }
+            steps.push(step);
+        }
+    }
+
+    /// Work of each force, along the way of the body on which it acts.
+    fn work(&self, gone: &[Expr], way: &Expr) -> Vec<(&'static str, Expr)> {
+        let mut out = Vec::new();
+        if let Some(g) = &self.slide.gravity {
+            let lost = self.masses.iter().zip(gone);
+            let lost = lost.map(|(m, s)| &(&(m * g) * &self.slide.along[1]) * s);
+            out.push(("weight", -Expr::sum(lost)));
+        }
+        let forces = [&self.slide.force, &self.below.force].into_iter().zip(gone);
+        out.push((
+            "force",
+            Expr::sum(forces.filter_map(|(f, s)| Some(f.as_ref()? * s))),
+        ));
+        out.retain(|(_, w)| !w.is_zero());
+        let rubbed = &(&self.floor * &gone[1]) - &(&self.friction * way);
+        out.push(("friction", rubbed));
+        out
+    }
+
+    /// Whether nothing from outside acts along the line.
+    fn keeps_momentum(&self) -> bool {
+        self.is_undriven() && is_zero(&self.floor, &self.stage.scene.domains) == Some(true)
+    }
+
+    /// Whether neither weight nor another force drives one of them along the line.
+    fn is_undriven(&self) -> bool {
+        let forces = self.slide.force.is_some() || self.below.force.is_some();
+        !forces && is_zero(&self.slide.along[1], &self.stage.scene.domains) == Some(true)
+    }
+}
+
+const WAY: &str = "the distance along the body below";
