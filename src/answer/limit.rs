@@ -48,11 +48,7 @@ pub fn fill(out: &mut Answer, of: &Expr, parameter: &Symbol, to: Option<&Expr>, 
     let found = match to {
         Some(to) => by_taylor(of, parameter, to, domains).or_else(|| {
             let at_root = to.is_zero() && side(parameter, to, domains) == Side::Above;
-            if at_root {
-                by_powers(of, parameter, false, domains)
-            } else {
-                None
-            }
+            at_root.then(|| by_powers(of, parameter, false, domains))?
         }),
         None => by_powers(of, parameter, true, domains),
     };
@@ -62,12 +58,11 @@ pub fn fill(out: &mut Answer, of: &Expr, parameter: &Symbol, to: Option<&Expr>, 
         return;
     };
     out.assumptions.extend(found.given);
-    out.checks
-        .push(Check::new("limit", found.how.to_string(), Some(true)));
-    match found.tends {
+    out.checks.push(Check::new("limit", found.how, Some(true)));
+    let words = match found.tends {
         Tends::To(value) => {
-            out.checks
-                .extend(tried(of, &value, parameter, to, 0, domains));
+            let tried = tried(of, &value, parameter, to, 0, domains);
+            out.checks.extend(tried);
             out.near.push(Near {
                 left: of.clone(),
                 right: value.clone(),
@@ -76,24 +71,16 @@ pub fn fill(out: &mut Answer, of: &Expr, parameter: &Symbol, to: Option<&Expr>, 
                 order: 0,
             });
             out.form = Form::value(value);
+            return;
         }
-        Tends::Beyond(Some(true)) => {
-            out.text.push(Sentence::words(
-                "it grows beyond all bounds: there is no limit",
-            ));
+        Tends::Beyond(Some(true)) => "it grows beyond all bounds: there is no limit",
+        Tends::Beyond(Some(false)) => "it falls below all bounds: there is no limit",
+        Tends::Beyond(None) => "its size grows beyond all bounds: there is no limit",
+        Tends::Apart => {
+            "there is no limit: beyond all bounds upwards on one side and downwards on the other"
         }
-        Tends::Beyond(Some(false)) => {
-            out.text.push(Sentence::words(
-                "it falls below all bounds: there is no limit",
-            ));
-        }
-        Tends::Beyond(None) => out.text.push(Sentence::words(
-            "its size grows beyond all bounds: there is no limit",
-        )),
-        Tends::Apart => out.text.push(Sentence::words(
-            "there is no limit: beyond all bounds upwards on one side and downwards on the other",
-        )),
-    }
+    };
+    out.text.push(words.into());
 }
 
 /// The polynomial in the distance that stands for a formula near a value; without an order, its leading term.
@@ -113,11 +100,9 @@ pub(super) fn approximate(
     let wanted = order.map_or(LEADING, |order| order as usize);
     // Two powers more tell what is left out.
     let Some(series) = Series::of(of, parameter, to, wanted + 3, domains) else {
-        out.text.push(sentence![
-            "no power series in ",
-            parameter,
-            " was found there"
-        ]);
+        let none = " was found there";
+        out.text
+            .push(sentence!["no power series in ", parameter, none]);
         out.checks.push(open("series"));
         return;
     };
@@ -126,30 +111,24 @@ pub(super) fn approximate(
     let leading = series.coefficients.iter().position(|c| !c.is_zero());
     let power = leading.unwrap_or_default() as i64 + series.lowest.min(0);
     if order.is_none() && leading.is_some() {
-        out.text
-            .push(Sentence::words(format!("the leading power is {power}")));
+        let words = format!("the leading power is {power}");
+        out.text.push(words.into());
     }
     if series.lowest < 0 {
         let lead = &series.coefficients[0];
         if order.is_none() {
             let stretched = of * &distance.powi(-power);
             out.checks.push(exact());
-            out.checks
-                .extend(tried(&stretched, lead, parameter, Some(to), 0, domains));
+            let tried = tried(&stretched, lead, parameter, Some(to), 0, domains);
+            out.checks.extend(tried);
             let term = lead * &distance.powi(power);
             out.form = Form::value(tidy(&term, domains).unwrap_or(term));
             return;
         }
-        out.text.push(sentence![
-            "there is no such form: near ",
-            parameter,
-            " = ",
-            to,
-            format!(
-                " it grows like the power {} of the distance, beyond all bounds",
-                series.lowest
-            )
-        ]);
+        let lowest = series.lowest;
+        let near = sentence!["there is no such form: near ", parameter, " = ", to];
+        let how = format!(" it grows like the power {lowest} of the distance, beyond all bounds");
+        out.text.push(sentence![near, how]);
         return;
     }
     let order = order.unwrap_or(u32::try_from(power).unwrap_or_default());
@@ -164,14 +143,14 @@ pub(super) fn approximate(
         None if is_zero(&(of - &polynomial), domains) == Some(true) => {
             Sentence::words("nothing is left out: it is this polynomial")
         }
-        None => Sentence::words(format!(
-            "what is left out is of order {} or higher",
-            series.coefficients.len()
-        )),
+        None => {
+            let order = series.coefficients.len();
+            format!("what is left out is of order {order} or higher").into()
+        }
     });
     out.checks.push(exact());
-    out.checks
-        .extend(tried(of, &polynomial, parameter, Some(to), order, domains));
+    let tried = tried(of, &polynomial, parameter, Some(to), order, domains);
+    out.checks.extend(tried);
     out.near.push(Near {
         left: of.clone(),
         right: polynomial.clone(),
@@ -200,30 +179,22 @@ fn outside(to: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sentence>
         far != r.excess && matches!(sign(&far, domains), Seen::Proved(Sign::Negative))
     });
     if let Some(broken) = broken {
+        let states = ": the scene states ";
         return Some(sentence![
             parameter,
             " cannot come to ",
             to,
-            ": the scene states ",
+            states,
             &broken.words
         ]);
     }
     let domain = domains.symbols.get(parameter)?;
     let below = domain.low.as_ref().map(|l| to - &l.expr());
     let above = domain.high.as_ref().map(|h| &h.expr() - to);
-    let out = below
-        .iter()
-        .chain(&above)
-        .any(|gap| sign(gap, domains).is_negative());
-    out.then(|| {
-        sentence![
-            parameter,
-            " cannot come to ",
-            to,
-            ": ",
-            within(domain, parameter)
-        ]
-    })
+    let mut gaps = below.iter().chain(&above);
+    let out = gaps.any(|gap| sign(gap, domains).is_negative());
+    let within = within(domain, parameter);
+    out.then(|| sentence![parameter, " cannot come to ", to, ": ", within])
 }
 
 /// Words for a parameter that cannot grow beyond all bounds while the others stay as they are.
@@ -231,10 +202,11 @@ fn bounded(parameter: &Symbol, domains: &Domains) -> Option<Sentence> {
     let domain = domains.symbols.get(parameter);
     let high = domain.filter(|d| d.high.is_some());
     if let Some(domain) = high {
+        let within = within(domain, parameter);
         return Some(sentence![
             parameter,
             " cannot grow beyond all bounds: ",
-            within(domain, parameter)
+            within
         ]);
     }
     let mut relations = domains.relations.iter();
@@ -245,25 +217,16 @@ fn bounded(parameter: &Symbol, domains: &Domains) -> Option<Sentence> {
         };
         far.is_some_and(|far| matches!(far.tends, Tends::Beyond(Some(false))))
     })?;
-    Some(sentence![
-        parameter,
-        " cannot grow beyond all bounds: the scene states ",
-        &broken.words
-    ])
+    let why = " cannot grow beyond all bounds: the scene states ";
+    Some(sentence![parameter, why, &broken.words])
 }
 
 /// The sides within the domain.
 fn side(parameter: &Symbol, to: &Expr, domains: &Domains) -> Side {
-    let domain = domains
-        .symbols
-        .get(parameter)
-        .cloned()
-        .unwrap_or_else(Domain::positive);
-    let is_end = |limit: &Option<crate::domain::Limit>| {
-        limit
-            .as_ref()
-            .is_some_and(|l| is_zero(&(to - &l.expr()), domains) == Some(true))
-    };
+    let domain = domains.symbols.get(parameter).cloned();
+    let domain = domain.unwrap_or_else(Domain::positive);
+    let is_at = |l: &crate::domain::Limit| is_zero(&(to - &l.expr()), domains) == Some(true);
+    let is_end = |limit: &Option<_>| limit.as_ref().is_some_and(is_at);
     if is_end(&domain.low) {
         Side::Above
     } else if is_end(&domain.high) {
@@ -372,11 +335,9 @@ impl<'a> Taylor<'a> {
     /// The lowest power whose coefficient is not zero.
     fn lowest(&mut self) -> Option<usize> {
         for n in 0..POWERS {
-            let c = self.coefficient(n)?;
-            if is_zero(&c, self.domains)? {
-                continue;
+            if !is_zero(&self.coefficient(n)?, self.domains)? {
+                return Some(n);
             }
-            return Some(n);
         }
         None
     }

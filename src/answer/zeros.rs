@@ -19,19 +19,8 @@ const RATIO: &str = "\u{1}ratio";
 
 /// The places where a product vanishes: values of a parameter, or an equation where there is no such value.
 pub(super) fn of(e: &Expr, domains: &Domains) -> Vec<Sentence> {
-    let factors: Vec<Expr> = match e.node() {
-        Node::Product(factors) => factors.clone(),
-        _ => vec![e.clone()],
-    };
     let mut out = Vec::new();
-    for factor in factors {
-        let base = match factor.node() {
-            Node::Power(_, k) if k.as_number().is_some_and(num_traits::Signed::is_negative) => {
-                continue;
-            }
-            Node::Power(base, _) => base.clone(),
-            _ => factor,
-        };
+    for base in bases(e) {
         if base.as_number().is_some() || nowhere(&base, domains) {
             continue;
         }
@@ -56,21 +45,29 @@ pub(super) fn of(e: &Expr, domains: &Domains) -> Vec<Sentence> {
     out
 }
 
+/// What can make a product vanish: its factors above the line, without their powers.
+fn bases(e: &Expr) -> Vec<Expr> {
+    let factors = match e.node() {
+        Node::Product(factors) => factors.as_slice(),
+        _ => std::slice::from_ref(e),
+    };
+    let base = |factor: &Expr| match factor.node() {
+        Node::Power(_, k) if k.as_number().is_some_and(num_traits::Signed::is_negative) => None,
+        Node::Power(base, k) if k.as_number().is_some() => Some(base.clone()),
+        _ => Some(factor.clone()),
+    };
+    factors.iter().filter_map(base).collect()
+}
+
 fn nowhere(e: &Expr, domains: &Domains) -> bool {
-    use crate::algebra::Sign;
-    matches!(
-        sign(e, domains),
-        super::calc::Seen::Proved(Sign::Positive | Sign::Negative)
-    )
+    let seen = sign(e, domains);
+    seen.is_proved() && (seen.is_positive() || seen.is_negative())
 }
 
 /// Values of an angle at which an expression in its sine and cosine vanishes, factor by factor.
 pub(super) fn angle(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unsolved> {
-    let own = domains
-        .symbols
-        .get(symbol)
-        .cloned()
-        .unwrap_or_else(Domain::first_quadrant);
+    let own = domains.symbols.get(symbol).cloned();
+    let own = own.unwrap_or_else(Domain::first_quadrant);
     let ends = [(&own.low, true), (&own.high, false)]
         .map(|(end, is_low)| end.as_ref().and_then(|end| to_right_angle(end, is_low)));
     let [Some(low), Some(high)] = ends else {
@@ -82,29 +79,17 @@ pub(super) fn angle(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Root
         low: Some(low),
         high: Some(high),
     };
-    let whole = tidy(e, domains)?;
-    let factors = match whole.node() {
-        Node::Product(factors) => factors.to_vec(),
-        _ => vec![whole],
-    };
     let mut out = Roots::default();
-    for factor in factors {
-        let base = match factor.node() {
-            Node::Power(_, k) if k.as_number().is_some_and(num_traits::Signed::is_negative) => {
-                continue;
-            }
-            Node::Power(base, k) if k.as_number().is_some() => base.clone(),
-            _ => factor,
+    let all = bases(&tidy(e, domains)?).into_iter();
+    for base in all.filter(|base| base.mentions(symbol)) {
+        let by = |function| by_function(&base, symbol, function, &domain, domains);
+        let found = match by(Function::Cos)? {
+            Some(found) => Some(found),
+            None => by(Function::Sin)?,
         };
-        if !base.symbols().contains(symbol) {
-            continue;
-        }
-        let found = match by_function(&base, symbol, Function::Cos, &domain, domains)? {
+        let found = match found {
             Some(found) => found,
-            None => match by_function(&base, symbol, Function::Sin, &domain, domains)? {
-                Some(found) => found,
-                None => by_half(&base, symbol, &domain, domains)?,
-            },
+            None => by_half(&base, symbol, &domain, domains)?,
         };
         for mut root in found.inside {
             if domain != own {
@@ -162,15 +147,9 @@ fn by_function(
     };
     let mut limits = [low, high].map(|l| Limit::number(at(l), l.open));
     limits.sort_by(|a, b| a.value.cmp(&b.value));
-    let [low_ratio, high_ratio] = limits.map(Some);
+    let [low, high] = limits.map(Some);
     let mut wide = domains.clone();
-    wide.symbols.insert(
-        RATIO.into(),
-        Domain {
-            low: low_ratio,
-            high: high_ratio,
-        },
-    );
+    wide.symbols.insert(RATIO.into(), Domain { low, high });
     let found = match solve(&in_ratio, &RATIO.into(), &wide) {
         Ok(found) if found.open.is_none() => found,
         Err(Unsolved::Absent) => Roots::default(),
@@ -181,19 +160,17 @@ fn by_function(
         Function::Cos => Function::Acos,
         _ => Function::Asin,
     };
-    let back = BTreeMap::from([(
-        Symbol::from(RATIO),
-        Expr::call(function, Expr::symbol(symbol)),
-    )]);
+    let of_angle = Expr::call(function, Expr::symbol(symbol));
+    let back = BTreeMap::from([(Symbol::from(RATIO), of_angle)]);
     let put_back = |all: &[Sentence]| all.iter().map(|s| s.put_in(&back)).collect();
     let inside = found.inside.iter().map(|root| {
         let same = |angle: &Expr| {
             let gap = Expr::call(function, angle.clone()) - root.value.clone();
             is_zero(&gap, domains) == Some(true)
         };
+        let value = by_heart(&range, same);
         Root {
-            value: by_heart(&range, same)
-                .unwrap_or_else(|| Expr::call(inverse, root.value.clone())),
+            value: value.unwrap_or_else(|| Expr::call(inverse, root.value.clone())),
             proved: root.proved,
             given: put_back(&root.given),
         }
@@ -225,8 +202,8 @@ fn in_one(e: &Expr, symbol: &Symbol, function: Function, x: &Expr) -> Option<Exp
     match e.node() {
         Node::Power(base, k) if call(base) == Some(other) => {
             let half = k.as_number()? * ratio(1, 2);
-            half.is_integer()
-                .then(|| (Expr::one() - x.powi(2)).power(Expr::from(half)))
+            let square = Expr::one() - x.powi(2);
+            half.is_integer().then(|| square.power(Expr::from(half)))
         }
         Node::Symbol(_) | Node::Call(..) => None,
         _ => e.try_map_parts(|part| in_one(part, symbol, function, x)),
@@ -257,23 +234,16 @@ fn by_half(
     domain: &Domain,
     domains: &Domains,
 ) -> Result<Roots, Unsolved> {
-    let (Some(low), Some(high)) = (
-        domain.low.as_ref().and_then(|l| half(l, true)),
-        domain.high.as_ref().and_then(|l| half(l, false)),
-    ) else {
+    let low = domain.low.as_ref().and_then(|l| half(l, true));
+    let high = domain.high.as_ref().and_then(|l| half(l, false));
+    let (Some(low), Some(high)) = (low, high) else {
         return Err(Unsolved::Inside);
     };
     let t = Expr::symbol(HALF);
     let below = Expr::one() + t.powi(2);
     let turned = swap(&tidy(e, domains)?, symbol, &t, &below).ok_or(Unsolved::Inside)?;
     let mut wide = domains.clone();
-    wide.symbols.insert(
-        HALF.into(),
-        Domain {
-            low: low.clone(),
-            high: high.clone(),
-        },
-    );
+    wide.symbols.insert(HALF.into(), Domain { low, high });
     let found = match solve(&turned, &HALF.into(), &wide) {
         Ok(found) => found,
         // Only what is 0 for every tangent or for none is left.
@@ -304,9 +274,8 @@ fn by_half(
     }
     // Half of a straight angle has no tangent.
     for (end, sign) in [(&domain.low, -1), (&domain.high, 1)] {
-        let straight = end
-            .as_ref()
-            .is_some_and(|l| l.of_pi && l.value == ratio(sign, 1) && !l.open);
+        let is_straight = |l: &Limit| l.of_pi && l.value == ratio(sign, 1) && !l.open;
+        let straight = end.as_ref().is_some_and(is_straight);
         let value = Expr::from(sign) * Expr::pi();
         let at = BTreeMap::from([(symbol.clone(), value.clone())]);
         if straight && is_zero(&e.substitute(&at), domains) == Some(true) {

@@ -20,10 +20,7 @@ pub fn full_matrix(scene: &Scene, names: &Names) -> Result<Matrix, Stop> {
     let unknowns = laws::unknowns(scene);
     let mut matrix = Matrix {
         rows: Vec::new(),
-        unknowns: unknowns
-            .iter()
-            .map(|u| names.plain(*u).to_string())
-            .collect(),
+        unknowns: (unknowns.iter().map(|u| names.plain(*u).to_string())).collect(),
         entries: Vec::new(),
         rhs: Vec::new(),
     };
@@ -95,10 +92,8 @@ impl Work<'_> {
         counting: &Counting,
         out: &mut Vec<Answer>,
     ) -> Result<(), Stop> {
-        let latex = question
-            .latex
-            .clone()
-            .unwrap_or_else(|| crate::formula::latex_name(&question.name));
+        let latex = question.latex.clone();
+        let latex = latex.unwrap_or_else(|| crate::formula::latex_name(&question.name));
         let words = words(self.scene, &question.ask);
         let dimension = question.ask.dimension();
         let make = |name: &str, latex: String, words: String, form: Form| Answer {
@@ -191,9 +186,8 @@ impl Work<'_> {
 
     /// A sum; in steps term by term where it would be long.
     fn sum(&mut self, terms: &[Element]) -> Result<Form, Stop> {
-        let total = terms.iter().try_fold(self.field.integer(0), |total, term| {
-            self.field.add(&total, term)
-        });
+        let zero = self.field.integer(0);
+        let total = (terms.iter()).try_fold(zero, |total, term| self.field.add(&total, term));
         match total {
             Ok(total) if !self.in_steps || total.size() <= super::LONGEST => self.value(&total),
             Err(stop) if !self.in_steps => Err(stop.into()),
@@ -223,15 +217,13 @@ impl Work<'_> {
     }
 
     fn asked(&self, ask: &Ask, motion: &Kinematics<Expr>) -> Asked {
+        let scene = self.scene;
         match ask {
             Ask::Velocity { body, point, along } => {
-                let at = point
-                    .as_ref()
-                    .map_or(&self.scene.bodies[*body].center, |(_, at)| at);
-                Asked::Linear(components(
-                    motion.velocity_of(&self.g, *body, at),
-                    along.as_ref(),
-                ))
+                let center = &self.scene.bodies[*body].center;
+                let at = point.as_ref().map_or(center, |(_, at)| at);
+                let velocity = motion.velocity_of(&self.g, *body, at);
+                Asked::Linear(components(velocity, along.as_ref()))
             }
             Ask::Spin { body, clockwise } => {
                 let spin = &motion.spin[*body];
@@ -243,13 +235,11 @@ impl Work<'_> {
             }
             Ask::Impulse { from, on, along } => {
                 let (place, second) = match from {
-                    ImpulseAt::Contact(c) => {
-                        (Place::Contact(*c), self.scene.contacts[*c].bodies[1])
-                    }
-                    ImpulseAt::Hinge(h) => (Place::Hinge(*h), self.scene.hinges[*h].bodies[1]),
-                    ImpulseAt::Blow(b) => (Place::Blow(*b), self.scene.blows[*b].body),
+                    ImpulseAt::Contact(c) => (Place::Contact(*c), scene.contacts[*c].bodies[1]),
+                    ImpulseAt::Hinge(h) => (Place::Hinge(*h), scene.hinges[*h].bodies[1]),
+                    ImpulseAt::Blow(b) => (Place::Blow(*b), scene.blows[*b].body),
                 };
-                let impulse = laws::impulse_at(self.scene, &self.g, place);
+                let impulse = laws::impulse_at(scene, &self.g, place);
                 let impulse = match *on == second {
                     true => impulse,
                     false => impulse.map(|p| p.negated()),
@@ -265,10 +255,8 @@ impl Work<'_> {
     }
 
     pub(super) fn moving(&self, of: Option<usize>) -> Vec<usize> {
-        let bodies = 0..self.scene.bodies.len();
-        bodies
-            .filter(|b| of.is_none_or(|o| o == *b) && !self.scene.bodies[*b].is_fixed())
-            .collect()
+        let moves = |b: &usize| of.is_none_or(|o| o == *b) && !self.scene.bodies[*b].is_fixed();
+        (0..self.scene.bodies.len()).filter(moves).collect()
     }
 
     /// Kinetic energy \[J\] as a sum; `None` where a velocity is not determined.
@@ -352,9 +340,10 @@ impl Work<'_> {
                     let [x, y] = self.velocity_in_components(*b)?;
                     if *axis == 0 { x } else { y }
                 }
-                other => self
-                    .field
-                    .element(&Expr::symbol(self.names.plain(*other)))?,
+                other => {
+                    let name = Expr::symbol(self.names.plain(*other));
+                    self.field.element(&name)?
+                }
             };
             let term = self.field.mul(&k, &value)?;
             total = self.field.add(&total, &term)?;

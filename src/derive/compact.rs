@@ -307,10 +307,8 @@ impl Parts {
     fn frictionless(&mut self, work: &mut Work<'_>, e: &Expr) -> Result<(), Stop> {
         let scene = work.scene;
         let contact = &scene.contacts[0];
-        let normal = contact
-            .normal
-            .clone()
-            .unwrap_or([Expr::zero(), Expr::zero()]);
+        let nothing = || [Expr::zero(), Expr::zero()];
+        let normal = contact.normal.clone().unwrap_or_else(nothing);
         let approach = scene.contacts[0].relative_velocity(scene);
         let speed = -(&approach[0] * &normal[0] + &approach[1] * &normal[1]);
         let speed = work.tidy(&speed)?;
@@ -322,11 +320,7 @@ impl Parts {
             if body.is_fixed() {
                 continue;
             }
-            let sign = if side == 0 {
-                Expr::from(-1)
-            } else {
-                Expr::one()
-            };
+            let sign = Expr::from([-1, 1][side]);
             inverse_mass.push(work.tidy(&body.mass.powi(-1))?);
             for (axis, n) in normal.iter().enumerate() {
                 let before = work.tidy(&body.velocity[axis])?;
@@ -335,12 +329,8 @@ impl Parts {
             }
             if !body.is_particle() {
                 let arm = work.tidy(&cross(&minus(&contact.at, &body.center), &normal))?;
-                let arm = self.named(
-                    work,
-                    &format!("h{}", side + 1),
-                    arm,
-                    &format!("arm of the normal about the center of {}", body.name),
-                );
+                let words = format!("arm of the normal about the center of {}", body.name);
+                let arm = self.named(work, &format!("h{}", side + 1), arm, &words);
                 let share = work.tidy(&(&arm.powi(2) / &body.inertia))?;
                 if !share.is_zero() {
                     inverse_mass.push(share);
@@ -350,19 +340,13 @@ impl Parts {
                 pending.push((Unknown::Spin(b), before, gain));
             }
         }
-        let speed = self.named(
-            work,
-            "u_n",
-            speed,
-            "speed at which the touching points approach each other along the normal, just before",
-        );
+        let words =
+            "speed at which the touching points approach each other along the normal, just before";
+        let speed = self.named(work, "u_n", speed, words);
         let size = (Expr::one() + e) * &speed / Expr::sum(inverse_mass);
         self.lost = Some((Expr::one() - e) * &speed * &impulse * Expr::ratio(1, 2));
-        self.define(
-            &impulse,
-            size,
-            "impulse on the second body along the normal",
-        );
+        let words = "impulse on the second body along the normal";
+        self.define(&impulse, size, words);
         for (unknown, before, gain) in pending {
             self.values.insert(unknown, before + gain * &impulse);
         }
@@ -399,11 +383,8 @@ impl Parts {
                     let (inverse, share) = (sum.pop(), work.tidy(&(&moment / &inertia))?);
                     let apart = inverse.unwrap_or_else(Expr::zero) + share;
                     let joined = work.tidy(&apart)?;
-                    sum.push(if joined.size() < apart.size() {
-                        joined
-                    } else {
-                        apart
-                    });
+                    let is_shorter = joined.size() < apart.size();
+                    sum.push(if is_shorter { joined } else { apart });
                 }
                 let share = work.tidy(&(&x * &y / &inertia))?;
                 if !share.is_zero() {
@@ -432,11 +413,7 @@ impl Parts {
         self.motion = Kinematics::full(scene, &work.g);
         for (side, &i) in contact.bodies.iter().enumerate() {
             let body = &scene.bodies[i];
-            let sign = if side == 0 {
-                Expr::from(-1)
-            } else {
-                Expr::one()
-            };
+            let sign = Expr::from([-1, 1][side]);
             for (axis, p) in impulse.iter().enumerate() {
                 let before = work.tidy(&body.velocity[axis])?;
                 let after = before + &sign * p / &body.mass;
@@ -453,11 +430,9 @@ impl Parts {
                     (true, false) => -(work.tidy(&(y / &inertia))? * px),
                     (false, false) => (x * py - y * px) / inertia,
                 };
-                let is_turned = !(x.is_zero() && y.is_zero());
-                let after = if is_turned {
-                    before + sign * gain
-                } else {
-                    before
+                let after = match x.is_zero() && y.is_zero() {
+                    true => before,
+                    false => before + sign * gain,
                 };
                 self.values.insert(Unknown::Spin(i), after);
             }

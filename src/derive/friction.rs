@@ -140,8 +140,8 @@ pub fn table(scene: &Scene) -> Result<Option<Table>, Stop> {
         for mode in modes(&table.space, &table.law, *s) {
             match forms.conditions(&mode, &table.law)? {
                 Some(conditions) => {
-                    let case =
-                        forms.case(scene, &table, mode, *s, directions.len() == 1, conditions)?;
+                    let direction = (*s, directions.len() == 1);
+                    let case = forms.case(scene, &table, mode, direction, conditions)?;
                     table.cases.push(case);
                 }
                 None => table.ruled_out += 1,
@@ -165,12 +165,8 @@ pub fn table(scene: &Scene) -> Result<Option<Table>, Stop> {
 /// Nothing else may strike: the path of one impulse does not say which of two impacts comes first.
 fn alone(scene: &Scene, contact: usize) -> Result<(), Stop> {
     let mut field = Field::new(&scene.domains);
-    for (i, other) in scene
-        .contacts
-        .iter()
-        .enumerate()
-        .filter(|(i, _)| *i != contact)
-    {
+    let others = scene.contacts.iter().enumerate();
+    for (i, other) in others.filter(|(i, _)| *i != contact) {
         for speed in scene.strikes(i) {
             field.prepare([&speed]);
             let element = field.element(&speed)?;
@@ -211,21 +207,15 @@ impl Forms {
 
     /// The directions of friction that the domain allows.
     fn directions(&mut self, side: &Side) -> Result<Vec<i64>, Stop> {
-        let by = |sign: Option<Sign>| match sign {
-            Some(Sign::Positive) => Some(vec![1]),
-            Some(Sign::Negative) => Some(vec![-1]),
-            Some(Sign::Zero) => Some(Vec::new()),
-            _ => None,
-        };
-        Ok(match by(self.sign(&side.of)?) {
-            Some(known) if !known.is_empty() => known,
-            Some(_) => match by(self.sign(&side.tie)?) {
-                Some(known) if !known.is_empty() => known,
-                // Neither slip nor a drive along the tangent: either direction gives no friction.
-                Some(_) => vec![1],
-                None => vec![1, -1],
-            },
-            None => vec![1, -1],
+        let mut sign = self.sign(&side.of)?;
+        if sign == Some(Sign::Zero) {
+            sign = self.sign(&side.tie)?;
+        }
+        Ok(match sign {
+            // With neither slip nor a drive along the tangent either direction gives no friction.
+            Some(Sign::Positive | Sign::Zero) => vec![1],
+            Some(Sign::Negative) => vec![-1],
+            _ => vec![1, -1],
         })
     }
 
@@ -320,8 +310,7 @@ impl Forms {
         scene: &Scene,
         table: &Table,
         mode: ModeLaw,
-        direction: i64,
-        known_direction: bool,
+        (direction, known_direction): (i64, bool),
         conditions: Vec<Bound>,
     ) -> Result<Case, Stop> {
         let holds = |b: &Bound| (b.left.clone(), b.relation, b.right.clone());
@@ -331,10 +320,8 @@ impl Forms {
             let conditions = [self.condition(one, table)?, self.condition(two, table)?];
             let mut settled = scene.clone();
             // These two may gain energy; what they gain is told beside the table, and is no reason to withhold the answers.
-            settled.gains_energy |= matches!(
-                table.law.hypothesis,
-                Hypothesis::Newton | Hypothesis::Brach { .. }
-            );
+            let law = &table.law.hypothesis;
+            settled.gains_energy |= matches!(law, Hypothesis::Newton | Hypothesis::Brach { .. });
             settled.contacts[table.contact].law = ContactLaw::Decided(Box::new(Decided {
                 law: table.law.clone(),
                 mode: mode.mode,
@@ -492,18 +479,12 @@ fn thresholds(scene: &Scene, table: &Table, forms: &mut Forms) -> Result<Vec<Que
 fn threshold(table: &Table, forms: &mut Forms, event: FrictionEvent) -> Result<Expr, Stop> {
     // A contact that would stick already in compression does so a fortiori by the end of restitution, and a law with a path
     // asks no more friction of it; so the latest way to stick has the least coefficient.
-    let (what, modes): (&str, &[Mode]) = match event {
-        FrictionEvent::Sticks => (
-            "sticks",
-            &[
-                Mode::SticksInRestitution,
-                Mode::SticksInCompression,
-                Mode::Sticks,
-                Mode::InsideCone,
-            ],
-        ),
-        FrictionEvent::Slides => ("slides", &[Mode::Slides, Mode::OnCone]),
-        FrictionEvent::Jams => ("jams", &[]),
+    use Mode::{InsideCone, OnCone, Slides, Sticks, SticksInCompression, SticksInRestitution};
+    const STICKING: &[Mode] = &[SticksInRestitution, SticksInCompression, Sticks, InsideCone];
+    let (what, modes) = match event {
+        FrictionEvent::Sticks => ("sticks", STICKING),
+        FrictionEvent::Slides => ("slides", &[Slides, OnCone] as &[Mode]),
+        FrictionEvent::Jams => ("jams", &[] as &[Mode]),
     };
     let none = || {
         Stop::NoThreshold(format!(
@@ -535,22 +516,14 @@ fn threshold(table: &Table, forms: &mut Forms, event: FrictionEvent) -> Result<E
 }
 
 /// The least coefficient of friction of a case, or the largest; `None` where it has none.
-fn bound(
-    table: &Table,
-    forms: &mut Forms,
-    case: &Case,
-    upward: bool,
-) -> Result<Option<Expr>, Stop> {
+fn bound(table: &Table, forms: &mut Forms, case: &Case, up: bool) -> Result<Option<Expr>, Stop> {
     let mut bound: Option<Expr> = None;
     for condition in &case.conditions {
         if condition.left != table.law.mu {
             return Ok(None);
         }
-        let is_upward = matches!(
-            condition.relation,
-            Relation::Greater | Relation::GreaterEqual
-        );
-        if is_upward == upward {
+        // No condition is an equation.
+        if condition.relation.is_below() != up {
             bound = Some(match bound {
                 None => condition.right.clone(),
                 Some(other) => forms.larger(&other, &condition.right)?,
@@ -587,9 +560,8 @@ fn is_free(scene: &Scene, bodies: [usize; 2]) -> bool {
     let hinged = |b: usize| scene.hinges.iter().any(|h| h.bodies.contains(&b));
     let massive =
         |b: &Body| b.is_fixed() || !b.mass.is_zero() && (b.is_particle() || !b.inertia.is_zero());
-    bodies
-        .iter()
-        .all(|&b| !hinged(b) && massive(&scene.bodies[b]))
+    let answers = |&b: &usize| !hinged(b) && massive(&scene.bodies[b]);
+    bodies.iter().all(answers)
 }
 
 /// Σ d·e/m + (r × d)(r × e)/I over both bodies.

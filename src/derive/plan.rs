@@ -154,7 +154,7 @@ impl Candidate {
 }
 
 /// The candidate equations of a scene.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Planner {
     unknowns: Vec<Unknown>,
     candidates: Vec<Candidate>,
@@ -171,10 +171,8 @@ impl Planner {
         let g = Geometry::<f64>::of(scene, value).ok()?;
         let motion = reduction.kinematics(scene, &g);
         let mut planner = Planner {
-            unknowns: Vec::new(),
-            candidates: Vec::new(),
-            holding: Vec::new(),
             attached: reduction.tree.clone(),
+            ..Planner::default()
         };
         for (law, cost) in offered::candidate_laws(scene, reduction, &g) {
             let vector = |v: &Vector| Ok::<_, ()>([value(&v[0])?, value(&v[1])?]);
@@ -205,14 +203,12 @@ impl Planner {
     }
 
     fn index(&mut self, unknown: Unknown) -> usize {
-        self.unknowns
-            .iter()
-            .position(|u| *u == unknown)
-            .unwrap_or_else(|| {
-                self.unknowns.push(unknown);
-                self.holding.push(Vec::new());
-                self.unknowns.len() - 1
-            })
+        let known = self.unknowns.iter().position(|u| *u == unknown);
+        known.unwrap_or_else(|| {
+            self.unknowns.push(unknown);
+            self.holding.push(Vec::new());
+            self.unknowns.len() - 1
+        })
     }
 
     /// Laws that determine a target in some way, and all they determine; `None` where that way does not lead there.
@@ -237,7 +233,7 @@ impl Planner {
         sizes: RangeInclusive<usize>,
         known: &dyn Fn(Unknown) -> bool,
     ) -> Option<(Vec<Law>, Vec<Unknown>)> {
-        let known_mask = self.mask(self.unknowns.iter().copied().filter(|u| known(*u)));
+        let known_mask = self.mask_of(known);
         let goal = self.mask(std::iter::once(target));
         if goal == 0 {
             return None;
@@ -260,12 +256,19 @@ impl Planner {
             }
         }
         let (_, chosen, union) = search.best?;
-        let laws = chosen
-            .iter()
-            .map(|&c| self.candidates[c].law.clone())
-            .collect();
-        let unknowns = bits(union).map(|i| self.unknowns[i]).collect();
-        Some((laws, unknowns))
+        Some(self.chosen(&chosen, union))
+    }
+
+    /// The laws of candidates, and the unknowns of a mask.
+    fn chosen(&self, candidates: &[usize], mask: u128) -> (Vec<Law>, Vec<Unknown>) {
+        let laws = candidates.iter().map(|&c| self.candidates[c].law.clone());
+        let unknowns = bits(mask).map(|i| self.unknowns[i]);
+        (laws.collect(), unknowns.collect())
+    }
+
+    /// The unknowns of this kind.
+    fn mask_of(&self, is_wanted: impl Fn(Unknown) -> bool) -> u128 {
+        self.mask(self.unknowns.iter().copied().filter(|u| is_wanted(*u)))
     }
 
     /// A plan in pieces that can be solved one after the other, each as small as can be: what a single equation tells is
@@ -277,15 +280,13 @@ impl Planner {
     ) -> Vec<(Vec<Law>, Vec<Unknown>)> {
         let (mut laws, mut unknowns) = plan;
         let mut pieces = Vec::new();
-        let mut done = self.mask(self.unknowns.iter().copied().filter(|u| known(*u)));
+        let mut done = self.mask_of(known);
         while laws.len() > 1 && laws.len() <= LARGEST {
             let Some((chosen, union)) = self.smallest_closed(&laws, done) else {
                 break;
             };
-            let (piece, rest): (Vec<_>, Vec<_>) = laws
-                .into_iter()
-                .enumerate()
-                .partition(|(i, _)| chosen >> i & 1 == 1);
+            let all = laws.into_iter().enumerate();
+            let (piece, rest): (Vec<_>, Vec<_>) = all.partition(|(i, _)| chosen >> i & 1 == 1);
             let found: Vec<Unknown> = bits(union).map(|i| self.unknowns[i]).collect();
             unknowns.retain(|u| !found.contains(u));
             pieces.push((piece.into_iter().map(|(_, law)| law).collect(), found));
@@ -298,17 +299,16 @@ impl Planner {
 
     /// The smallest proper subset of laws with as many unknowns as laws.
     fn smallest_closed(&self, laws: &[Law], known: u128) -> Option<(u32, u128)> {
-        let masks: Vec<u128> = laws
-            .iter()
-            .map(|law| self.candidates.iter().find(|c| c.law == *law))
-            .map(|c| c.map(|c| c.mask & !known))
-            .collect::<Option<_>>()?;
+        let mask = |law: &Law| {
+            let own = self.candidates.iter().find(|c| c.law == *law)?;
+            Some(own.mask & !known)
+        };
+        let masks = laws.iter().map(mask).collect::<Option<Vec<u128>>>()?;
         let mut subsets: Vec<u32> = (1..(1 << laws.len()) - 1).collect();
         subsets.sort_by_key(|s| (s.count_ones(), *s));
         subsets.into_iter().find_map(|subset| {
-            let union = (0..laws.len())
-                .filter(|i| subset >> i & 1 == 1)
-                .fold(0, |union, i| union | masks[i]);
+            let inside = (0..laws.len()).filter(|i| subset >> i & 1 == 1);
+            let union = inside.fold(0u128, |union, i| union | masks[i]);
             (union.count_ones() == subset.count_ones()).then_some((subset, union))
         })
     }
@@ -318,23 +318,12 @@ impl Planner {
         &self,
         known: &dyn Fn(Unknown) -> bool,
     ) -> Option<(Vec<Law>, Vec<Unknown>)> {
-        let known_mask = self.mask(self.unknowns.iter().copied().filter(|u| known(*u)));
-        let impulses = self.mask(self.unknowns.iter().copied().filter(|u| u.is_impulse()));
-        let free =
-            self.mask(self.unknowns.iter().copied().filter(|u| !u.is_impulse())) & !known_mask;
-        let mut order: Vec<usize> = (0..self.candidates.len())
-            .filter(|&c| {
-                self.candidates[c].mask & impulses & !known_mask == 0
-                    && self.candidates[c].mask & free != 0
-            })
-            .collect();
-        order.sort_by_key(|&c| {
-            (
-                self.candidates[c].mask.count_ones(),
-                self.candidates[c].cost,
-                c,
-            )
-        });
+        let impulses = self.mask_of(|u| u.is_impulse() && !known(u));
+        let free = self.mask_of(|u| !u.is_impulse() && !known(u));
+        let mask = |c: usize| self.candidates[c].mask;
+        let fits = |c: &usize| mask(*c) & impulses == 0 && mask(*c) & free != 0;
+        let mut order: Vec<usize> = (0..self.candidates.len()).filter(fits).collect();
+        order.sort_by_key(|&c| (mask(c).count_ones(), self.candidates[c].cost, c));
         let wanted = free.count_ones() as usize;
         let mut rows: Vec<Vec<f64>> = Vec::new();
         let mut chosen = Vec::new();
@@ -343,13 +332,7 @@ impl Planner {
                 chosen.push(c);
             }
         }
-        (chosen.len() == wanted && wanted > 0).then(|| {
-            let laws = chosen
-                .iter()
-                .map(|&c| self.candidates[c].law.clone())
-                .collect();
-            (laws, bits(free).map(|i| self.unknowns[i]).collect())
-        })
+        (chosen.len() == wanted && wanted > 0).then(|| self.chosen(&chosen, free))
     }
 
     /// The way with the impulse first: every unknown is paired with the balance of its own body, every contact impulse with
@@ -404,21 +387,15 @@ impl Planner {
     }
 
     fn mask(&self, unknowns: impl Iterator<Item = Unknown>) -> u128 {
-        unknowns
-            .filter_map(|u| self.unknowns.iter().position(|v| *v == u))
-            .fold(0, |m, i| m | 1 << i)
+        let places = unknowns.filter_map(|u| self.unknowns.iter().position(|v| *v == u));
+        places.fold(0, |m, i| m | 1 << i)
     }
 }
 
 /// The coefficients of a candidate in the columns of a mask.
 fn dense(candidate: &Candidate, columns: u128) -> Vec<f64> {
-    let entry = |i: usize| {
-        candidate
-            .row
-            .iter()
-            .find(|(j, _)| *j == i)
-            .map_or(0.0, |(_, k)| *k)
-    };
+    let entry = |i: usize| candidate.row.iter().find(|(j, _)| *j == i);
+    let entry = |i: usize| entry(i).map_or(0.0, |(_, k)| *k);
     bits(columns).map(entry).collect()
 }
 
@@ -470,14 +447,11 @@ impl Search<'_> {
             return;
         }
         let mut rows = Vec::new();
-        let mut dense = laws
-            .iter()
-            .map(|&c| dense(&self.planner.candidates[c], union));
+        let all = &self.planner.candidates;
+        let mut dense = laws.iter().map(|&c| dense(&all[c], union));
         match dense.all(|row| adds_rank(&mut rows, row)) {
             true => self.best = Some((cost, laws, union)),
-            false => {
-                self.singular.insert(laws);
-            }
+            false => _ = self.singular.insert(laws),
         }
     }
 }
@@ -503,11 +477,8 @@ fn adds_rank(rows: &mut Vec<Vec<f64>>, mut row: Vec<f64>) -> bool {
         return false;
     }
     // What is negligible must not become a lead.
-    for k in row.iter_mut() {
-        if k.abs() < ZERO {
-            *k = 0.0;
-        }
-    }
+    let negligible = row.iter_mut().filter(|k| k.abs() < ZERO);
+    negligible.for_each(|k| *k = 0.0);
     rows.push(row);
     true
 }

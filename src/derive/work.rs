@@ -63,9 +63,8 @@ impl<'a> Work<'a> {
             true => field.element(e).map_or(e.clone(), |x| field.stored(&x)),
             false => e.clone(),
         };
-        let Ok(g) = Geometry::of(scene, |e| {
-            Ok::<_, std::convert::Infallible>(short(&mut field, e))
-        });
+        let exact = |e: &Expr| Ok::<_, std::convert::Infallible>(short(&mut field, e));
+        let Ok(g) = Geometry::of(scene, exact);
         let reduction = plan::reduction(scene);
         let mut reduced = reduction.kinematics(scene, &g);
         let forms = reduced.velocity.iter_mut().flatten();
@@ -150,11 +149,8 @@ impl<'a> Work<'a> {
             if !solved && target.is_impulse() {
                 // An impulse follows from its body's balance once the motion is known.
                 let known = |u: Unknown| self.values.contains_key(&u);
-                if let Some((laws, unknowns)) = self
-                    .planner
-                    .as_ref()
-                    .and_then(|p| p.without_impulses(&known))
-                {
+                let planner = self.planner.as_ref();
+                if let Some((laws, unknowns)) = planner.and_then(|p| p.without_impulses(&known)) {
                     solved = self.solve(&laws, &unknowns, asked_by)?
                         && self.try_plans(target, asked_by)?;
                 }
@@ -231,11 +227,8 @@ impl<'a> Work<'a> {
         };
         if let Some(row) = solution.contradiction {
             // An unknown that stands for itself hides that a law follows from the others.
-            return if self.in_steps {
-                Ok(false)
-            } else {
-                Err(Stop::Contradiction(laws::describe(self.scene, &laws[row])))
-            };
+            let contradicts = || Stop::Contradiction(laws::describe(self.scene, &laws[row]));
+            return self.in_steps.then_some(false).ok_or_else(contradicts);
         }
         if solution.values.iter().any(Option::is_none) {
             return Ok(false);
@@ -319,10 +312,9 @@ impl<'a> Work<'a> {
             return;
         }
         let solution = unknowns.iter().map(|u| self.solved(*u)).collect();
-        let equations = equations
-            .into_iter()
-            .map(|e| self.written(e.law, &e.terms, &e.known))
-            .collect();
+        let equations = equations.into_iter();
+        let equations = equations.map(|e| self.written(e.law, &e.terms, &e.known));
+        let equations = equations.collect();
         self.blocks.push(Block {
             equations,
             unknowns: unknowns.to_vec(),
@@ -366,18 +358,13 @@ impl<'a> Work<'a> {
 
     /// The last resort: all laws of the reduced description at once.
     fn solve_everything(&mut self, asked_by: Option<&str>) -> Result<(), Stop> {
-        let held: Vec<Law> = laws::of(self.scene)
-            .into_iter()
-            .filter(|law| match law {
-                Law::Hinged(..) | Law::Sticking(..) => self.reduction.loops.contains(law),
-                _ => true,
-            })
-            .collect();
-        let unknowns: Vec<Unknown> = self
-            .reduced_unknowns()
-            .into_iter()
-            .filter(|u| !self.values.contains_key(u))
-            .collect();
+        let mut held = laws::of(self.scene);
+        held.retain(|law| match law {
+            Law::Hinged(..) | Law::Sticking(..) => self.reduction.loops.contains(law),
+            _ => true,
+        });
+        let mut unknowns = self.reduced_unknowns();
+        unknowns.retain(|u| !self.values.contains_key(u));
         let mut rows = Vec::new();
         let mut equations = Vec::new();
         for law in held {

@@ -7,6 +7,7 @@ use std::collections::BTreeSet;
 use crate::answer::Check;
 use crate::domain::{Domains, Limit};
 use crate::expr::{Expr, Point, Symbol};
+use crate::numeric::follow::integrated;
 use crate::numeric::points;
 
 /// Points at which the motion is integrated.
@@ -71,14 +72,11 @@ fn check(worst: f64, count: usize, what: &str) -> Check {
     }
     // The integrator works to 1e-12; what is below is the rounding of the machine at hand.
     let worst_shown = if worst <= 1e-12 { 1e-12 } else { worst };
-    Check::new(
-        "integration",
-        format!(
-            "{what}: integrated in time at {count} point{}, relative difference at most {worst_shown:.0e}",
-            if count == 1 { "" } else { "s" }
-        ),
-        Some(worst < CLOSE),
-    )
+    let points = if count == 1 { "point" } else { "points" };
+    let words = format!(
+        "{what}: integrated in time at {count} {points}, relative difference at most {worst_shown:.0e}"
+    );
+    Check::new("integration", words, Some(worst < CLOSE))
 }
 
 /// A body on a spring under a constant force: m y″ = 1/τ − k y over the time τ, from rest. The blow is 1, what is left of it
@@ -99,34 +97,13 @@ pub(super) fn share(
         else {
             continue;
         };
-        let field = |y: [f64; 2]| [y[1], (1.0 / time - k * y[0]) / m];
-        let Some([_, speed]) = advance(field, [0.0, 0.0], time) else {
+        let rates = |y: &[f64]| Some(vec![y[1], (1.0 / time - k * y[0]) / m]);
+        let Some(end) = integrated(&rates, &[0.0, 0.0], time) else {
             continue;
         };
+        let speed = end[1];
         worst = worst.max((1.0 - m * speed - expected).abs() / expected.abs().max(1e-9));
         count += 1;
     }
     check(worst, count, "what the spring takes")
-}
-
-/// The state after a time, by an explicit Runge–Kutta method of order 8.
-fn advance(field: impl Fn([f64; 2]) -> [f64; 2], y: [f64; 2], time: f64) -> Option<[f64; 2]> {
-    use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
-
-    struct System<F>(F);
-    impl<F: Fn([f64; 2]) -> [f64; 2]> ODE<f64, [f64; 2]> for System<F> {
-        fn diff(&self, _: f64, y: &[f64; 2], dydt: &mut [f64; 2]) {
-            *dydt = self.0(*y);
-        }
-    }
-    if time <= 0.0 {
-        return Some(y);
-    }
-    let system = System(field);
-    let method = ExplicitRungeKutta::dop853().rtol(1e-12).atol(1e-13);
-    let solution = IVP::ode(&system, 0.0, time, y)
-        .method(method)
-        .solve()
-        .ok()?;
-    solution.y.last().copied()
 }

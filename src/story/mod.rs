@@ -485,11 +485,9 @@ pub fn course(scene: &Scene) -> Result<Told, Refused> {
             mine.push(stages.len());
             stages.push(told);
             if mine.len() > BRANCHES {
-                return Err(Refused::new(
-                    &stage.name,
-                    format!("more than {BRANCHES} cases lead here"),
-                    "give values, or say with `supposing` which supports act",
-                ));
+                let why = format!("more than {BRANCHES} cases lead here");
+                let hint = "give values, or say with `supposing` which supports act";
+                return Err(Refused::new(&stage.name, why, hint));
             }
         }
         told_as.push(mine);
@@ -617,14 +615,12 @@ fn left_behind(scene: &Scene, stage: &Stage) -> Result<(), Refused> {
                     _ => continue,
                 };
                 let [other, body] = [other, body].map(|b| &stage.scene.bodies[b].name);
-                return Err(Refused::new(
-                    &stage.name,
-                    format!(
-                        "`{other}` {how} `{body}` since `{}`, and is not said to move along",
-                        before.name
-                    ),
-                    format!("a turn takes it along with \"with\": [\"{other}\"]"),
-                ));
+                let why = format!(
+                    "`{other}` {how} `{body}` since `{}`, and is not said to move along",
+                    before.name
+                );
+                let hint = format!("a turn takes it along with \"with\": [\"{other}\"]");
+                return Err(Refused::new(&stage.name, why, hint));
             }
             return Ok(());
         }

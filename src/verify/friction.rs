@@ -137,12 +137,13 @@ pub fn outcomes(scene: &Scene) -> Result<Vec<Outcome>, String> {
     let table = match crate::derive::friction::table(scene) {
         Ok(Some(table)) => table,
         Ok(None) => {
-            return Ok(vec![Outcome {
+            let alone = Outcome {
                 scene: scene.clone(),
                 words: String::new(),
                 when: Vec::new(),
                 slip_ends: None,
-            }]);
+            };
+            return Ok(vec![alone]);
         }
         Err(stop) => return Err(stop.to_string()),
     };
@@ -152,9 +153,7 @@ pub fn outcomes(scene: &Scene) -> Result<Vec<Outcome>, String> {
     }
     let picked = judged.pick.cases(&table);
     if picked.is_empty() {
-        return Err(String::from(
-            "what the scene supposes of its contact never happens",
-        ));
+        return Err("what the scene supposes of its contact never happens".into());
     }
     let name = &scene.contacts[table.contact].name;
     let outcome = |case: &Case| Outcome {
@@ -185,10 +184,8 @@ pub fn settled(scene: &Scene) -> Result<Scene, String> {
 /// The case that the values of the scene pick.
 fn picked(scene: &Scene, table: &Table) -> Option<usize> {
     let sign = Signs::of(scene);
-    table
-        .cases
-        .iter()
-        .position(|case| sign.holds(&table.side, case) == Some(true))
+    let holds = |case: &Case| sign.holds(&table.side, case) == Some(true);
+    table.cases.iter().position(holds)
 }
 
 /// Signs at the values of a scene: in fractions, and where these do not do by the signs of algebraic numbers.
@@ -200,11 +197,10 @@ struct Signs {
 impl Signs {
     fn of(scene: &Scene) -> Signs {
         let given = scene.parameters.iter();
+        let given = given.filter_map(|p| Some((p.name.clone(), p.value.clone()?)));
         Signs {
             exact: numeric::exact_values(scene).ok(),
-            values: given
-                .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
-                .collect(),
+            values: given.collect(),
         }
     }
 
@@ -229,9 +225,8 @@ impl Signs {
 
     /// Whether a case holds; `None` where a sign is not known.
     fn holds(&self, side: &Side, case: &Case) -> Option<bool> {
-        if !case.known_direction
-            && !direction_holds(self.sign(&side.of)?, || self.sign(&side.tie), case)?
-        {
+        let direction = || direction_holds(self.sign(&side.of)?, || self.sign(&side.tie), case);
+        if !(case.known_direction || direction()?) {
             return Some(false);
         }
         let mut all = true;
@@ -247,16 +242,8 @@ fn direction_holds(
     tie: impl Fn() -> Option<std::cmp::Ordering>,
     case: &Case,
 ) -> Option<bool> {
-    use std::cmp::Ordering::{Equal, Greater, Less};
-    Some(match (of, case.direction) {
-        (Greater, s) => s > 0,
-        (Less, s) => s < 0,
-        (Equal, s) => match tie()? {
-            Greater => s > 0,
-            Less => s < 0,
-            Equal => s > 0,
-        },
-    })
+    let decides = if of.is_eq() { tie()? } else { of };
+    Some(decides.is_ge() == (case.direction > 0))
 }
 
 /// Whether a condition holds as it is told; `None` where a side has no exact value.
@@ -360,26 +347,23 @@ fn against_path(scene: &Scene, table: &Table, checks: &mut Vec<Check>) {
             Err(words) => wrong = Some(words),
         }
     }
-    let modes: Vec<String> = seen
-        .iter()
-        .map(|(mode, n)| format!("{} {n}", mode.words()))
-        .collect();
-    checks.push(match (wrong, compared) {
-        (Some(words), _) => Check::new("path", words, Some(false)),
-        (None, 0) => Check::new(
-            "path",
-            String::from("at none of the points tried are all values rational"),
-            None,
-        ),
-        (None, n) => Check::new(
-            "path",
-            format!(
-                "at {n} exact points one case holds and ends where Routh's path ends ({})",
-                modes.join(", ")
-            ),
-            Some(true),
-        ),
-    });
+    let modes = seen.iter().map(|(mode, n)| format!("{} {n}", mode.words()));
+    let modes = modes.collect::<Vec<String>>().join(", ");
+    let (words, holds) = match (wrong, compared) {
+        (Some(words), _) => (words, Some(false)),
+        (None, 0) => {
+            let words = "at none of the points tried are all values rational";
+            (words.into(), None)
+        }
+        (None, n) => {
+            let where_it = "one case holds and ends where Routh's path ends";
+            (
+                format!("at {n} exact points {where_it} ({modes})"),
+                Some(true),
+            )
+        }
+    };
+    checks.push(Check::new("path", words, holds));
     checks.push(energy(&table.law, gains, compared));
 }
 

@@ -54,11 +54,8 @@ pub const UNEXPLAINED: &str = "no single slip of the pen leads to it";
 /// value is largest.
 pub fn check(scene: &Scene, derivation: &Derivation, all: &[Answer]) -> Vec<Finding> {
     let desk = Desk::new(scene, derivation, all);
-    let mut findings: Vec<Finding> = scene
-        .printed
-        .iter()
-        .map(|printed| desk.check(printed))
-        .collect();
+    let findings = scene.printed.iter().map(|printed| desk.check(printed));
+    let mut findings: Vec<Finding> = findings.collect();
     desk.consequences(&mut findings);
     for finding in findings.iter_mut().filter(|f| f.holds == Some(false)) {
         finding.explained.get_or_insert_with(|| UNEXPLAINED.into());
@@ -85,11 +82,9 @@ struct Desk<'a> {
 impl<'a> Desk<'a> {
     fn new(scene: &'a Scene, derivation: &Derivation, all: &[Answer]) -> Desk<'a> {
         let mut closed = BTreeMap::new();
-        let mut dimensions: BTreeMap<Symbol, Dimension> = scene
-            .parameters
-            .iter()
-            .map(|p| (p.name.clone(), p.dimension.clone()))
-            .collect();
+        let given = scene.parameters.iter();
+        let given = given.map(|p| (p.name.clone(), p.dimension.clone()));
+        let mut dimensions: BTreeMap<Symbol, Dimension> = given.collect();
         // Places of centers, so that geometry can be checked too.
         for body in &scene.bodies {
             for (axis, value) in ["x", "y"].iter().zip(&body.center) {
@@ -121,10 +116,9 @@ impl<'a> Desk<'a> {
         closed.insert("unknowns".into(), whole(derivation.counting.unknowns));
         for unknown in laws::unknowns(scene) {
             if let Some(value) = derivation.motion.get(&unknown) {
-                let value = if derivation.names.is_reversed(unknown) {
-                    -value
-                } else {
-                    value.clone()
+                let value = match derivation.names.is_reversed(unknown) {
+                    true => -value,
+                    false => value.clone(),
                 };
                 closed.insert(Symbol::from(derivation.names.plain(unknown)), value);
             }
@@ -221,11 +215,8 @@ impl<'a> Desk<'a> {
     fn symbols(&self, printed: &Printed) -> Symbols {
         let mut symbols = Symbols::strict();
         for p in &self.scene.parameters {
-            symbols.declare_as(
-                p.name.clone(),
-                p.latex.as_deref(),
-                Some(p.dimension.clone()),
-            );
+            let dimension = Some(p.dimension.clone());
+            symbols.declare_as(p.name.clone(), p.latex.as_deref(), dimension);
         }
         for name in self.closed.keys() {
             let latex = name.contains('^').then(|| formula::latex_name(name));
@@ -256,20 +247,14 @@ impl<'a> Desk<'a> {
             return Some(v.to_vec());
         }
         let e = side.expr()?;
-        let used = e
-            .symbols()
-            .into_iter()
-            .filter(|n| self.arrows.contains_key(n));
-        let used: Vec<Symbol> = used.collect();
+        let all = e.symbols().into_iter();
+        let used: Vec<Symbol> = all.filter(|n| self.arrows.contains_key(n)).collect();
         if used.is_empty() {
             return Some(vec![e.clone()]);
         }
         let along = |axis: usize| -> BTreeMap<Symbol, Expr> {
-            let part = |name: &Symbol| self.arrows[name].get(axis).cloned();
-            let parts = used
-                .iter()
-                .map(|n| (n.clone(), part(n).unwrap_or_else(Expr::zero)));
-            parts.collect()
+            let part = |name: &Symbol| (name.clone(), self.arrows[name][axis].clone());
+            used.iter().map(part).collect()
         };
         // Only what is linear in the vectors goes component by component.
         let linear = used.iter().all(|name| {
@@ -287,16 +272,13 @@ impl<'a> Desk<'a> {
     /// Abbreviations, then closed forms, then special values put in.
     fn put_in(&self, e: &Expr, printed: &Printed) -> Result<Expr, String> {
         let map = |pairs: &[[String; 2]]| -> Result<BTreeMap<Symbol, Expr>, String> {
-            pairs
-                .iter()
-                .map(|[name, text]| {
-                    let reading = self.read(text, printed)?;
-                    let value = reading
-                        .expr()
-                        .ok_or_else(|| format!("{text} is no expression"))?;
-                    Ok((Symbol::from(name.as_str()), value.clone()))
-                })
-                .collect()
+            let read = pairs.iter().map(|[name, text]| {
+                let reading = self.read(text, printed)?;
+                let value = reading.expr().cloned();
+                let value = value.ok_or_else(|| format!("{text} is no expression"))?;
+                Ok((Symbol::from(name.as_str()), value))
+            });
+            read.collect()
         };
         let mut out = e.clone();
         let short = map(&printed.short)?;
@@ -309,20 +291,12 @@ impl<'a> Desk<'a> {
             special.insert(Symbol::from(angle.as_str()), Expr::zero());
         }
         let parts = self.arrows.iter().flat_map(|(name, value)| {
-            let part = |k: usize| {
-                (
-                    format!("{name}_{}", ["x", "y", "z"][k]).into(),
-                    value[k].clone(),
-                )
-            };
-            [0, 1, 2].map(part)
+            let axes = ["x", "y", "z"].iter().zip(value);
+            axes.map(move |(axis, part)| (format!("{name}_{axis}").into(), part.clone()))
         });
         let out = out.substitute(&self.closed).substitute(&parts.collect());
-        if out
-            .symbols()
-            .iter()
-            .any(|name| self.arrows.contains_key(name))
-        {
+        let symbols = out.symbols();
+        if symbols.iter().any(|name| self.arrows.contains_key(name)) {
             return Err("a vector stands where a number belongs".into());
         }
         // A special value may be one that the scene answers with.
@@ -333,13 +307,10 @@ impl<'a> Desk<'a> {
     }
 
     fn say(&self, e: &Expr) -> String {
-        let names: BTreeMap<&str, &str> = self
-            .scene
-            .parameters
-            .iter()
-            .filter_map(|p| Some((&*p.name, p.latex.as_deref()?)))
-            .collect();
-        write_unicode(e, &|name| names.get(name).map(|l| (*l).to_string()))
+        write_unicode(e, &|name| {
+            let mut parameters = self.scene.parameters.iter();
+            parameters.find(|p| *p.name == *name)?.latex.clone()
+        })
     }
 
     fn check(&self, printed: &Printed) -> Finding {

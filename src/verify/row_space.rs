@@ -8,6 +8,7 @@ use num_traits::Zero;
 
 use crate::expr::rows::reduce;
 use crate::expr::{Expr, Function, Node, Point, Rational};
+use crate::numeric::number::dot;
 use crate::numeric::{self, Given, Law, System, Unknown};
 use crate::scene::{Ask, ImpulseAt, Scene};
 
@@ -63,14 +64,13 @@ pub fn judge(
         let point = numeric::random_point(&needed, &scene.domains, seed);
         let given = numeric::given(scene, &point).map_err(|e| e.to_string())?;
         let laws = numeric::assemble(&given);
-        let columns: Result<Vec<_>, String> = unknowns
-            .iter()
-            .map(|name| column(scene, name, &point, &given, &laws))
-            .collect();
+        let columns = unknowns.iter();
+        let columns = columns.map(|name| column(scene, name, &point, &given, &laws));
+        let columns = columns.collect::<Result<Vec<_>, String>>()?;
         places.push(Place {
             point,
             laws,
-            columns: columns?,
+            columns,
         });
     }
     let stated: Vec<Vec<usize>> = places.iter().map(|p| stated(p, rows)).collect();
@@ -90,52 +90,43 @@ pub fn judge(
             rank(all) > before
         })
     };
-    Ok(rows
-        .iter()
-        .enumerate()
-        .map(|(i, row)| {
-            if row.0.iter().all(Expr::is_zero) {
-                return Row::Empty;
-            }
-            let law = |row: &PrintedRow| places.iter().zip(&stated).all(|(p, s)| is_law(p, s, row));
-            if law(row) {
-                let above: Vec<&PrintedRow> = rows[..i].iter().collect();
-                return match square && !adds(row, &above) {
-                    true => Row::Repeats,
-                    false => Row::Law,
-                };
-            }
-            let others: Vec<&PrintedRow> = (0..rows.len())
-                .filter(|j| *j != i && rows[*j].0.iter().any(|e| !e.is_zero()))
-                .map(|j| &rows[j])
-                .collect();
-            let sound = |row: &PrintedRow| law(row) && (!square || adds(row, &others));
-            let mend = mend(row, rows, &sound);
-            if places.iter().all(|p| fulfilled(p, row)) {
-                Row::Masked(mend)
-            } else {
-                Row::Wrong(mend)
-            }
-        })
-        .collect())
+    let judged = rows.iter().enumerate().map(|(i, row)| {
+        if row.0.iter().all(Expr::is_zero) {
+            return Row::Empty;
+        }
+        let law = |row: &PrintedRow| places.iter().zip(&stated).all(|(p, s)| is_law(p, s, row));
+        if law(row) {
+            let above: Vec<&PrintedRow> = rows[..i].iter().collect();
+            return match square && !adds(row, &above) {
+                true => Row::Repeats,
+                false => Row::Law,
+            };
+        }
+        let others = rows.iter().enumerate().filter(|(j, _)| *j != i);
+        let others = others.filter(|(_, row)| row.0.iter().any(|e| !e.is_zero()));
+        let others: Vec<&PrintedRow> = others.map(|(_, row)| row).collect();
+        let sound = |row: &PrintedRow| law(row) && (!square || adds(row, &others));
+        let mend = mend(row, rows, &sound);
+        match places.iter().all(|p| fulfilled(p, row)) {
+            true => Row::Masked(mend),
+            false => Row::Wrong(mend),
+        }
+    });
+    Ok(judged.collect())
 }
 
 /// The change of one place that makes a row a law: its sign, a factor of two, sine for cosine, nothing, or what stands
 /// elsewhere in the matrix.
 fn mend(row: &PrintedRow, rows: &[PrintedRow], law: &dyn Fn(&PrintedRow) -> bool) -> Option<Mend> {
     let mut elsewhere: Vec<&Expr> = Vec::new();
-    for e in rows
-        .iter()
-        .flat_map(|(row, right)| row.iter().chain([right]))
-    {
+    let all = rows.iter();
+    for e in all.flat_map(|(row, right)| row.iter().chain([right])) {
         if !e.is_zero() && !elsewhere.contains(&e) {
             elsewhere.push(e);
         }
     }
-    let places = (0..row.0.len()).map(Some).chain([None]);
-    let tries: Vec<(Option<usize>, &Expr)> = places
-        .map(|column| (column, column.map_or(&row.1, |i| &row.0[i])))
-        .collect();
+    let entries = row.0.iter().enumerate().map(|(i, e)| (Some(i), e));
+    let tries: Vec<(Option<usize>, &Expr)> = entries.chain([(None, &row.1)]).collect();
     let changed = |column: Option<usize>, value: Expr| {
         let mut new = row.clone();
         match column {
@@ -145,14 +136,8 @@ fn mend(row: &PrintedRow, rows: &[PrintedRow], law: &dyn Fn(&PrintedRow) -> bool
         law(&new).then_some(Mend { column, value })
     };
     let near = |e: &Expr| {
-        let two = Expr::from(2);
-        [
-            -e,
-            Expr::zero(),
-            e * &two,
-            e * &Expr::ratio(1, 2),
-            exchanged(e),
-        ]
+        let [twice, half] = [e * &Expr::from(2), e * &Expr::ratio(1, 2)];
+        [-e, Expr::zero(), twice, half, exchanged(e)]
     };
     // A turned sign in any place comes before a missing factor in another.
     let simple = (0..5).find_map(|kind| {
@@ -202,14 +187,12 @@ fn stated(place: &Place, rows: &[PrintedRow]) -> Vec<usize> {
     let closing =
         |law: &Law| matches!(law, Law::Restitution(_) | Law::Sticking(..) | Law::Known(_));
     let candidates = (0..place.laws.laws.len()).filter(|i| closing(&place.laws.laws[*i]));
+    let repeats = |row: &PrintedRow, i: usize| {
+        spread(place, row)
+            .is_some_and(|r| r.iter().any(|x| !x.is_zero()) && rank(vec![r, law_row(place, i)]) < 2)
+    };
     candidates
-        .filter(|i| {
-            rows.iter().any(|row| {
-                spread(place, row).is_some_and(|r| {
-                    rank(vec![r.clone(), law_row(place, *i)]) < 2 && r.iter().any(|x| !x.is_zero())
-                })
-            })
-        })
+        .filter(|i| rows.iter().any(|row| repeats(row, *i)))
         .collect()
 }
 
@@ -220,24 +203,17 @@ fn is_law(place: &Place, stated: &[usize], row: &PrintedRow) -> bool {
     if row.iter().all(Zero::is_zero) {
         return true;
     }
-    if stated
-        .iter()
-        .any(|i| rank(vec![row.clone(), law_row(place, *i)]) < 2)
-    {
+    let repeats = |i: &usize| rank(vec![row.clone(), law_row(place, *i)]) < 2;
+    if stated.iter().any(repeats) {
         return true;
     }
-    let rest: Vec<Vec<Rational>> = (0..place.laws.laws.len())
-        .filter(|i| !stated.contains(i))
-        .map(|i| law_row(place, i))
-        .collect();
-    within(rest, row)
+    let rest = (0..place.laws.laws.len()).filter(|i| !stated.contains(i));
+    within(rest.map(|i| law_row(place, i)).collect(), row)
 }
 
 fn fulfilled(place: &Place, row: &PrintedRow) -> bool {
-    let all: Vec<Vec<Rational>> = (0..place.laws.laws.len())
-        .map(|i| law_row(place, i))
-        .collect();
-    spread(place, row).is_some_and(|row| within(all, row))
+    let all = (0..place.laws.laws.len()).map(|i| law_row(place, i));
+    spread(place, row).is_some_and(|row| within(all.collect(), row))
 }
 
 fn within(mut rows: Vec<Vec<Rational>>, row: Vec<Rational>) -> bool {
@@ -259,15 +235,15 @@ fn column(
     given: &Given<Rational>,
     laws: &System<Rational>,
 ) -> Result<(Vec<Rational>, Rational), String> {
-    let (question, axis) = scene
-        .asked_of_impact()
-        .find_map(|q| match name.strip_prefix(q.name.as_str()) {
-            Some("") => Some((q, None)),
-            Some("_x") => Some((q, Some(0))),
-            Some("_y") => Some((q, Some(1))),
-            _ => None,
+    let asked = scene.asked_of_impact().find_map(|q| {
+        Some(match name.strip_prefix(q.name.as_str())? {
+            "" => (q, None),
+            "_x" => (q, Some(0)),
+            "_y" => (q, Some(1)),
+            _ => return None,
         })
-        .ok_or_else(|| format!("the scene asks for no {name}"))?;
+    });
+    let (question, axis) = asked.ok_or_else(|| format!("the scene asks for no {name}"))?;
     let one = || Rational::from(crate::expr::Int::from(1));
     let value = |v: &crate::expr::Vector| -> Result<[Rational; 2], String> {
         match (v[0].evaluate(point), v[1].evaluate(point)) {
@@ -284,12 +260,8 @@ fn column(
     let mut row = vec![Rational::zero(); laws.unknowns.len()];
     let mut constant = Rational::zero();
     let mut add = |unknown: Unknown, k: Rational| {
-        if let Some(i) = laws.column(unknown) {
-            row[i] += k;
-            true
-        } else {
-            false
-        }
+        let column = laws.column(unknown);
+        column.map(|i| row[i] += k).is_some()
     };
     match &question.ask {
         Ask::Velocity {
@@ -312,50 +284,36 @@ fn column(
             }
         }
         Ask::Spin { body, clockwise } => {
-            add(
-                Unknown::Spin(*body),
-                if *clockwise { -one() } else { one() },
-            );
+            let sign = if *clockwise { -one() } else { one() };
+            add(Unknown::Spin(*body), sign);
         }
         Ask::Impulse { from, on, along } => {
             let d = direction(along)?;
-            let (second, parts) = match from {
-                ImpulseAt::Hinge(h) => (
-                    given.hinges[*h].bodies[1],
-                    [Unknown::Hinge(*h, 0), Unknown::Hinge(*h, 1)],
-                ),
-                ImpulseAt::Contact(c) => (
-                    given.contacts[*c].joint.bodies[1],
-                    [Unknown::Contact(*c, 0), Unknown::Contact(*c, 1)],
-                ),
+            type Part = fn(usize, usize) -> Unknown;
+            let (joint, part, i): (_, Part, _) = match from {
+                ImpulseAt::Hinge(h) => (&given.hinges[*h], Unknown::Hinge, *h),
+                ImpulseAt::Contact(c) => (&given.contacts[*c].joint, Unknown::Contact, *c),
                 ImpulseAt::Blow(_) => {
-                    return Err(format!(
-                        "{name} is a blow, which no printed matrix has had yet"
-                    ));
+                    let why = "is a blow, which no printed matrix has had yet";
+                    return Err(format!("{name} {why}"));
                 }
             };
-            let sign = if second == *on { one() } else { -one() };
-            if let (ImpulseAt::Contact(c), Some(n)) = (from, from_normal(from, given)) {
-                if !add(parts[0], &sign * &d[0]) {
-                    add(
-                        Unknown::ContactNormal(*c),
-                        &sign * (&n[0] * &d[0] + &n[1] * &d[1]),
-                    );
-                    return Ok((row, constant));
-                }
+            let sign = if joint.bodies[1] == *on {
+                one()
             } else {
-                add(parts[0], &sign * &d[0]);
-            }
-            add(parts[1], &sign * &d[1]);
+                -one()
+            };
+            let along_x = add(part(i, 0), &sign * &d[0]);
+            let normal = match from {
+                ImpulseAt::Contact(c) => given.contacts[*c].normal.as_ref(),
+                _ => None,
+            };
+            match normal.filter(|_| !along_x) {
+                Some(n) => add(Unknown::ContactNormal(i), &sign * dot(n, &d)),
+                None => add(part(i, 1), &sign * &d[1]),
+            };
         }
         _ => return Err(format!("{name} is no component of the motion")),
     }
     Ok((row, constant))
-}
-
-fn from_normal(from: &ImpulseAt, given: &Given<Rational>) -> Option<[Rational; 2]> {
-    match from {
-        ImpulseAt::Contact(c) => given.contacts[*c].normal.clone(),
-        _ => None,
-    }
 }

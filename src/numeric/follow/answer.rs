@@ -87,9 +87,15 @@ pub fn answer(
     let alone = (!scene.has_stages()).then_some(0);
     let index = question.stage.or(alone).ok_or(Unanswered::NotANumber)?;
     let stage = course.get(index).ok_or(Unanswered::NotANumber)?;
-    let passed = match &followed.stages[index] {
-        Ok(passed) => passed,
-        Err(lost) => return Err(Unanswered::Lost(lost.clone())),
+    let passed = followed.stages[index].as_ref();
+    let passed = passed.map_err(|lost| Unanswered::Lost(lost.clone()))?;
+    let motion = match &passed.what {
+        What::Motion(moved) => Ok(moved),
+        What::Impact(_) => Err(Unanswered::NotANumber),
+    };
+    let state = |at_end: &bool| match at_end {
+        true => &passed.after,
+        false => &passed.before,
     };
     let before = &passed.before;
     let values = super::with_earlier(scene, followed, stage, &super::with_angles(values));
@@ -102,10 +108,7 @@ pub fn answer(
     };
     match &question.ask {
         Ask::Reaction { along, at_end } => {
-            let What::Motion(moved) = &passed.what else {
-                return Err(Unanswered::NotANumber);
-            };
-            let reaction = moved.reaction.as_ref().ok_or(Unanswered::NotANumber)?;
+            let reaction = motion?.reaction.as_ref().ok_or(Unanswered::NotANumber)?;
             component(&course, reaction[usize::from(*at_end)].clone(), Some(along))
         }
         Ask::AngularAcceleration {
@@ -113,20 +116,15 @@ pub fn answer(
             clockwise,
             at_end,
         } => {
-            let What::Motion(moved) = &passed.what else {
-                return Err(Unanswered::NotANumber);
-            };
-            let found = moved.angular_accelerations.iter().find(|(b, _)| b == body);
+            let mut all = motion?.angular_accelerations.iter();
+            let found = all.find(|(b, _)| b == body);
             let (_, angular) = found.ok_or(Unanswered::NotANumber)?;
             let value = angular[usize::from(*at_end)];
             Ok(Answer::Scalar(if *clockwise { -value } else { value }))
         }
         Ask::Time => Ok(Answer::Scalar(passed.time.clone()?)),
         Ask::Acceleration { body } | Ask::Tension { body } => {
-            let What::Motion(moved) = &passed.what else {
-                return Err(Unanswered::NotANumber);
-            };
-            let driven = moved.driven.iter().find(|d| d.body == *body);
+            let driven = motion?.driven.iter().find(|d| d.body == *body);
             let driven = driven.ok_or(Unanswered::NotANumber)?;
             let value = match &question.ask {
                 Ask::Tension { .. } => driven.tension,
@@ -151,12 +149,9 @@ pub fn answer(
             gone(slide.body).and_then(|far| Ok(Answer::Scalar(far - below?)))
         }
         Ask::Angle { body, clockwise } => {
-            let turned = match &passed.what {
-                What::Motion(moved) if moved.bodies.contains(body) => moved.turned,
-                _ => None,
-            };
+            let turning = motion.ok().filter(|moved| moved.bodies.contains(body));
             let [from, to] = [before, &passed.after].map(|s| s.bodies[*body].angle.clone());
-            let by = match turned {
+            let by = match turning.and_then(|moved| moved.turned) {
                 Some(by) => by,
                 None => to? - from?,
             };
@@ -167,8 +162,8 @@ pub fn answer(
             along,
             at_end,
         } => {
-            let state = if *at_end { &passed.after } else { before };
-            component(&course, state.bodies[*body].center.clone(), along.as_ref())
+            let center = state(at_end).bodies[*body].center.clone();
+            component(&course, center, along.as_ref())
         }
         Ask::AngularMomentum {
             body,
@@ -176,12 +171,7 @@ pub fn answer(
             at_end,
         } => {
             let about = pair(&course, about)?;
-            let state = if *at_end {
-                &passed.after
-            } else {
-                &passed.before
-            };
-            let (solid, body) = (&followed.solids[*body], &state.bodies[*body]);
+            let (solid, body) = (&followed.solids[*body], &state(at_end).bodies[*body]);
             let [x, y, _, u, v, w] = body.components();
             let arm = [x.clone()? - about[0], y.clone()? - about[1]];
             let orbital = solid.mass * cross(&arm, &[u.clone()?, v.clone()?]);

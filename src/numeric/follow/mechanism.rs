@@ -271,11 +271,7 @@ pub(super) trait Mobile {
 
     /// Moves on until the goal is reached.
     fn until(&self, start: &[f64], goal: &mut Goal<'_>) -> Result<Run, Stop> {
-        let mut run = Run {
-            time: 0.0,
-            end: start.to_vec(),
-            samples: vec![(0.0, start.to_vec())],
-        };
+        let mut run = Run::at(start);
         if (goal.left)(start) >= 0.0 {
             return Ok(run);
         }
@@ -310,11 +306,7 @@ pub(super) trait Mobile {
 
     /// Moves on for a time.
     fn lasting(&self, start: &[f64], time: f64) -> Result<Run, Stop> {
-        let mut run = Run {
-            time: 0.0,
-            end: start.to_vec(),
-            samples: vec![(0.0, start.to_vec())],
-        };
+        let mut run = Run::at(start);
         let pieces = (time / PIECE).ceil().max(1.0);
         if pieces > PIECES as f64 {
             return Err(Stop::TooLong);
@@ -344,11 +336,9 @@ pub(super) trait Mobile {
                 break;
             }
             let secant = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
-            let is_inside = secant > low.0 && secant < high.0;
-            let time = if is_inside {
-                secant
-            } else {
-                0.5 * (low.0 + high.0)
+            let time = match secant > low.0 && secant < high.0 {
+                true => secant,
+                false => 0.5 * (low.0 + high.0),
             };
             let there = self.advance(&before, time - low.0)?;
             let value = f(&there);
@@ -399,6 +389,14 @@ pub(super) trait Mobile {
 }
 
 impl Run {
+    fn at(start: &[f64]) -> Run {
+        Run {
+            time: 0.0,
+            end: start.to_vec(),
+            samples: vec![(0.0, start.to_vec())],
+        }
+    }
+
     fn ended(mut self, step: f64, end: Vec<f64>) -> Run {
         self.time += step;
         self.samples.push((self.time, end.clone()));
@@ -408,7 +406,7 @@ impl Run {
 }
 
 /// The state after a time; `None` where the rates have no value on the way.
-pub(in crate::numeric) fn integrated(
+pub fn integrated(
     rates: &dyn Fn(&[f64]) -> Option<Vec<f64>>,
     start: &[f64],
     time: f64,
@@ -422,17 +420,13 @@ pub(in crate::numeric) fn integrated(
             }
         }
     }
-    (self_check(rates, start)).then_some(())?;
+    let is_finite = |all: &[f64]| all.iter().all(|v| v.is_finite());
+    rates(start).filter(|rates| is_finite(rates))?;
     let method = ExplicitRungeKutta::dop853().rtol(1e-12).atol(1e-14);
     let solution = IVP::ode(&Equations(rates), 0.0, time, start.to_vec())
         .method(method)
         .solve()
         .ok()?;
     let end = solution.y.last()?.clone();
-    end.iter().all(|v| v.is_finite()).then_some(end)
-}
-
-/// Whether there are rates at the start at all.
-fn self_check(rates: &dyn Fn(&[f64]) -> Option<Vec<f64>>, start: &[f64]) -> bool {
-    rates(start).is_some_and(|r| r.iter().all(|v| v.is_finite()))
+    is_finite(&end).then_some(end)
 }

@@ -53,7 +53,7 @@ use crate::scene::{Scene, Stage, StageKind};
 pub use answer::{Unanswered, answer, named};
 pub use impact::{Breach, Impact, Impulse, Opening};
 pub use lost::{Loss, Lost};
-pub(in crate::numeric) use mechanism::integrated;
+pub use mechanism::integrated;
 pub use motion::{Driven, Moved, Sample};
 pub use outline::Solid;
 pub use state::{BodyState, Component, Open, State, Why, kinetic};

@@ -33,28 +33,25 @@ pub(super) fn touches(
             }
             let gap = one_sided.map_or_else(|| minus(at, &body.center), |o| o.gap(&body.center));
             if let Some(why) = before.why_open(&gap) {
-                return Err(Refused::new(
-                    &stage.name,
-                    format!(
-                        "where `{}` is, and whether `{name}` touches it, is open: {why}",
-                        body.name
-                    ),
-                    "end the motion before after a time or at a place that has a closed form",
-                ));
+                let why = format!(
+                    "where `{}` is, and whether `{name}` touches it, is open: {why}",
+                    body.name
+                );
+                let hint =
+                    "end the motion before after a time or at a place that has a closed form";
+                return Err(Refused::new(&stage.name, why, hint));
             }
             if gap
                 .iter()
                 .any(|c| is_zero(c, &scene.domains) == Some(false))
             {
                 let [x, y] = center(scene, body);
-                return Err(Refused::new(
-                    &stage.name,
-                    format!(
-                        "`{name}` is not where the particle `{}` is by then: at ({x}, {y})",
-                        body.name
-                    ),
-                    format!("\"at\": \"{}\" is always where it is", body.name),
-                ));
+                let why = format!(
+                    "`{name}` is not where the particle `{}` is by then: at ({x}, {y})",
+                    body.name
+                );
+                let hint = format!("\"at\": \"{}\" is always where it is", body.name);
+                return Err(Refused::new(&stage.name, why, hint));
             }
         }
     }
@@ -64,14 +61,12 @@ pub(super) fn touches(
     };
     let body = &scene.bodies[off.body];
     let [x, y] = center(scene, body);
-    Err(Refused::new(
-        &stage.name,
-        format!(
-            "{}; the center of `{}` is at ({x}, {y}) by then",
-            off.words, body.name
-        ),
-        off.hint,
-    ))
+    let why = format!(
+        "{}; the center of `{}` is at ({x}, {y}) by then",
+        off.words, body.name
+    );
+    let hint = off.hint;
+    Err(Refused::new(&stage.name, why, hint))
 }
 
 /// A string between two particles pulls the second to the first.
@@ -83,14 +78,12 @@ fn pulls(stage: &Stage, scene: &Scene, one_sided: &[OneSided]) -> Result<(), Ref
         }
         let toward = dot(&string.normal, &minus(&first.center, &second.center));
         if sign(&toward, &scene.domains).is_negative() {
-            return Err(Refused::new(
-                &stage.name,
-                format!(
-                    "the string `{}` is said to pull `{}` away from `{}`, at its other end",
-                    string.name, second.name, first.name
-                ),
-                "turn `normal` round: it points from the second body along the string",
-            ));
+            let why = format!(
+                "the string `{}` is said to pull `{}` away from `{}`, at its other end",
+                string.name, second.name, first.name
+            );
+            let hint = "turn `normal` round: it points from the second body along the string";
+            return Err(Refused::new(&stage.name, why, hint));
         }
     }
     Ok(())
@@ -110,25 +103,23 @@ pub(super) fn hinges_fit(stage: &Stage, scene: &Scene, before: &State) -> Result
         let [a, b] = hinge.bodies.map(|b| scene.bodies[b].velocity_at(&hinge.at));
         for gap in minus(&a, &b) {
             if let Some(why) = before.why_open([&gap]) {
-                return Err(Refused::new(
-                    &stage.name,
-                    format!(
-                        "whether the bodies move alike at the hinge `{}` is open: {why}",
-                        hinge.name
-                    ),
-                    "what is caught in the impact is a contact with the law sticking, not a hinge",
-                ));
+                let why = format!(
+                    "whether the bodies move alike at the hinge `{}` is open: {why}",
+                    hinge.name
+                );
+                let hint =
+                    "what is caught in the impact is a contact with the law sticking, not a hinge";
+                return Err(Refused::new(&stage.name, why, hint));
             }
             if is_zero(&gap, &scene.domains) == Some(false) {
                 let [first, second] = hinge.bodies.map(|b| &scene.bodies[b].name);
-                return Err(Refused::new(
-                    &stage.name,
-                    format!(
-                        "with the motion handed on, `{first}` and `{second}` move differently at the hinge `{}`",
-                        hinge.name
-                    ),
-                    "what is caught in the impact is a contact with the law sticking, not a hinge",
-                ));
+                let why = format!(
+                    "with the motion handed on, `{first}` and `{second}` move differently at the hinge `{}`",
+                    hinge.name
+                );
+                let hint =
+                    "what is caught in the impact is a contact with the law sticking, not a hinge";
+                return Err(Refused::new(&stage.name, why, hint));
             }
         }
     }
@@ -157,14 +148,12 @@ pub(super) fn approach(
         let seen = sign(&opening, &scene.domains);
         if let Seen::Proved(Sign::Positive | Sign::NotNegative) = seen {
             let [first, second] = contact.bodies.map(|b| &scene.bodies[b].name);
-            return Err(Refused::new(
-                &stage.name,
-                format!(
-                    "with the motion handed on, `{first}` and `{second}` move apart at `{}`: there is no collision",
-                    contact.name
-                ),
-                "look at the stage before, and at `normal`, which points out of the first body into the second",
-            ));
+            let why = format!(
+                "with the motion handed on, `{first}` and `{second}` move apart at `{}`: there is no collision",
+                contact.name
+            );
+            let hint = "look at the stage before, and at `normal`, which points out of the first body into the second";
+            return Err(Refused::new(&stage.name, why, hint));
         }
         if !matches!(
             seen,

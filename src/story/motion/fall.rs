@@ -178,11 +178,10 @@ fn rises(
         match sign(&need, domains) {
             Seen::Proved(s) if s.is_not_negative() => {}
             Seen::Proved(_) => {
-                return Err(Refused::new(
-                    &stage.name,
-                    format!("`{name}` is not rising there"),
-                    "a negative `height` counts upwards; leave out `rising` where it comes down",
-                ));
+                let why = format!("`{name}` is not rising there");
+                let hint =
+                    "a negative `height` counts upwards; leave out `rising` where it comes down";
+                return Err(Refused::new(&stage.name, why, hint));
             }
             _ => {
                 let words = [", so that `", "` rises to there"];

@@ -28,14 +28,12 @@ pub(in crate::story) fn linkage(
     let [first, last] = [pose(stage, linkage, begin)?, pose(stage, linkage, end)?];
     stands(stage, &before, linkage, &first)?;
     if is_zero(&first.inertia, domains) == Some(true) {
-        return Err(Refused::new(
-            &stage.name,
-            format!(
-                "nothing that has a mass moves with `{}` as it begins",
-                linkage.coordinate
-            ),
-            "give one of the bodies a mass, or begin a little later",
-        ));
+        let why = format!(
+            "nothing that has a mass moves with `{}` as it begins",
+            linkage.coordinate
+        );
+        let hint = "give one of the bodies a mass, or begin a little later";
+        return Err(Refused::new(&stage.name, why, hint));
     }
     let (mut needs, mut assumptions) = (Vec::new(), Vec::new());
     let way = way(stage, linkage, &mut needs, &mut assumptions)?;
@@ -46,11 +44,9 @@ pub(in crate::story) fn linkage(
     let lead = linkage.places[0].0;
     let (gained, energy, reaches) = balance(stage, lead, &start, &work)?;
     if is_zero(&last.inertia, domains) != Some(false) {
-        return Err(Refused::new(
-            &stage.name,
-            "at its end nothing moves with the coordinate, or that is not decided",
-            "end it a little before, or choose another coordinate",
-        ));
+        let why = "at its end nothing moves with the coordinate, or that is not decided";
+        let hint = "end it a little before, or choose another coordinate";
+        return Err(Refused::new(&stage.name, why, hint));
     }
     if let Some(words) = arrival(stage, lead, &energy, reaches) {
         assumptions.push(words);
@@ -161,11 +157,9 @@ fn way(
     let [begin, end] = &linkage.ends;
     let grows = end - begin;
     if is_zero(&grows, &stage.scene.domains) == Some(true) {
-        return Err(Refused::new(
-            &stage.name,
-            format!("`{}` ends where it begins", linkage.coordinate),
-            "`from` and `to` are two values; without `from` the parameter itself is where it begins",
-        ));
+        let why = format!("`{}` ends where it begins", linkage.coordinate);
+        let hint = "`from` and `to` are two values; without `from` the parameter itself is where it begins";
+        return Err(Refused::new(&stage.name, why, hint));
     }
     if let Some(positive) = sign(&grows, &stage.scene.domains).side() {
         return Ok(if positive { 1 } else { -1 });
@@ -180,14 +174,12 @@ fn way(
         (true, false) => 1,
         (false, true) => -1,
         _ => {
-            return Err(Refused::new(
-                &stage.name,
-                format!(
-                    "whether `{}` grows or falls is not decided",
-                    linkage.coordinate
-                ),
-                "say it by `relations`, or by the domains of both values",
-            ));
+            let why = format!(
+                "whether `{}` grows or falls is not decided",
+                linkage.coordinate
+            );
+            let hint = "say it by `relations`, or by the domains of both values";
+            return Err(Refused::new(&stage.name, why, hint));
         }
     };
     let need = &Expr::from(way) * &grows;
@@ -231,16 +223,14 @@ fn stands(stage: &Stage, before: &State, linkage: &Linkage, pose: &Pose) -> Resu
         let seen = if body.is_particle() { 2 } else { 3 };
         let mut gaps = all.take(seen).map(|(a, b)| a - b);
         if gaps.any(|gap| is_zero(&gap, &stage.scene.domains) != Some(true)) {
-            return Err(Refused::new(
-                &stage.name,
-                format!(
-                    "`{}` is not where `{}` = {} puts it",
-                    body.name,
-                    linkage.coordinate,
-                    write_plain(&linkage.ends[0])
-                ),
-                "give `from`, the value of the coordinate at the beginning",
-            ));
+            let why = format!(
+                "`{}` is not where `{}` = {} puts it",
+                body.name,
+                linkage.coordinate,
+                write_plain(&linkage.ends[0])
+            );
+            let hint = "give `from`, the value of the coordinate at the beginning";
+            return Err(Refused::new(&stage.name, why, hint));
         }
     }
     Ok(())
@@ -271,14 +261,12 @@ fn rate(stage: &Stage, before: &State, linkage: &Linkage, pose: &Pose) -> Result
         let all = motion(*b).into_iter().zip(rates).take(seen);
         let mut gaps = all.map(|(is, per)| is - &(per * &rate));
         if gaps.any(|gap| is_zero(&gap, domains) == Some(false)) {
-            return Err(Refused::new(
-                &stage.name,
-                format!(
-                    "`{}` does not begin to move as the linkage lets it",
-                    body.name
-                ),
-                "put an impact before it that joins the bodies, or begin at rest",
-            ));
+            let why = format!(
+                "`{}` does not begin to move as the linkage lets it",
+                body.name
+            );
+            let hint = "put an impact before it that joins the bodies, or begin at rest";
+            return Err(Refused::new(&stage.name, why, hint));
         }
     }
     Ok(rate)
@@ -316,11 +304,9 @@ fn sets_out(
     match sign(&ahead, domains) {
         Seen::Proved(s) if s.is_not_negative() => {}
         Seen::Proved(_) => {
-            return Err(Refused::new(
-                &stage.name,
-                format!("`{}` begins to change the other way", linkage.coordinate),
-                "look at the motion handed on, and at `to`",
-            ));
+            let why = format!("`{}` begins to change the other way", linkage.coordinate);
+            let hint = "look at the motion handed on, and at `to`";
+            return Err(Refused::new(&stage.name, why, hint));
         }
         _ => {
             assumptions.push(Sentence::not_negative(&ahead));
@@ -353,14 +339,12 @@ fn sets_out(
                 assumptions.push(pushed(&lead.name));
             }
             Seen::Proved(_) => {
-                return Err(Refused::new(
-                    &stage.name,
-                    format!(
-                        "at rest its weight does not make `{}` change this way",
-                        linkage.coordinate
-                    ),
-                    "look at `to`, or give it a velocity",
-                ));
+                let why = format!(
+                    "at rest its weight does not make `{}` change this way",
+                    linkage.coordinate
+                );
+                let hint = "look at `to`, or give it a velocity";
+                return Err(Refused::new(&stage.name, why, hint));
             }
             _ => {
                 assumptions.push(sentence![

@@ -59,14 +59,12 @@ fn one<'a>(
                 Seen::Proved(s) if s.is_not_negative() => level.clone(),
                 Seen::Proved(_) => -level,
                 _ => {
-                    return Err(Refused::new(
-                        &stage.name,
-                        format!(
-                            "whether the line of `{}` leads to the right or to the left is not decided, and so is which side the surface is on",
-                            scene.bodies[string.to[0]].name
-                        ),
-                        "say it by the domain of an angle, or by `relations`",
-                    ));
+                    let why = format!(
+                        "whether the line of `{}` leads to the right or to the left is not decided, and so is which side the surface is on",
+                        scene.bodies[string.to[0]].name
+                    );
+                    let hint = "say it by the domain of an angle, or by `relations`";
+                    return Err(Refused::new(&stage.name, why, hint));
                 }
             };
             -(mu * &(&weight * &across))
@@ -89,28 +87,24 @@ fn one<'a>(
     if string.over.len() > 1 {
         spins.push(there);
     } else if is_zero(&(&spins[0] - &there), &scene.domains) != Some(true) {
-        return Err(Refused::new(
-            &stage.name,
-            format!(
-                "the two parts of the string would turn `{}` opposite ways",
-                scene.bodies[first].name
-            ),
-            "one end moves towards the pulley and the other away from it",
-        ));
+        let why = format!(
+            "the two parts of the string would turn `{}` opposite ways",
+            scene.bodies[first].name
+        );
+        let hint = "one end moves towards the pulley and the other away from it";
+        return Err(Refused::new(&stage.name, why, hint));
     }
     let [to_first, to_last] = [(first, head), (last, tail)].map(|(p, end)| ahead(before, p, end));
     let nears = approaches(stage, &to_first, [head.2, first])?;
     let draws = !approaches(stage, &to_last, [tail.2, last])?;
     if nears != draws {
         let how = if nears { "slack" } else { "longer" };
-        return Err(Refused::new(
-            &stage.name,
-            format!(
-                "the string from `{}` to `{}` would get {how}",
-                scene.bodies[head.2].name, scene.bodies[tail.2].name
-            ),
-            "one end moves towards the pulley and the other away from it",
-        ));
+        let why = format!(
+            "the string from `{}` to `{}` would get {how}",
+            scene.bodies[head.2].name, scene.bodies[tail.2].name
+        );
+        let hint = "one end moves towards the pulley and the other away from it";
+        return Err(Refused::new(&stage.name, why, hint));
     }
     let pulleys = string.over.iter().zip(&spins);
     let turning = pulleys.map(|(p, k)| &scene.bodies[*p].inertia * &k.powi(2));
@@ -175,11 +169,10 @@ fn looped(
         }
     }
     let [last, under] = [last, pulley].map(|b| &scene.bodies[b].name);
-    Err(Refused::new(
-        &stage.name,
-        format!("the string does not run straight from the rim of `{last}` to that of `{under}`"),
-        "the center of a movable pulley is one radius beside the line on which the string leaves the pulley before it",
-    ))
+    let why =
+        format!("the string does not run straight from the rim of `{last}` to that of `{under}`");
+    let hint = "the center of a movable pulley is one radius beside the line on which the string leaves the pulley before it";
+    Err(Refused::new(&stage.name, why, hint))
 }
 
 /// Spin of a pulley where a body that hangs on its rim moves with the speed 1.
@@ -195,14 +188,12 @@ fn spin(
     let radius = scene.bodies[pulley].shape.radius().unwrap_or(&zero);
     let square = radius.powi(2);
     if is_zero(&(&arm.powi(2) - &square), &scene.domains) != Some(true) {
-        return Err(Refused::new(
-            &stage.name,
-            format!(
-                "the line along which `{}` moves does not touch the rim of `{}`",
-                scene.bodies[body].name, scene.bodies[pulley].name
-            ),
-            "the string leaves the pulley along that line, one radius from its center",
-        ));
+        let why = format!(
+            "the line along which `{}` moves does not touch the rim of `{}`",
+            scene.bodies[body].name, scene.bodies[pulley].name
+        );
+        let hint = "the string leaves the pulley along that line, one radius from its center";
+        return Err(Refused::new(&stage.name, why, hint));
     }
     tidied(stage, &(&arm / &square))
 }
@@ -278,11 +269,9 @@ impl Pulled<'_> {
         match sign(&left, &stage.scene.domains) {
             Seen::Proved(s) if s.is_not_negative() => return Ok(()),
             Seen::Proved(_) | Seen::Negative => {
-                return Err(Refused::new(
-                    &stage.name,
-                    format!("`{body}` gets to `{pulley}` before the stage ends"),
-                    "end the stage earlier, or let the string be longer",
-                ));
+                let why = format!("`{body}` gets to `{pulley}` before the stage ends");
+                let hint = "end the stage earlier, or let the string be longer";
+                return Err(Refused::new(&stage.name, why, hint));
             }
             _ => assumptions.push(sentence![
                 Sentence::not_negative(&left),
@@ -315,13 +304,11 @@ impl Pulled<'_> {
             match sign(&tension, domains) {
                 Seen::Proved(s) if s.is_not_negative() => continue,
                 Seen::Proved(_) => {
-                    return Err(Refused::new(
-                        &stage.name,
-                        format!(
-                            "the string to `{name}` goes slack, and this motion takes it as taut"
-                        ),
-                        "let the bodies move each on its own",
-                    ));
+                    let why = format!(
+                        "the string to `{name}` goes slack, and this motion takes it as taut"
+                    );
+                    let hint = "let the bodies move each on its own";
+                    return Err(Refused::new(&stage.name, why, hint));
                 }
                 _ => {}
             }

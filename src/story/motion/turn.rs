@@ -37,23 +37,18 @@ pub(in crate::story) fn turn(
             .iter()
             .all(|c| is_zero(c, domains) == Some(true));
     if ends_where_it_begins {
-        return Err(Refused::new(
-            &stage.name,
-            format!("`{}` is there at the beginning already", body.name),
-            "say with `by` through which angle it turns, such as 2*pi",
-        ));
+        let why = format!("`{}` is there at the beginning already", body.name);
+        let hint = "say with `by` through which angle it turns, such as 2*pi";
+        return Err(Refused::new(&stage.name, why, hint));
     }
     let about = inertia_about(stage, turn);
     let inertia = tidied(stage, &about)?;
     if is_zero(&inertia, domains) == Some(true) {
-        return Err(Refused::new(
-            &stage.name,
-            format!(
-                "`{}` has no moment of inertia about {}",
-                body.name, turn.about_name
-            ),
-            "give it a mass",
-        ));
+        let why = format!(
+            "`{}` has no moment of inertia about {}",
+            body.name, turn.about_name
+        );
+        return Err(Refused::new(&stage.name, why, "give it a mass"));
     }
     let start = tidied(stage, &half(&(&inertia * &spin.powi(2))))?;
     let kept_below = stops(stage, turn, &spin, &start, &r)?;

@@ -21,21 +21,16 @@ pub(in crate::story) fn wind(
     let rope = minus(&stage.scene.bodies[wind.body].center, &wind.around);
     let free = tidied(stage, &dot(&rope, &rope).sqrt())?;
     if is_zero(&dot(&rope, &v), domains) == Some(false) {
-        return Err(Refused::new(
-            &stage.name,
-            format!(
-                "`{}` does not move straight across the rope, which would jerk",
-                body.name
-            ),
-            "put an impact with a string before it, in which the rope becomes taut",
-        ));
+        let why = format!(
+            "`{}` does not move straight across the rope, which would jerk",
+            body.name
+        );
+        let hint = "put an impact with a string before it, in which the rope becomes taut";
+        return Err(Refused::new(&stage.name, why, hint));
     }
     if let Seen::Proved(Sign::Negative) = sign(&(&free - &wind.to), domains) {
-        return Err(Refused::new(
-            &stage.name,
-            "a rope that winds up gets shorter, and this gets longer",
-            "exchange the lengths",
-        ));
+        let why = "a rope that winds up gets shorter, and this gets longer";
+        return Err(Refused::new(&stage.name, why, "exchange the lengths"));
     }
     let speed = tidied(stage, &dot(&v, &v).sqrt())?;
     let mut after = before.clone();

@@ -10,7 +10,7 @@ use crate::algebra::Field;
 use crate::dimension;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Point, Rational, Symbol, ratio};
-use crate::formula::{Content, Relation};
+use crate::formula::{Content, Reading, Relation};
 use crate::numeric;
 use crate::scene::{Print, Printed};
 use crate::verify::rounding::ten_to;
@@ -33,25 +33,22 @@ impl Desk<'_> {
             Ask::Spin { body, .. } => vec![self.scene.bodies[*body].spin.clone()],
             _ => return None,
         };
-        let same = |(b, (_, value)): (&Expr, &(Expr, Expr))| {
-            matches!(
-                equality::decide(b, value, &self.scene.domains).equality,
-                Equality::Same { .. }
-            )
-        };
-        before
-            .iter()
-            .zip(pairs)
-            .all(same)
-            .then(|| "it is the value before the collision: the superscript is wrong".to_string())
+        let mut each = before.iter().zip(pairs);
+        let same = each.all(|(b, (_, value))| self.is_same(b, value));
+        same.then(|| "it is the value before the collision: the superscript is wrong".to_string())
+    }
+
+    /// Whether two formulas are one on the domain.
+    fn is_same(&self, a: &Expr, b: &Expr) -> bool {
+        let found = equality::decide(a, b, &self.scene.domains).equality;
+        matches!(found, Equality::Same { .. })
     }
 
     /// The place of a largest value, printed as the value.
     pub(super) fn place(&self, item: &str, pairs: &[(Expr, Expr)]) -> Option<String> {
         let (of, relation, place) = self.bounds.get(item)?;
         let [(_, value)] = pairs else { return None };
-        let same = equality::decide(place, value, &self.scene.domains).equality;
-        let is_place = *relation == Relation::Equal && matches!(same, Equality::Same { .. });
+        let is_place = *relation == Relation::Equal && self.is_same(place, value);
         let of = self.say(of);
         is_place
             .then(|| format!("it is the {of} at which `{item}` is largest: print it as {of} = …"))
@@ -61,25 +58,14 @@ impl Desk<'_> {
     pub(super) fn exchanged(&self, pairs: &[(Expr, Expr)]) -> Option<String> {
         let parameters = &self.scene.parameters;
         for (i, p) in parameters.iter().enumerate() {
-            for q in parameters[i + 1..]
-                .iter()
-                .filter(|q| q.dimension == p.dimension)
-            {
-                let swap = BTreeMap::from([
-                    (p.name.clone(), Expr::symbol(&q.name)),
-                    (q.name.clone(), Expr::symbol(&p.name)),
-                ]);
-                let same = |(a, b): &(Expr, Expr)| {
-                    matches!(
-                        equality::decide(a, &b.substitute(&swap), &self.scene.domains).equality,
-                        Equality::Same { .. }
-                    )
-                };
-                if pairs.iter().all(same) {
-                    return Some(format!(
-                        "it holds with {} and {} exchanged on one side",
-                        p.name, q.name
-                    ));
+            let others = parameters[i + 1..].iter();
+            for q in others.filter(|q| q.dimension == p.dimension) {
+                let swap = [(p, q), (q, p)].map(|(p, q)| (p.name.clone(), Expr::symbol(&q.name)));
+                let swap = BTreeMap::from(swap);
+                let mut each = pairs.iter();
+                if each.all(|(a, b)| self.is_same(a, &b.substitute(&swap))) {
+                    let (p, q) = (&p.name, &q.name);
+                    return Some(format!("it holds with {p} and {q} exchanged on one side"));
                 }
             }
         }
@@ -89,14 +75,9 @@ impl Desk<'_> {
     /// An equation that would hold with the sign of one side turned.
     pub(super) fn turned(&self, sides: &[Content], printed: &Printed) -> Option<String> {
         let [left, right] = sides else { return None };
-        let (l, r) = (
-            self.put_in(left.expr()?, printed).ok()?,
-            self.put_in(right.expr()?, printed).ok()?,
-        );
-        let same = matches!(
-            equality::decide(&l, &-&r, &self.scene.domains).equality,
-            Equality::Same { .. }
-        );
+        let l = self.put_in(left.expr()?, printed).ok()?;
+        let r = self.put_in(right.expr()?, printed).ok()?;
+        let same = self.is_same(&l, &-r);
         same.then(|| "it holds with the sign of one side turned".to_string())
     }
 
@@ -134,11 +115,8 @@ impl Desk<'_> {
         let point = |seed| {
             let random = numeric::random_point(&needed, &self.scene.domains, seed);
             let mut point: Point<f64> = numeric::rounded(&random);
-            let known: Vec<(Symbol, f64)> = self
-                .closed
-                .iter()
-                .filter_map(|(name, value)| Some((name.clone(), value.evaluate(&point)?)))
-                .collect();
+            let value = |(name, e): (&Symbol, &Expr)| Some((name.clone(), e.evaluate(&point)?));
+            let known: Vec<(Symbol, f64)> = self.closed.iter().filter_map(value).collect();
             point.values.extend(known);
             point
         };
@@ -159,11 +137,7 @@ impl Desk<'_> {
                 let value = changed.evaluate(at);
                 value.is_some_and(|value| near(value, *wanted))
             });
-            let proof = || {
-                let changed = changed.substitute(&self.closed);
-                equality::decide(&changed, &whole, &self.scene.domains).equality
-            };
-            seen && matches!(proof(), Equality::Same { .. })
+            seen && self.is_same(&changed.substitute(&self.closed), &whole)
         };
         let kin = |a: &Symbol, b: &Symbol| self.kin(a, b);
         let found = slip::that_fit(formula, &names, &fits, &kin, &|e| self.say(e));
@@ -174,12 +148,8 @@ impl Desk<'_> {
 
     /// One slip that makes the printed formula out of the derived one.
     pub(super) fn slip(&self, pairs: &[(Expr, Expr)]) -> Option<String> {
-        let same = |(a, b): &&(Expr, Expr)| {
-            let found = equality::decide(a, b, &self.scene.domains).equality;
-            !matches!(found, Equality::Same { .. })
-        };
-        let wrong: Vec<&(Expr, Expr)> = pairs.iter().filter(same).collect();
-        match wrong.as_slice() {
+        let wrong = pairs.iter().filter(|(a, b)| !self.is_same(a, b));
+        match wrong.collect::<Vec<_>>().as_slice() {
             [(closed, value)] => self.slip_of(closed, value),
             _ => None,
         }
@@ -192,9 +162,8 @@ impl Desk<'_> {
             return None;
         }
         let (left, right) = (left.expr()?, right.expr()?);
-        let found = self
-            .slip_of(right, left)
-            .or_else(|| self.slip_of(left, right))?;
+        let found = self.slip_of(right, left);
+        let found = found.or_else(|| self.slip_of(left, right))?;
         Some(found.replacen("comes out when", "it would hold if", 1))
     }
 
@@ -202,10 +171,7 @@ impl Desk<'_> {
     pub(super) fn caught(&self, pairs: &[(Expr, Expr)], finding: &mut Finding) {
         let known = |name: &str| self.dimensions.get(name).cloned();
         for (closed, value) in pairs {
-            if matches!(
-                equality::decide(closed, value, &self.scene.domains).equality,
-                Equality::Same { .. }
-            ) {
+            if self.is_same(closed, value) {
                 continue;
             }
             let dimensions = [closed, value].map(|e| dimension::of(e, &known).ok().flatten());
@@ -215,13 +181,9 @@ impl Desk<'_> {
                 finding.caught_by = Some(format!("dimensions: {b} instead of {a}"));
                 return;
             }
-            let minus = -value;
-            if matches!(
-                equality::decide(closed, &minus, &self.scene.domains).equality,
-                Equality::Same { .. }
-            ) {
-                finding.caught_by =
-                    Some("signs: a sketch of the motion, since only the sign is wrong".into());
+            if self.is_same(closed, &-value) {
+                let words = "signs: a sketch of the motion, since only the sign is wrong";
+                finding.caught_by = Some(words.into());
                 return;
             }
             // Limits: each parameter at 0, where both sides have a value.
@@ -239,8 +201,8 @@ impl Desk<'_> {
                 }
             }
         }
-        finding.caught_by =
-            Some("putting simple numbers in, or the result back into the laws".into());
+        let words = "putting simple numbers in, or the result back into the laws";
+        finding.caught_by = Some(words.into());
     }
 
     /// A single slip in evaluating a formula for the same quantity that gives the printed number.
@@ -268,10 +230,8 @@ impl Desk<'_> {
         formulas.extend(self.closed.get(name).cloned());
         let mut values = Point::<f64>::default();
         for p in &self.scene.parameters {
-            values.values.insert(
-                p.name.clone(),
-                p.value.as_ref()?.evaluate(&Point::default())?,
-            );
+            let value = p.value.as_ref()?.evaluate(&Point::default())?;
+            values.values.insert(p.name.clone(), value);
         }
         let kin = |a: &Symbol, b: &Symbol| self.kin(a, b);
         let printed = formulas.iter().zip(&places).find(|(e, _)| {
@@ -292,11 +252,12 @@ impl Desk<'_> {
         let found = each.into_iter().find(|found| !found.is_empty())?;
         Some(match found.len() {
             n if n <= TOLD => format!("comes out when {}", found.join("; or when ")),
-            n => format!(
-                "comes out when {}; or by one of {} other slips, too many to tell which",
-                found[0],
-                n - 1
-            ),
+            n => {
+                let (first, others) = (&found[0], n - 1);
+                format!(
+                    "comes out when {first}; or by one of {others} other slips, too many to tell which"
+                )
+            }
         })
     }
 
@@ -315,10 +276,8 @@ impl Desk<'_> {
             if findings[i].holds != Some(false) {
                 continue;
             }
-            let Ok(reading) = self.read(from, &printed[i]) else {
-                continue;
-            };
-            let Some(formula) = reading.expr() else {
+            let reading = self.read(from, &printed[i]).ok();
+            let Some(formula) = reading.as_ref().and_then(Reading::expr) else {
                 continue;
             };
             for j in 0..i {
@@ -328,25 +287,16 @@ impl Desk<'_> {
                 else {
                     continue;
                 };
-                if findings[j].holds != Some(false)
-                    || !formula.symbols().iter().any(|s| **s == **of)
-                {
+                let of_it = Symbol::from(of.as_str());
+                if findings[j].holds != Some(false) || !formula.symbols().contains(&of_it) {
                     continue;
                 }
-                let Some(wrong) = number_of(earlier) else {
+                let (Some(wrong), Some(mine)) = (number_of(earlier), number_of(text)) else {
                     continue;
                 };
-                let with = formula.substitute(&BTreeMap::from([(
-                    Symbol::from(of.as_str()),
-                    Expr::from(wrong),
-                )]));
-                let Ok([low, _]) = self.put_in(&with, &printed[i]).and_then(|e| self.value(&e))
-                else {
-                    continue;
-                };
-                let Some(mine) = number_of(text) else {
-                    continue;
-                };
+                let with = formula.substitute(&BTreeMap::from([(of_it, Expr::from(wrong))]));
+                let value = self.put_in(&with, &printed[i]).and_then(|e| self.value(&e));
+                let Ok([low, _]) = value else { continue };
                 if (mine - low).abs() <= ten_to(last_place(text)) * ratio(1, 2) {
                     findings[i].explained = Some(format!(
                         "follows from the earlier {earlier} for {of}; no misprint of its own"

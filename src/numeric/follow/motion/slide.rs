@@ -39,10 +39,9 @@ impl Acting {
             _ => None,
         };
         // The surface is below: of the two directions across the line the one that leads down.
-        let down = if along[0] > 0.0 {
-            [along[1], -along[0]]
-        } else {
-            [-along[1], along[0]]
+        let down = match along[0] > 0.0 {
+            true => [along[1], -along[0]],
+            false => [-along[1], along[0]],
         };
         let gravity = course.optional(slide.gravity.as_ref(), "gravity")?;
         let spring = match &slide.spring {
@@ -157,9 +156,10 @@ pub(in crate::numeric::follow) fn slide(
     for pulley in &ropes.pulleys {
         start[n + 3 * pulley.body + 2] = speed * pulley.spin * units.time;
     }
+    let unsolved = || course.out_of_reach("the equations of motion have no solution");
     let held = |mechanism: &Mechanism| {
         let at_start = mechanism.accelerations(&start).map(|(_, held)| held);
-        at_start.ok_or_else(|| course.out_of_reach("the equations of motion have no solution"))
+        at_start.ok_or_else(unsolved)
     };
     let presses = held(&mechanism)?;
     for (end, press) in ropes.ends.iter().zip(&presses[first..]) {
@@ -178,11 +178,8 @@ pub(in crate::numeric::follow) fn slide(
         }
     }
     let pulls = held(&mechanism)?;
-    let largest = mechanism
-        .forces
-        .iter()
-        .flatten()
-        .fold(0.0, |a: f64, f| a.max(f.abs()));
+    let forces = mechanism.forces.iter().flatten();
+    let largest = forces.fold(0.0, |a: f64, f| a.max(f.abs()));
     let tensions = &pulls[pulls.len() - ropes.parts(&units).count()..];
     if tensions.iter().any(|t| *t < -ROUNDING * largest) {
         return Err(course.contradiction("a string goes slack"));
@@ -218,9 +215,7 @@ pub(in crate::numeric::follow) fn slide(
     }
     let time = Ok(run.time * units.time);
     others(course, &before, &mut after, &bodies, &time, has_forces);
-    let rates = mechanism.accelerations(&start).map(|(rates, _)| rates);
-    let rates =
-        rates.ok_or_else(|| course.out_of_reach("the equations of motion have no solution"))?;
+    let (rates, _) = mechanism.accelerations(&start).ok_or_else(unsolved)?;
     let acceleration = units.length / (units.time * units.time);
     let driven = directions.iter().enumerate();
     let driven = driven.filter(|(_, (along, _))| *along != [0.0; 2]);
@@ -253,9 +248,8 @@ fn fits(
         None => spin.abs() * size.length,
     };
     if off.max(turning) > ROUNDING * size.speed {
-        return Err(
-            course.contradiction("it does not begin to move along the line without turning")
-        );
+        let why = "it does not begin to move along the line without turning";
+        return Err(course.contradiction(why));
     }
     if dot(&[u, v], &acting.along) < -ROUNDING * size.speed {
         return Err(course.contradiction("it begins to move against the direction of the line"));
@@ -366,9 +360,8 @@ fn on_line(
         arm: movers.arm(i).map(|r| r / units.length),
     });
     let weights = movers.inertias.iter().map(|[m, _]| m / units.force());
-    let mut forces: Vec<[f64; 3]> = weights
-        .map(|m| [m * acting.fall[0], m * acting.fall[1], 0.0])
-        .collect();
+    let weights = weights.map(|m| [m * acting.fall[0], m * acting.fall[1], 0.0]);
+    let mut forces: Vec<[f64; 3]> = weights.collect();
     for (total, along) in forces[0].iter_mut().zip(acting.along) {
         *total += acting.force * along / units.force();
     }

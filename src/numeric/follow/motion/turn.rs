@@ -31,18 +31,13 @@ impl Rotation {
         let n = movers.bodies.len();
         let mass = movers.inertias.iter().fold(0.0, |a: f64, i| a.max(i[0]));
         let gyration = |[m, i]: [f64; 2]| if m > 0.0 { (i / m).sqrt() } else { 0.0 };
-        let length = (0..n)
-            .map(|i| {
-                movers.arm(i)[0]
-                    .hypot(movers.arm(i)[1])
-                    .max(gyration(movers.inertias[i]))
-            })
-            .fold(0.0, f64::max);
+        let reach = |i: usize| {
+            let [x, y] = movers.arm(i);
+            x.hypot(y).max(gyration(movers.inertias[i]))
+        };
+        let length = (0..n).map(reach).fold(0.0, f64::max);
         if !(mass > 0.0 && length > 0.0) {
-            return Err(course.contradiction(format!(
-                "what turns has no moment of inertia about {}",
-                turn.about_name
-            )));
+            return Err(without_inertia(course, turn));
         }
         let mut rotation = Rotation {
             spin: angular_velocity(course, &movers),
@@ -68,24 +63,23 @@ impl Rotation {
         let w = self.spin;
         let start = self.movers.start(&self.units);
         let pulls = self.accelerations(1.0, &start).map_or(0.0, |a| a.abs());
-        let fastest = (0..self.movers.bodies.len())
-            .map(|i| self.movers.states[i][3].hypot(self.movers.states[i][4]))
-            .fold((w.abs() + pulls.sqrt()) * self.units.length, f64::max);
+        let least = (w.abs() + pulls.sqrt()) * self.units.length;
+        let speeds = self.movers.states.iter().map(|s| s[3].hypot(s[4]));
+        let fastest = speeds.fold(least, f64::max);
         for i in 0..self.movers.bodies.len() {
             let r = self.movers.arm(i);
             let [.., u, v, spin] = self.movers.states[i];
             let gap = (u + w * r[1]).hypot(v - w * r[0]);
             let is_rigid = course.solids[self.movers.bodies[i]].freedom == Freedom::Rigid;
-            let slip = if is_rigid {
-                (spin - w).abs() * self.units.length
-            } else {
-                0.0
+            let slip = match is_rigid {
+                true => (spin - w).abs() * self.units.length,
+                false => 0.0,
             };
             if gap.max(slip) > ROUNDING * fastest {
-                return Err(course.contradiction(format!(
-                    "at its beginning `{}` does not turn about {}",
-                    course.solids[self.movers.bodies[i]].name, turn.about_name
-                )));
+                let name = &course.solids[self.movers.bodies[i]].name;
+                let about = &turn.about_name;
+                let why = format!("at its beginning `{name}` does not turn about {about}");
+                return Err(course.contradiction(why));
             }
             // What is left is rounding; from here on the constraints hold.
             self.movers.states[i][3] = -w * r[1];
@@ -97,12 +91,7 @@ impl Rotation {
 
     /// The sense of the rotation, whether a push is needed, and the unit of time.
     fn decide(&mut self, course: &Course<'_>, turn: &Turn) -> Result<(), Lost> {
-        let broken = || {
-            course.contradiction(format!(
-                "what turns has no moment of inertia about {}",
-                turn.about_name
-            ))
-        };
+        let broken = || without_inertia(course, turn);
         let start = self.movers.start(&self.units);
         let torque = std::mem::replace(&mut self.torque, 0.0);
         let mut weight = 0.0f64;
@@ -122,12 +111,8 @@ impl Rotation {
         let lasts = matches!(turn.until, Until::For(_));
         self.way = match (moves, declared) {
             (true, Some(way)) if way * self.spin < 0.0 => {
-                let sense = if way > 0.0 {
-                    "clockwise"
-                } else {
-                    "counterclockwise"
-                };
-                return Err(course.contradiction(format!("it begins to turn {sense}")));
+                let sense = if way > 0.0 { "" } else { "counter" };
+                return Err(course.contradiction(format!("it begins to turn {sense}clockwise")));
             }
             (true, _) => self.spin.signum(),
             (false, Some(way)) => way,
@@ -136,8 +121,8 @@ impl Rotation {
             (false, None) if !self.is_balanced && self.rate > 0.0 => begins.signum(),
             (false, None) if lasts => 1.0,
             (false, None) => {
-                return Err(course
-                    .contradiction("it is at rest, and nothing says which way it begins to turn"));
+                let why = "it is at rest, and nothing says which way it begins to turn";
+                return Err(course.contradiction(why));
             }
         };
         let unit = 1.0 / (self.rate.sqrt() + self.spin.abs());
@@ -165,12 +150,9 @@ impl Rotation {
                 arm: [u - x, v - y],
             }
         }));
-        let mut forces: Vec<[f64; 3]> = self
-            .movers
-            .inertias
-            .iter()
-            .map(|[m, _]| [0.0, -m * self.gravity / units.force(), 0.0])
-            .collect();
+        let masses = self.movers.inertias.iter().map(|i| i[0]);
+        let weights = masses.map(|m| [0.0, -m * self.gravity / units.force(), 0.0]);
+        let mut forces: Vec<[f64; 3]> = weights.collect();
         forces[0][2] = way * self.torque / (units.force() * units.length);
         Mechanism {
             inertias: self.movers.scaled(units),
@@ -206,11 +188,8 @@ impl Rotation {
         let target = [0.0, if is_above { 1.0 } else { -1.0 }];
         let angle = (self.way * cross(&center, &target)).atan2(dot(&center, &target));
         let angle = angle.rem_euclid(TAU);
-        Ok(if (ROUNDING..TAU - ROUNDING).contains(&angle) {
-            angle
-        } else {
-            TAU
-        })
+        let is_ahead = (ROUNDING..TAU - ROUNDING).contains(&angle);
+        Ok(if is_ahead { angle } else { TAU })
     }
 
     fn run(&self, course: &Course<'_>, turn: &Turn, mechanism: &Mechanism) -> Result<Run, Lost> {
@@ -248,12 +227,8 @@ impl Rotation {
                 }
                 (by, None)
             }
-            Until::Above => {
-                let angle = self.angle_to(course, true)?;
-                (angle, Some(angle - TAU))
-            }
-            Until::Below => {
-                let angle = self.angle_to(course, false)?;
+            Until::Above | Until::Below => {
+                let angle = self.angle_to(course, matches!(turn.until, Until::Above))?;
                 (angle, Some(angle - TAU))
             }
         };
@@ -299,6 +274,11 @@ fn angular_velocity(course: &Course<'_>, movers: &Movers) -> f64 {
     })
 }
 
+fn without_inertia(course: &Course<'_>, turn: &Turn) -> Lost {
+    let about = &turn.about_name;
+    course.contradiction(format!("what turns has no moment of inertia about {about}"))
+}
+
 /// A state turned about the origin.
 fn turned(y: &[f64], angle: f64) -> Vec<f64> {
     let (s, c) = angle.sin_cos();
@@ -319,14 +299,12 @@ pub(in crate::numeric::follow) fn turn(
     before: State,
     turn: &Turn,
 ) -> Result<Passed, Lost> {
-    let mut bodies = turn.bodies();
-    let mut seen = Vec::new();
-    bodies.retain(|b| {
-        !seen.contains(b) && {
-            seen.push(*b);
-            true
+    let mut bodies: Vec<usize> = Vec::new();
+    for b in turn.bodies() {
+        if !bodies.contains(&b) {
+            bodies.push(b);
         }
-    });
+    }
     let has_forces = turn.gravity.is_some() || turn.torque.is_some();
     // The bodies first: where they are open, the fixed point may have no value either.
     let Ok(mut movers) = Movers::of(course, &bodies, &before, [0.0; 2]) else {

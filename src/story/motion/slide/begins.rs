@@ -17,11 +17,9 @@ pub(super) fn fits(stage: &Stage, before: &State, slide: &Slide) -> Result<(), R
     for p in slide.pulleys() {
         let zero = |e: &Expr| is_zero(e, &stage.scene.domains) != Some(false);
         if !before.velocity[p].iter().all(zero) {
-            return Err(Refused::new(
-                &stage.name,
-                format!("the center of `{}` moves", stage.scene.bodies[p].name),
-                "a string runs over pulleys whose centers stay",
-            ));
+            let why = format!("the center of `{}` moves", stage.scene.bodies[p].name);
+            let hint = "a string runs over pulleys whose centers stay";
+            return Err(Refused::new(&stage.name, why, hint));
         }
     }
     Ok(())
@@ -54,11 +52,8 @@ pub(super) fn fits_line(
         let refuse = |does: &str, e: &Expr, hint: &str| {
             let value = write_plain(&tidy(e, domains).unwrap_or_else(|_| e.clone()));
             let words = format!("`{}` does not begin to move along this line", body.name);
-            Err(Refused::new(
-                &stage.name,
-                format!("{words}: {does} {value}"),
-                hint,
-            ))
+            let why = format!("{words}: {does} {value}");
+            Err(Refused::new(&stage.name, why, hint))
         };
         let aside = dot(v, &across);
         if is_zero(&aside, domains) == Some(false) {
@@ -75,14 +70,12 @@ pub(super) fn fits_line(
         }
         let gap = &dot(v, direction) - &speed;
         if is_zero(&gap, domains) == Some(false) {
-            return Err(Refused::new(
-                &stage.name,
-                format!(
-                    "`{}` does not begin to move {how} `{}`",
-                    body.name, stage.scene.bodies[slide.body].name
-                ),
-                "bodies move along together after an impact in which they stick",
-            ));
+            let why = format!(
+                "`{}` does not begin to move {how} `{}`",
+                body.name, stage.scene.bodies[slide.body].name
+            );
+            let hint = "bodies move along together after an impact in which they stick";
+            return Err(Refused::new(&stage.name, why, hint));
         }
     }
     Ok(())
@@ -110,14 +103,13 @@ pub(super) fn rims(line: &Line<'_>, before: &State) -> Result<(), Refused> {
         let body = &scene.bodies[pulley];
         let gap = &before.spin[pulley] - &(spin * &line.speed);
         if !body.is_light_pulley() && is_zero(&gap, &scene.domains) == Some(false) {
-            return Err(Refused::new(
-                &line.stage.name,
-                format!(
-                    "the rim of `{}` does not begin to move with the string",
-                    body.name
-                ),
-                "put an impact before it in which the string pulls, or give it a spin that fits",
-            ));
+            let why = format!(
+                "the rim of `{}` does not begin to move with the string",
+                body.name
+            );
+            let hint =
+                "put an impact before it in which the string pulls, or give it a spin that fits";
+            return Err(Refused::new(&line.stage.name, why, hint));
         }
     }
     Ok(())
@@ -134,15 +126,12 @@ pub(super) fn not_negative(
     match sign(size, &stage.scene.domains) {
         Seen::Proved(s) if s.is_not_negative() => {}
         Seen::Proved(_) | Seen::Negative => {
-            return Err(Refused::new(
-                &stage.name,
-                format!(
-                    "`{}` is to move along the line, and its {what} along it, {}, is negative",
-                    stage.scene.bodies[slide.body].name,
-                    write_plain(size)
-                ),
-                "turn the direction round",
-            ));
+            let why = format!(
+                "`{}` is to move along the line, and its {what} along it, {}, is negative",
+                stage.scene.bodies[slide.body].name,
+                write_plain(size)
+            );
+            return Err(Refused::new(&stage.name, why, "turn the direction round"));
         }
         _ => assumptions.push(sentence![
             at_least_zero(size, &stage.scene.domains),

@@ -50,15 +50,13 @@ pub(in crate::story) fn sense(
                 None => Seen::Mixed,
             };
             if let Seen::Proved(Sign::Negative | Sign::NotPositive) = pull {
-                return Err(Refused::new(
-                    &stage.name,
-                    format!(
-                        "`{body}` is at rest, and its weight turns it {}, not {}",
-                        sense_words(-d),
-                        sense_words(d)
-                    ),
-                    "leave `clockwise` out, or give it a spin",
-                ));
+                let why = format!(
+                    "`{body}` is at rest, and its weight turns it {}, not {}",
+                    sense_words(-d),
+                    sense_words(d)
+                );
+                let hint = "leave `clockwise` out, or give it a spin";
+                return Err(Refused::new(&stage.name, why, hint));
             }
             Ok((d, None))
         }
@@ -99,11 +97,9 @@ fn from_rest(stage: &Stage, turn: &Turn) -> Result<(i64, Option<(Expr, Sentence)
         Some(Sign::Positive) => 1,
         Some(Sign::Negative) => -1,
         _ => {
-            return Err(Refused::new(
-                &stage.name,
-                format!("`{body}` is at rest, and nothing says which way it begins to turn"),
-                "add \"clockwise\": true or false, a moment, or the domain or value of the angle at which it begins",
-            ));
+            let why = format!("`{body}` is at rest, and nothing says which way it begins to turn");
+            let hint = "add \"clockwise\": true or false, a moment, or the domain or value of the angle at which it begins";
+            return Err(Refused::new(&stage.name, why, hint));
         }
     };
     let need = tidied(stage, &(&Expr::from(way) * &moment))?;
@@ -146,24 +142,20 @@ pub(super) fn fits(stage: &Stage, before: &State, turn: &Turn, spin: &Expr) -> R
         }
         let moves = |gap: &Expr| is_zero(gap, &stage.scene.domains) == Some(false);
         if gaps.iter().any(moves) && b != turn.body {
-            return Err(Refused::new(
-                &stage.name,
-                format!(
-                    "`{}` does not begin to turn like `{}`",
-                    body.name, stage.scene.bodies[turn.body].name
-                ),
-                "bodies turn along together after an impact in which they stick; what stuck before holds on in a later impact where a contact says so there, too",
-            ));
+            let why = format!(
+                "`{}` does not begin to turn like `{}`",
+                body.name, stage.scene.bodies[turn.body].name
+            );
+            let hint = "bodies turn along together after an impact in which they stick; what stuck before holds on in a later impact where a contact says so there, too";
+            return Err(Refused::new(&stage.name, why, hint));
         }
         if gaps.iter().any(moves) {
-            return Err(Refused::new(
-                &stage.name,
-                format!(
-                    "at its beginning the point {} of `{}` moves, so the body does not turn about it, and energy cannot carry over the jump that stops it",
-                    turn.about_name, body.name
-                ),
-                "put an impact before it, in which the point is caught, or begin with a velocity {\"about\": …}",
-            ));
+            let why = format!(
+                "at its beginning the point {} of `{}` moves, so the body does not turn about it, and energy cannot carry over the jump that stops it",
+                turn.about_name, body.name
+            );
+            let hint = "put an impact before it, in which the point is caught, or begin with a velocity {\"about\": …}";
+            return Err(Refused::new(&stage.name, why, hint));
         }
     }
     Ok(())
