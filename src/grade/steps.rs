@@ -337,6 +337,9 @@ impl<'a> Desk<'a> {
 
     /// A line is as good as its worst equation.
     fn line(&mut self, number: usize, text: &str, options: &Options) -> (Status, Vec<Diagnosis>) {
+        if let Some(status) = self.in_case(text) {
+            return (status, Vec::new());
+        }
         let mut line = (Status::Comment, Vec::new());
         for equation in text::equations(text) {
             let turned = self.with_sense(equation);

@@ -5,11 +5,13 @@ use std::collections::BTreeMap;
 use super::super::relation::{proportional, solve_for};
 use super::super::sheet::{Entry, Sheet};
 use super::super::{Diagnosis, Options, Verdict};
+use super::text::supposition;
 use super::{Desk, Final, Status};
 use crate::algebra::{self, Sign};
 use crate::answer::Answer;
+use crate::equality::{self, Equality};
 use crate::expr::{Expr, Function, Symbol};
-use crate::formula::{Content, Reading, Relation};
+use crate::formula::{self, Content, Reading, Relation};
 use crate::scene::Ask;
 
 /// One equality of a line.
@@ -139,6 +141,38 @@ impl Desk<'_> {
         }
         let pairs = sides.windows(2);
         pairs.map(|pair| self.link(&pair[0], &pair[1])).collect()
+    }
+
+    /// Whether what a line says of one value of a parameter is so: `For θ = 0: ω = 3v/(2l)`. Nothing later hangs on it.
+    pub(super) fn in_case(&self, text: &str) -> Option<Status> {
+        let (given, behind) = supposition(text)?;
+        let [read, then] = [given, behind].map(|part| formula::read(part, &self.symbols(part)));
+        let (Content::Relations(sides, signs), then) = (read.ok()?.content, then.ok()?) else {
+            return None;
+        };
+        let ([name, value], [Relation::Equal]) = (&sides[..], &signs[..]) else {
+            return None;
+        };
+        let (name, value) = (name.expr()?.as_symbol()?, value.expr()?);
+        let is_parameter = self.sheet.scene.parameters.iter().any(|p| p.name == *name);
+        if !is_parameter || value.symbols().contains(name) {
+            return None;
+        }
+        let there = BTreeMap::from([(name.clone(), value.clone())]);
+        let links = self.links(&then)?;
+        let differences = links.iter().flat_map(|link| &link.differences);
+        let zero = differences.map(|d| {
+            let left = self.put_in(d, &BTreeMap::new()).substitute(&there);
+            equality::decide(&left, &Expr::zero(), &self.sheet.scene.domains).equality
+        });
+        let zero: Vec<Equality> = zero.collect();
+        Some(if zero.iter().all(|z| matches!(z, Equality::Same { .. })) {
+            Status::Holds
+        } else if zero.iter().any(|z| matches!(z, Equality::Different(_))) {
+            Status::Wrong
+        } else {
+            Status::Undecided
+        })
     }
 
     /// Judges links one by one.

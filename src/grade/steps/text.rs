@@ -57,6 +57,21 @@ pub(super) fn equations(text: &str) -> Vec<&str> {
     out
 }
 
+/// What a line supposes and what follows then: `For θ = 0: ω = 3v/(2l)`, `If e = 1, E = 0`.
+pub(super) fn supposition(text: &str) -> Option<(&str, &str)> {
+    let lead = text.split(' ').next()?;
+    let supposes = ["for", "if", "when", "setting", "at"].contains(&&*lead.to_ascii_lowercase());
+    let rest = text.get(lead.len()..).filter(|_| supposes)?;
+    let ends = [": ", ", ", " gives ", " then ", " we get ", " we find "];
+    let (at, end) = ends
+        .iter()
+        .filter_map(|end| Some((rest.find(end)?, end)))
+        .min()?;
+    let (given, behind) = (&rest[..at], &rest[at + end.len()..]);
+    let both = relates(given) && relates(behind);
+    both.then(|| (given.trim_matches([' ', '$']), equation(behind)))
+}
+
 /// A line without what aligns it with others in LaTeX: `ω &= 3v/(2ℓ) \\\\`.
 pub(super) fn unaligned(line: &str) -> String {
     let line = line.trim_end_matches("\\\\").trim_end();
