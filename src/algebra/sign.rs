@@ -26,6 +26,20 @@ pub(crate) struct Interval {
     pub high: Option<(Rational, bool)>,
 }
 
+impl Interval {
+    /// The open interval between two fractions.
+    fn open(low: Rational, high: Rational) -> Interval {
+        let [low, high] = [low, high].map(|end| Some((end, true)));
+        Interval { low, high }
+    }
+
+    /// Everything above zero.
+    pub fn above_zero(open: bool) -> Interval {
+        let low = Some((ratio(0, 1), open));
+        Interval { low, high: None }
+    }
+}
+
 /// What a variable that stands for another one may also be.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct End {
@@ -338,55 +352,31 @@ impl Field {
     /// The interval of a symbol; multiples of π that are not 0 are enclosed from outside.
     pub(crate) fn interval(&self, name: &Symbol) -> Interval {
         if &**name == "pi" {
-            return Interval {
-                low: Some((ratio(333, 106), true)),
-                high: Some((ratio(355, 113), true)),
-            };
+            return Interval::open(ratio(333, 106), ratio(355, 113));
         }
         if let Some(domain) = self.domains.symbols.get(name) {
-            let end = |limit: &Option<Limit>, outward: i64| {
+            let end = |limit: &Option<Limit>, upward: bool| {
                 limit.as_ref().map(|l| {
-                    if l.of_pi && !l.value.is_zero() {
-                        let away = if outward * if l.value.is_negative() { -1 } else { 1 } > 0 {
-                            ratio(355, 113)
-                        } else {
-                            ratio(333, 106)
-                        };
-                        (&l.value * away, true)
-                    } else {
-                        (l.value.clone(), l.open)
+                    if !l.of_pi || l.value.is_zero() {
+                        return (l.value.clone(), l.open);
+                    }
+                    match upward != l.value.is_negative() {
+                        true => (&l.value * ratio(355, 113), true),
+                        false => (&l.value * ratio(333, 106), true),
                     }
                 })
             };
-            return Interval {
-                low: end(&domain.low, -1),
-                high: end(&domain.high, 1),
-            };
+            let (low, high) = (end(&domain.low, false), end(&domain.high, true));
+            return Interval { low, high };
         }
-        if self
-            .domains
-            .unit_vectors
-            .iter()
-            .any(|pair| pair.contains(name))
-        {
-            return Interval {
-                low: Some((ratio(-1, 1), false)),
-                high: Some((ratio(1, 1), false)),
-            };
+        if self.domains.is_component(name) {
+            let [low, high] = [-1, 1].map(|end| Some((ratio(end, 1), false)));
+            return Interval { low, high };
         }
-        if self
-            .bases
-            .iter()
-            .any(|b| matches!(&b.of, AngleOf::Symbol(s) if s == name))
-        {
-            return Interval {
-                low: Some((ratio(0, 1), true)),
-                high: Some((ratio(355, 226), true)),
-            };
-        }
-        Interval {
-            low: Some((ratio(0, 1), true)),
-            high: None,
+        let mut angles = self.bases.iter();
+        match angles.any(|b| matches!(&b.of, AngleOf::Symbol(s) if s == name)) {
+            true => Interval::open(ratio(0, 1), ratio(355, 226)),
+            false => Interval::above_zero(true),
         }
     }
 
@@ -398,20 +388,16 @@ impl Field {
         };
         let divisor = ratio(1, i64::from(base.divisor));
         let Some(domain) = self.domains.symbols.get(name) else {
-            return Some(Interval {
-                low: Some((ratio(0, 1), true)),
-                high: Some((ratio(1, 2) * divisor, true)),
-            });
+            return Some(Interval::open(ratio(0, 1), ratio(1, 2) * divisor));
         };
         let end = |limit: &Option<Limit>, up: bool| {
             limit.as_ref().map(|l| {
                 if l.of_pi || l.value.is_zero() {
                     return (&l.value * &divisor, l.open);
                 }
-                let over = if up ^ l.value.is_negative() {
-                    ratio(106, 333)
-                } else {
-                    ratio(113, 355)
+                let over = match up != l.value.is_negative() {
+                    true => ratio(106, 333),
+                    false => ratio(113, 355),
                 };
                 (&l.value * over * &divisor, true)
             })

@@ -117,19 +117,16 @@ impl Field {
             };
             // Even in the base angle together: go to the double angle, where more ends are fractions of π with rational tangents.
             while let Some(doubled) = self.double_angle(&p, base.cos, base.sin) {
-                let two = ratio(2, 1);
-                let next = Interval {
-                    low: range.low.as_ref().map(|(v, o)| (v * &two, *o)),
-                    high: range.high.as_ref().map(|(v, o)| (v * &two, *o)),
+                let twice = |end: &(Rational, bool)| (&end.0 * ratio(2, 1), end.1);
+                let [low, high] = [&range.low, &range.high].map(|end| end.as_ref().map(twice));
+                let fits = |end: &&Option<(Rational, bool)>| {
+                    end.as_ref().is_some_and(|(v, _)| v.abs() <= ratio(1, 1))
                 };
-                if ![&next.low, &next.high]
-                    .iter()
-                    .all(|e| e.as_ref().is_some_and(|(v, _)| v.abs() <= ratio(1, 1)))
-                {
+                if ![&low, &high].iter().all(fits) {
                     break;
                 }
                 p = doubled;
-                range = next;
+                range = Interval { low, high };
                 if !p.has(base.cos) && !p.has(base.sin) {
                     break;
                 }
@@ -153,10 +150,7 @@ impl Field {
             if let Kind::Symbol(name) = &self.gens[v].kind {
                 let excess = excesses.iter().find(|(e, _)| *e == v);
                 let range = match excess {
-                    Some((_, closed)) => Interval {
-                        low: Some((Rational::zero(), !closed)),
-                        high: None,
-                    },
+                    Some((_, closed)) => Interval::above_zero(!closed),
                     None => self.interval(name),
                 };
                 axes.push(Axis {

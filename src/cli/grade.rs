@@ -223,11 +223,7 @@ fn question(args: &GradeArgs) -> Result<Question, Failure> {
         };
         let read = entry::domain(&value).map_err(|what| wrong(&what))?;
         question.domains.symbols.insert(name.into(), read);
-        question.symbols.push(Given {
-            name: name.into(),
-            latex: None,
-            dimension: None,
-        });
+        question.symbols.push(Given::named(name));
     }
     Ok(question)
 }

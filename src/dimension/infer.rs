@@ -52,43 +52,31 @@ impl Clash {
                 right,
                 right_is,
             } => {
-                let minus = if right.begins_with_minus() {
-                    "−"
-                } else {
-                    "+"
+                let (sign, size) = match right.begins_with_minus() {
+                    true => ("−", -right),
+                    false => ("+", right.clone()),
                 };
-                let size = if minus == "−" { &-right } else { right };
-                let parts = format!(
-                    "{} {minus} {}: {left_is} against {right_is}",
-                    write(left),
-                    write(size)
-                );
+                let (first, size) = (write(left), write(&size));
                 let plain = [left, right].into_iter().find(|e| e.as_number().is_some());
-                let hint = match plain {
-                    Some(number) => format!(
-                        "{} has no unit: let a parameter with a unit stand for it",
-                        write(number)
-                    ),
-                    None => missing(left_is, right_is, &write(size)),
+                let hint = match plain.map(write) {
+                    Some(number) => {
+                        format!("{number} has no unit: let a parameter with a unit stand for it")
+                    }
+                    None => missing(left_is, right_is, &size),
                 };
-                format!("{parts}; {hint}")
+                format!("{first} {sign} {size}: {left_is} against {right_is}; {hint}")
             }
             Clash::NotANumber {
                 whole,
                 argument,
                 is,
             } => {
-                format!(
-                    "in {}, {} should be a number and is {is}",
-                    write(whole),
-                    write(argument)
-                )
+                let (whole, argument) = (write(whole), write(argument));
+                format!("in {whole}, {argument} should be a number and is {is}")
             }
             Clash::OpenPower { whole, base_is } => {
-                format!(
-                    "{} raises {base_is} to a power that is no fixed number",
-                    write(whole)
-                )
+                let whole = write(whole);
+                format!("{whole} raises {base_is} to a power that is no fixed number")
             }
         }
     }
@@ -96,10 +84,8 @@ impl Clash {
 
 /// Tells which factor would bring `found` to `expected`.
 fn missing(expected: &Dimension, found: &Dimension, name: &str) -> String {
-    format!(
-        "a factor of dimension {} is missing in {name}",
-        expected.over(found).plain()
-    )
+    let factor = expected.over(found).plain();
+    format!("a factor of dimension {factor} is missing in {name}")
 }
 
 /// The dimension of an expression; `None` for a literal 0, which fits everything. Numbers and angles have no dimension.

@@ -36,12 +36,17 @@ const NAMES: [&str; 5] = ["mass", "length", "time", "current", "temperature"];
 impl Dimension {
     /// The dimension mass^`mass` · length^`length` · time^`time`.
     pub fn new(mass: i64, length: i64, time: i64) -> Dimension {
-        let whole = |k| crate::expr::ratio(k, 1);
+        Dimension::of([mass, length, time, 0, 0].map(|k| crate::expr::ratio(k, 1)))
+    }
+
+    /// The dimension with these exponents of mass, length, time, current and temperature.
+    fn of([mass, length, time, current, temperature]: [Rational; 5]) -> Dimension {
         Dimension {
-            mass: whole(mass),
-            length: whole(length),
-            time: whole(time),
-            ..Dimension::default()
+            mass,
+            length,
+            time,
+            current,
+            temperature,
         }
     }
 
@@ -56,13 +61,14 @@ impl Dimension {
     }
 
     fn exponents(&self) -> [&Rational; 5] {
-        [
-            &self.mass,
-            &self.length,
-            &self.time,
-            &self.current,
-            &self.temperature,
-        ]
+        let [mass, length, time] = [&self.mass, &self.length, &self.time];
+        [mass, length, time, &self.current, &self.temperature]
+    }
+
+    /// What it is made of, with the exponents that are not zero.
+    pub(crate) fn powers(&self) -> impl Iterator<Item = (&'static str, &Rational)> {
+        let all = NAMES.into_iter().zip(self.exponents());
+        all.filter(|(_, k)| !k.is_zero())
     }
 
     /// Dimension of a product.
@@ -72,13 +78,8 @@ impl Dimension {
             (true, _) => b.clone(),
             _ => a + b,
         };
-        Dimension {
-            mass: added(&self.mass, &other.mass),
-            length: added(&self.length, &other.length),
-            time: added(&self.time, &other.time),
-            current: added(&self.current, &other.current),
-            temperature: added(&self.temperature, &other.temperature),
-        }
+        let (mine, theirs) = (self.exponents(), other.exponents());
+        Dimension::of(std::array::from_fn(|i| added(mine[i], theirs[i])))
     }
 
     /// Dimension of a quotient.
@@ -93,23 +94,14 @@ impl Dimension {
             true => a.clone(),
             false => a * exponent,
         };
-        Dimension {
-            mass: times(&self.mass),
-            length: times(&self.length),
-            time: times(&self.time),
-            current: times(&self.current),
-            temperature: times(&self.temperature),
-        }
+        Dimension::of(self.exponents().map(times))
     }
 
     /// In plain characters, such as `mass*length^2/time`; `1` without dimension.
     pub fn plain(&self) -> String {
-        self.spell(NAMES, "*", |k| {
-            if k.is_integer() {
-                format!("^{k}")
-            } else {
-                format!("^({k})")
-            }
+        self.spell(NAMES, "*", |k| match k.is_integer() {
+            true => format!("^{k}"),
+            false => format!("^({k})"),
         })
     }
 
@@ -141,25 +133,19 @@ impl Dimension {
     }
 
     fn spell(&self, names: [&str; 5], times: &str, raise: impl Fn(&Rational) -> String) -> String {
-        let part = |positive: bool| {
-            let mut parts = Vec::new();
-            for (name, k) in names.iter().zip(self.exponents()) {
-                if !k.is_zero() && k.is_positive() == positive {
-                    let size = k.abs();
-                    parts.push(if size.is_one() {
-                        (*name).to_string()
-                    } else {
-                        format!("{name}{}", raise(&size))
-                    });
-                }
-            }
-            parts
+        let all = || names.iter().zip(self.exponents());
+        let part = |positive: bool| -> Vec<String> {
+            let mine = all().filter(|(_, k)| !k.is_zero() && k.is_positive() == positive);
+            mine.map(|(name, k)| match k.abs() {
+                size if size.is_one() => (*name).to_string(),
+                size => format!("{name}{}", raise(&size)),
+            })
+            .collect()
         };
         let (above, below) = (part(true), part(false));
-        let numerator = if above.is_empty() {
-            "1".to_string()
-        } else {
-            above.join(times)
+        let numerator = match above.is_empty() {
+            true => "1".to_string(),
+            false => above.join(times),
         };
         match below.as_slice() {
             [] => numerator,

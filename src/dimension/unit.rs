@@ -37,18 +37,15 @@ impl Unit {
     pub fn coherent(dimension: Dimension) -> Unit {
         Unit {
             dimension,
-            ..Unit::number()
-        }
-    }
-
-    fn number() -> Unit {
-        Unit {
-            dimension: Dimension::none(),
             factor: Rational::one(),
             pi: Rational::zero(),
             angle: false,
             cycles: false,
         }
+    }
+
+    fn number() -> Unit {
+        Unit::coherent(Dimension::none())
     }
 
     fn times(&self, other: &Unit, power: i64) -> Unit {
@@ -76,17 +73,15 @@ pub struct UnitFault {
 
 /// Longest unit text looked at, in bytes.
 const LONGEST: usize = 80;
+const NONE: &str = "this is no unit";
 /// Largest exponent of a unit.
 const HIGHEST: i64 = 12;
 
 /// Reads a unit; the whole text is consumed or it is a fault. `1` and the empty text are the unit of a pure number.
 pub fn unit(text: &str) -> Result<Unit, UnitFault> {
     if text.len() > LONGEST {
-        return Err(fault(
-            format!("a unit has at most {LONGEST} bytes"),
-            0,
-            text.len(),
-        ));
+        let message = format!("a unit has at most {LONGEST} bytes");
+        return fault(message, 0, text.len());
     }
     let mut reader = Reader { text, at: 0 };
     reader.product(0)
@@ -110,11 +105,8 @@ impl<'a> Reader<'a> {
             match c {
                 ')' if depth > 0 => break,
                 '*' | '·' | '⋅' | '•' | '∙' | '.' | '×' | '/' if waiting || before == 0 => {
-                    return Err(fault(
-                        format!("a unit is missing before `{c}`"),
-                        self.at,
-                        self.at + c.len_utf8(),
-                    ));
+                    let message = format!("a unit is missing before `{c}`");
+                    return fault(message, self.at, self.at + c.len_utf8());
                 }
                 // `N-s` and `kg-m²`: a hyphen between two units ties them.
                 '*' | '·' | '⋅' | '•' | '∙' | '.' | '×' | '-' if c != '-' || self.hyphen() =>
@@ -122,7 +114,7 @@ impl<'a> Reader<'a> {
                     self.at += c.len_utf8();
                     // kg/m·s: the dot multiplies the denominator for some and the whole for others.
                     if over && below > 0 {
-                        return Err(self.unclear(before));
+                        return self.unclear(before);
                     }
                     waiting = true;
                     continue;
@@ -136,7 +128,7 @@ impl<'a> Reader<'a> {
                 _ => {}
             }
             if over && below > 0 {
-                return Err(self.unclear(before));
+                return self.unclear(before);
             }
             let start = self.at;
             let atom = self.atom(depth)?;
@@ -148,7 +140,7 @@ impl<'a> Reader<'a> {
             // Nobody squares litres: `mL^2` is a mass and the square of a length.
             if power.abs() > 1 && matches!(word, "L" | "l" | "mL" | "ml") {
                 let message = format!("the square of `{word}` is no unit");
-                return Err(fault(message, start, self.at));
+                return fault(message, start, self.at);
             }
             let signed = if over { -power } else { power };
             if over {
@@ -159,16 +151,13 @@ impl<'a> Reader<'a> {
                 before => before.unwrap_or_else(Unit::number).times(&atom, signed),
             });
             if self.at == start {
-                return Err(fault("this is no unit".into(), start, self.text.len()));
+                return fault(NONE, start, self.text.len());
             }
             waiting = false;
         }
         if waiting {
-            return Err(fault(
-                "the unit ends where another one is expected".into(),
-                self.text.len(),
-                self.text.len(),
-            ));
+            let message = "the unit ends where another one is expected";
+            return fault(message, self.text.len(), self.text.len());
         }
         Ok(total.unwrap_or_else(Unit::number))
     }
@@ -186,9 +175,9 @@ impl<'a> Reader<'a> {
         first && behind.starts_with(|c: char| c.is_ascii_alphabetic())
     }
 
-    fn unclear(&self, at: usize) -> UnitFault {
+    fn unclear(&self, at: usize) -> Result<Unit, UnitFault> {
         let message = "what is below the slash is unclear; write brackets, as in kg/(m s)";
-        fault(message.into(), at, self.text.len())
+        fault(message, at, self.text.len())
     }
 
     fn atom(&mut self, depth: u32) -> Result<Unit, UnitFault> {
@@ -198,11 +187,7 @@ impl<'a> Reader<'a> {
                 self.at += 1;
                 let inner = self.product(depth + 1)?;
                 if self.peek() != Some(')') {
-                    return Err(fault(
-                        "the bracket is not closed".into(),
-                        start,
-                        self.text.len(),
-                    ));
+                    return fault("the bracket is not closed", start, self.text.len());
                 }
                 self.at += 1;
                 Ok(inner)
@@ -213,15 +198,12 @@ impl<'a> Reader<'a> {
             }
             Some('°') => {
                 self.at += '°'.len_utf8();
-                plain("°").ok_or_else(|| fault("this is no unit".into(), start, self.at))
+                plain("°").map_or_else(|| fault(NONE, start, self.at), Ok)
             }
             _ => {
                 let rest = &self.text[start..];
-                let length = rest
-                    .find(|c: char| {
-                        !(c.is_ascii_alphabetic() || matches!(c, 'µ' | 'μ' | 'Ω' | '\u{2126}'))
-                    })
-                    .unwrap_or(rest.len());
+                let letter = |c: char| c.is_ascii_alphabetic() || "µμΩ\u{2126}".contains(c);
+                let length = rest.find(|c| !letter(c)).unwrap_or(rest.len());
                 // `kgm`, `kgms` and `rads` are written for kg·m, kg·m·s and rad·s by many, and are nothing else; `rads` alone
                 // or above a slash is more than one.
                 let plural = matches!(rest[length..].chars().next(), None | Some('/' | ' '));
@@ -232,14 +214,11 @@ impl<'a> Reader<'a> {
                 };
                 let word = &rest[..length];
                 let end = start + length.max(rest.chars().next().map_or(0, char::len_utf8));
-                let read = named(&word.replace('\u{2126}', "Ω")).ok_or_else(|| {
+                let Some(read) = named(&word.replace('\u{2126}', "Ω")) else {
                     let shown = &self.text[start..end];
-                    fault(
-                        format!("`{shown}` is no unit of mechanics I know"),
-                        start,
-                        end,
-                    )
-                })?;
+                    let message = format!("`{shown}` is no unit of mechanics I know");
+                    return fault(message, start, end);
+                };
                 self.at = end;
                 Ok(read)
             }
@@ -287,16 +266,16 @@ impl<'a> Reader<'a> {
             }
         } else {
             for c in rest.chars() {
+                let raised = "⁰¹²³⁴".chars().zip("01234".chars());
                 let plain = match c {
-                    '⁻' if digits.is_empty() => '-',
-                    '⁰' => '0',
-                    '¹' => '1',
-                    '²' => '2',
-                    '³' => '3',
-                    '⁴' => '4',
-                    '2' | '3' if digits.is_empty() => c,
-                    _ => break,
+                    '⁻' if digits.is_empty() => Some('-'),
+                    '2' | '3' if digits.is_empty() => Some(c),
+                    _ => raised
+                        .clone()
+                        .find(|(high, _)| *high == c)
+                        .map(|(_, low)| low),
                 };
+                let Some(plain) = plain else { break };
                 digits.push(plain);
                 length += c.len_utf8();
             }
@@ -307,21 +286,16 @@ impl<'a> Reader<'a> {
         self.at += length.min(rest.len());
         match digits.parse::<i64>() {
             Ok(k) if k.abs() <= HIGHEST && k != 0 => Ok(k),
-            _ => Err(fault(
-                format!("the exponent of a unit is a whole number up to {HIGHEST}"),
-                start,
-                self.at,
-            )),
+            _ => {
+                let message = format!("the exponent of a unit is a whole number up to {HIGHEST}");
+                fault(message, start, self.at)
+            }
         }
     }
 
     fn blank(&mut self) {
-        while let Some(c) = self.peek() {
-            if !c.is_whitespace() {
-                break;
-            }
-            self.at += c.len_utf8();
-        }
+        let rest = &self.text[self.at..];
+        self.at += rest.len() - rest.trim_start().len();
     }
 
     fn peek(&self) -> Option<char> {
@@ -329,12 +303,12 @@ impl<'a> Reader<'a> {
     }
 }
 
-fn fault(message: String, start: usize, end: usize) -> UnitFault {
-    UnitFault {
-        message,
+fn fault<T>(message: impl Into<String>, start: usize, end: usize) -> Result<T, UnitFault> {
+    Err(UnitFault {
+        message: message.into(),
         start,
         end,
-    }
+    })
 }
 
 fn raise(value: &Rational, power: i64) -> Rational {
@@ -358,40 +332,29 @@ fn named(word: &str) -> Option<Unit> {
             return Some(found);
         }
     }
-    if let Some((prefix, power)) = LONG_PREFIXES.iter().find(|(p, _)| word.starts_with(p)) {
+    let mut all = LONG_PREFIXES.into_iter().zip(LONG_POWERS);
+    if let Some((prefix, power)) = all.find(|(p, _)| word.starts_with(p)) {
         let mut found = plain(&word[prefix.len()..]).filter(|_| word.len() > prefix.len() + 3)?;
-        found.factor *= &raise(&ratio(10, 1), *power);
+        found.factor *= &raise(&ratio(10, 1), power);
         return Some(found);
     }
-    let (prefix, power) = PREFIXES
-        .iter()
-        .find(|(prefix, _)| word.starts_with(prefix) && word.len() > prefix.len())?;
+    let mut all = PREFIXES.into_iter().zip(POWERS);
+    let (prefix, power) = all.find(|(p, _)| word.starts_with(p) && word.len() > p.len())?;
     let base = &word[prefix.len()..];
-    let electrical = ELECTRICAL.contains(&base) && matches!(*prefix, "k" | "M" | "m" | "µ" | "μ");
+    let electrical = ELECTRICAL.contains(&base) && matches!(prefix, "k" | "M" | "m" | "µ" | "μ");
     if !TAKES_PREFIX.contains(&base) && !electrical {
         return None;
     }
     let mut found = plain(base)?;
-    found.factor *= &raise(&ratio(10, 1), *power);
+    found.factor *= &raise(&ratio(10, 1), power);
     Some(found)
 }
 
 /// Prefixes and the powers of ten they stand for; `da` before `d` so that the longer is tried first.
-const PREFIXES: [(&str, i64); 13] = [
-    ("da", 1),
-    ("G", 9),
-    ("M", 6),
-    ("k", 3),
-    ("h", 2),
-    ("d", -1),
-    ("c", -2),
-    ("m", -3),
-    ("µ", -6),
-    ("μ", -6),
-    ("u", -6),
-    ("n", -9),
-    ("p", -12),
+const PREFIXES: [&str; 13] = [
+    "da", "G", "M", "k", "h", "d", "c", "m", "µ", "μ", "u", "n", "p",
 ];
+const POWERS: [i64; 13] = [1, 9, 6, 3, 2, -1, -2, -3, -6, -6, -6, -9, -12];
 
 /// Units a prefix may stand before.
 const TAKES_PREFIX: [&str; 12] = [
@@ -402,16 +365,10 @@ const TAKES_PREFIX: [&str; 12] = [
 const ELECTRICAL: [&str; 6] = ["A", "V", "Ω", "C", "F", "T"];
 
 /// Prefixes in full, before a unit in full: `kilojoule`.
-const LONG_PREFIXES: [(&str, i64); 8] = [
-    ("giga", 9),
-    ("mega", 6),
-    ("kilo", 3),
-    ("hecto", 2),
-    ("centi", -2),
-    ("milli", -3),
-    ("micro", -6),
-    ("nano", -9),
+const LONG_PREFIXES: [&str; 8] = [
+    "giga", "mega", "kilo", "hecto", "centi", "milli", "micro", "nano",
 ];
+const LONG_POWERS: [i64; 8] = [9, 6, 3, 2, -2, -3, -6, -9];
 
 /// Units by their names: dimension by mass, length, time, current and temperature, then factors to SI, those behind the slash
 /// below. Of angles, `pi` is one of them.
@@ -490,15 +447,8 @@ fn plain(word: &str) -> Option<Unit> {
 fn row(text: &str) -> Unit {
     let (powers, factors) = text.split_once("; ").unwrap_or((text, ""));
     let mut powers = powers.split(' ').map(|p| ratio(p.parse().unwrap_or(0), 1));
-    let [mass, length, time, current, temperature] =
-        std::array::from_fn(|_| powers.next().unwrap_or_default());
-    let mut unit = Unit::coherent(Dimension {
-        mass,
-        length,
-        time,
-        current,
-        temperature,
-    });
+    let powers = std::array::from_fn(|_| powers.next().unwrap_or_default());
+    let mut unit = Unit::coherent(Dimension::of(powers));
     let mut below = false;
     for factor in factors.split(' ') {
         match factor {

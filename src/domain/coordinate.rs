@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use num_traits::{One, Signed, Zero};
 
 use super::{Domain, Limit};
-use crate::expr::number::{product, same, sum, to_f64};
+use crate::expr::number::{from_f64, product, same, sum, to_f64};
 use crate::expr::{Int, Rational, ratio};
 
 /// The value of one symbol at a sample point.
@@ -92,49 +92,24 @@ impl Coordinate {
 }
 
 /// Magnitudes tried in this order; a person can check a counterexample made of them.
-const SIMPLE: [(i64, i64); 26] = [
-    (1, 1),
-    (2, 1),
-    (1, 2),
-    (3, 1),
-    (1, 3),
-    (3, 2),
-    (2, 3),
-    (4, 1),
-    (1, 4),
-    (3, 4),
-    (4, 3),
-    (5, 1),
-    (1, 5),
-    (2, 5),
-    (3, 5),
-    (4, 5),
-    (5, 2),
-    (7, 1),
-    (1, 7),
-    (1, 10),
-    (9, 10),
-    (10, 1),
-    (1, 100),
-    (99, 100),
-    (100, 1),
-    (1000, 1),
+const ABOVE: [i64; 26] = [
+    1, 2, 1, 3, 1, 3, 2, 4, 1, 3, 4, 5, 1, 2, 3, 4, 5, 7, 1, 1, 9, 10, 1, 99, 100, 1000,
+];
+const BELOW: [i64; 26] = [
+    1, 1, 2, 1, 3, 2, 3, 1, 4, 4, 3, 1, 5, 5, 5, 5, 2, 1, 7, 10, 10, 1, 100, 100, 1, 1,
 ];
 
 /// Up to `count` numbers of a domain, simplest first, its ends last.
 pub(super) fn numbers(domain: &Domain, count: usize) -> Vec<Coordinate> {
     let mut inside = Vec::new();
     let mut ends = Vec::new();
-    let signs: &[i64] = if domain.low.as_ref().is_some_and(|l| !l.value.is_negative()) {
-        &[1]
-    } else {
-        &[1, -1]
+    let low = domain.low.as_ref();
+    let signs: &[i64] = match low.is_some_and(|l| !l.value.is_negative()) {
+        true => &[1],
+        false => &[1, -1],
     };
-    let closed = [&domain.low, &domain.high]
-        .into_iter()
-        .flatten()
-        .any(|l| !l.open);
-    for (n, d) in SIMPLE {
+    let closed = domain.ends().any(|l| !l.open);
+    for (n, d) in ABOVE.into_iter().zip(BELOW) {
         for sign in signs {
             let value = Rational::new_raw(Int::from(sign * n), Int::from(d));
             if domain.contains(&value) {
@@ -167,10 +142,11 @@ pub(super) fn numbers(domain: &Domain, count: usize) -> Vec<Coordinate> {
     }
     let mut out: Vec<Coordinate> = inside.into_iter().map(Coordinate::Number).collect();
     if let (true, Some(low), Some(high)) = (out.is_empty(), &domain.low, &domain.high) {
-        if low == high && low.of_pi && !low.open {
-            out.push(Coordinate::Pi(low.value.clone()));
-        } else if low == high && !low.open {
-            out.push(Coordinate::Number(low.value.clone()));
+        if low == high && !low.open {
+            out.push(match low.of_pi {
+                true => Coordinate::Pi(low.value.clone()),
+                false => Coordinate::Number(low.value.clone()),
+            });
         }
     }
     out
@@ -178,10 +154,9 @@ pub(super) fn numbers(domain: &Domain, count: usize) -> Vec<Coordinate> {
 
 /// The simplest fraction in a part of a bounded domain: the whole, halves, quarters, eighths.
 fn part(domain: &Domain, k: usize) -> Option<Rational> {
-    let (low, high) = (
-        domain.low.as_ref()?.approximate(),
-        domain.high.as_ref()?.approximate(),
-    );
+    let [Some(low), Some(high)] = domain.bounds() else {
+        return None;
+    };
     let (pieces, piece) = match k {
         0 => (1, 0),
         1 | 2 => (2, k - 1),
@@ -189,8 +164,8 @@ fn part(domain: &Domain, k: usize) -> Option<Rational> {
         _ => (8, k - 7),
     };
     let step = (high - low) / pieces as f64;
-    let from = crate::expr::number::from_f64(low + step * piece as f64)?;
-    let to = crate::expr::number::from_f64(low + step * (piece + 1) as f64)?;
+    let end = |k: usize| from_f64(low + step * k as f64);
+    let (from, to) = (end(piece)?, end(piece + 1)?);
     (from < to).then(|| simplest(&from, &to, 64)).flatten()
 }
 
@@ -217,18 +192,13 @@ fn simplest(low: &Rational, high: &Rational, depth: u32) -> Option<Rational> {
 pub(super) fn random_number(domain: &Domain, random: &mut Lcg) -> Option<Rational> {
     let step = ratio(1 + (random.next() % 96) as i64, 97);
     let scale = ratio(1 + (random.next() % 12) as i64, 1);
-    let end = |l: &Limit| {
-        if l.of_pi {
-            crate::expr::number::from_f64(l.approximate())
-        } else {
-            Some(l.value.clone())
-        }
+    let end = |l: &Limit| match l.of_pi {
+        true => from_f64(l.approximate()),
+        false => Some(l.value.clone()),
     };
     let short = |x: Rational| {
-        Rational::new(
-            product(&x, &ratio(1009, 1)).round().to_integer(),
-            Int::from(1009),
-        )
+        let parts = product(&x, &ratio(1009, 1)).round().to_integer();
+        Rational::new(parts, Int::from(1009))
     };
     Some(match (&domain.low, &domain.high) {
         (Some(l), Some(h)) => {
@@ -242,54 +212,29 @@ pub(super) fn random_number(domain: &Domain, random: &mut Lcg) -> Option<Rationa
 }
 
 /// Halved tangents t of the first quadrant's rational directions ((1 − t²)/(1 + t²), 2t/(1 + t²)), simplest first.
-const TANGENTS: [(i64, i64); 20] = [
-    (1, 2),
-    (1, 3),
-    (2, 3),
-    (1, 5),
-    (3, 5),
-    (1, 4),
-    (3, 4),
-    (1, 7),
-    (3, 7),
-    (2, 5),
-    (5, 7),
-    (1, 9),
-    (4, 5),
-    (2, 7),
-    (1, 10),
-    (1, 20),
-    (9, 11),
-    (1, 40),
-    (1, 100),
-    (1, 400),
+const RISES: [i64; 20] = [1, 1, 2, 1, 3, 1, 3, 1, 3, 2, 5, 1, 4, 2, 1, 1, 9, 1, 1, 1];
+const RUNS: [i64; 20] = [
+    2, 3, 3, 5, 5, 4, 4, 7, 7, 5, 7, 9, 5, 7, 10, 20, 11, 40, 100, 400,
 ];
 
 /// Rational points of the whole circle, simplest first: four per tangent, then the four ends of the axes.
 pub(super) static CIRCLE: LazyLock<Vec<[Rational; 2]>> = LazyLock::new(|| {
-    let slanted = TANGENTS.into_iter().flat_map(|(n, d)| {
+    let slanted = RISES.into_iter().zip(RUNS).flat_map(|(n, d)| {
         let (c, s, h) = (d * d - n * n, 2 * n * d, d * d + n * n);
         [(c, s, h), (-c, s, h), (c, -s, h), (-c, -s, h)]
     });
     let axes = [(1, 0, 1), (0, 1, 1), (-1, 0, 1), (0, -1, 1)];
-    slanted
-        .chain(axes)
-        .map(|(c, s, h)| [ratio(c, h), ratio(s, h)])
-        .collect()
+    let all = slanted.chain(axes);
+    all.map(|(c, s, h)| [ratio(c, h), ratio(s, h)]).collect()
 });
 
 /// Directions of φ/N that put φ inside the domain. Directions nearer than 10⁻⁹ to an end are left out, far more than
 /// floating-point arctangents err by.
 pub(super) fn directions(domain: &Domain, divisor: u32, count: usize) -> Vec<Coordinate> {
     const MARGIN: f64 = 1e-9;
-    let low = domain
-        .low
-        .as_ref()
-        .map_or(f64::NEG_INFINITY, Limit::approximate);
-    let high = domain
-        .high
-        .as_ref()
-        .map_or(f64::INFINITY, Limit::approximate);
+    let [low, high] = domain.bounds();
+    let low = low.unwrap_or(f64::NEG_INFINITY);
+    let high = high.unwrap_or(f64::INFINITY);
     let n = f64::from(divisor);
     let mut out = Vec::new();
     for unit in CIRCLE.iter() {

@@ -1,6 +1,6 @@
 //! A point in general position, in doubles: what vanishes there is taken to vanish everywhere while planning.
 
-use super::{Domain, Domains, Limit};
+use super::{Domain, Domains};
 use crate::expr::{Point, Symbol};
 
 /// Values of symbols in general position inside the domains; the golden ratio keeps them apart.
@@ -49,12 +49,10 @@ fn at_fractions<'a>(
 }
 
 fn within(domain: Option<&Domain>, fraction: f64) -> f64 {
-    let end = |l: &Option<Limit>| l.as_ref().map(Limit::approximate);
-    match domain.map(|d| (end(&d.low), end(&d.high))) {
-        None => 0.6 + fraction,
-        Some((Some(low), Some(high))) => low + fraction * (high - low),
-        Some((Some(low), None)) => low + 0.6 + fraction,
-        Some((None, Some(high))) => high - 0.6 - fraction,
-        Some((None, None)) => 0.6 + fraction,
+    match domain.map(Domain::bounds).unwrap_or_default() {
+        [Some(low), Some(high)] => low + fraction * (high - low),
+        [Some(low), None] => low + 0.6 + fraction,
+        [None, Some(high)] => high - 0.6 - fraction,
+        [None, None] => 0.6 + fraction,
     }
 }

@@ -14,6 +14,7 @@ use std::collections::BTreeMap;
 
 use num_traits::{Signed, Zero};
 
+use crate::expr::number::to_f64;
 use crate::expr::{Expr, Int, Rational, Symbol, ratio};
 
 pub use coordinate::Coordinate;
@@ -82,20 +83,16 @@ impl Limit {
         if !self.of_pi {
             return Some(compare(x, &self.value));
         }
-        let [near, end] = [crate::expr::number::to_f64(x), self.approximate()];
+        let [near, end] = [to_f64(x), self.approximate()];
         if (near - end).abs() > 1e-12 * near.abs().max(end.abs()) {
             // Doubles tell, unless the two are as good as equal or leave the doubles.
             return near.partial_cmp(&end);
         }
-        let [low, high] = pi_bounds().map(|p| p * &self.value);
-        let (low, high) = if low <= high {
-            (low, high)
-        } else {
-            (high, low)
-        };
-        match (x.cmp(&low), x.cmp(&high)) {
-            (Ordering::Less | Ordering::Equal, _) => Some(Ordering::Less),
-            (_, Ordering::Greater | Ordering::Equal) => Some(Ordering::Greater),
+        let mut bounds = pi_bounds().map(|p| p * &self.value);
+        bounds.sort();
+        match bounds.map(|end| x.cmp(&end)) {
+            [Ordering::Less | Ordering::Equal, _] => Some(Ordering::Less),
+            [_, Ordering::Greater | Ordering::Equal] => Some(Ordering::Greater),
             _ => None,
         }
     }
@@ -103,47 +100,41 @@ impl Limit {
     /// The end as an expression.
     pub fn expr(&self) -> Expr {
         let value = Expr::from(self.value.clone());
-        if self.of_pi {
-            value * Expr::pi()
-        } else {
-            value
+        match self.of_pi {
+            true => value * Expr::pi(),
+            false => value,
         }
     }
 
     /// The end in floating point, for plans and pictures.
     pub fn approximate(&self) -> f64 {
-        crate::expr::number::to_f64(&self.value)
-            * if self.of_pi {
-                std::f64::consts::PI
-            } else {
-                1.0
-            }
+        let value = to_f64(&self.value);
+        match self.of_pi {
+            true => value * std::f64::consts::PI,
+            false => value,
+        }
     }
 }
 
 impl Domain {
+    /// The interval between two ends, where there are.
+    pub fn new(low: Option<Limit>, high: Option<Limit>) -> Domain {
+        Domain { low, high }
+    }
+
     /// All numbers > 0.
     pub fn positive() -> Domain {
-        Domain {
-            low: Some(Limit::number(Rational::zero(), true)),
-            high: None,
-        }
+        Domain::new(Some(Limit::number(Rational::zero(), true)), None)
     }
 
     /// All numbers < 0.
     pub fn negative() -> Domain {
-        Domain {
-            low: None,
-            high: Some(Limit::number(Rational::zero(), true)),
-        }
+        Domain::new(None, Some(Limit::number(Rational::zero(), true)))
     }
 
     /// All numbers ≥ 0.
     pub fn nonnegative() -> Domain {
-        Domain {
-            low: Some(Limit::number(Rational::zero(), false)),
-            high: None,
-        }
+        Domain::new(Some(Limit::number(Rational::zero(), false)), None)
     }
 
     /// All real numbers.
@@ -153,18 +144,14 @@ impl Domain {
 
     /// The closed interval from `low` to `high`.
     pub fn between(low: Rational, high: Rational) -> Domain {
-        Domain {
-            low: Some(Limit::number(low, false)),
-            high: Some(Limit::number(high, false)),
-        }
+        let [low, high] = [low, high].map(|end| Some(Limit::number(end, false)));
+        Domain::new(low, high)
     }
 
     /// The open interval of angles from `low`·π to `high`·π.
     pub fn angle(low: Rational, high: Rational) -> Domain {
-        Domain {
-            low: Some(Limit::pi(low, true)),
-            high: Some(Limit::pi(high, true)),
-        }
+        let [low, high] = [low, high].map(|end| Some(Limit::pi(end, true)));
+        Domain::new(low, high)
     }
 
     /// Angles strictly between 0 and π/2.
@@ -174,39 +161,37 @@ impl Domain {
 
     /// Whether a number lies inside for certain.
     pub fn contains(&self, x: &Rational) -> bool {
-        let above = self.low.as_ref().is_none_or(|l| match l.compare(x) {
-            Some(Ordering::Greater) => true,
-            Some(Ordering::Equal) => !l.open,
-            _ => false,
-        });
-        above
-            && self.high.as_ref().is_none_or(|h| match h.compare(x) {
-                Some(Ordering::Less) => true,
-                Some(Ordering::Equal) => !h.open,
-                _ => false,
+        let keeps = |end: &Option<Limit>, side: Ordering| {
+            end.as_ref().is_none_or(|end| match end.compare(x) {
+                Some(Ordering::Equal) => !end.open,
+                found => found == Some(side),
             })
+        };
+        keeps(&self.low, Ordering::Greater) && keeps(&self.high, Ordering::Less)
+    }
+
+    /// The ends that it has.
+    pub fn ends(&self) -> impl Iterator<Item = &Limit> {
+        [&self.low, &self.high].into_iter().flatten()
+    }
+
+    /// Both ends in floating point, where it has them.
+    pub fn bounds(&self) -> [Option<f64>; 2] {
+        [&self.low, &self.high].map(|end| end.as_ref().map(Limit::approximate))
     }
 
     /// Whether it lies within another bounded interval, ends included.
     pub fn lies_within(&self, outer: &Domain) -> bool {
-        let at = |l: &Option<Limit>| l.as_ref().map(Limit::approximate);
-        match (
-            at(&self.low),
-            at(&self.high),
-            at(&outer.low),
-            at(&outer.high),
-        ) {
-            (Some(a), Some(b), Some(low), Some(high)) => a >= low && b <= high,
+        match [self.bounds(), outer.bounds()] {
+            [[Some(a), Some(b)], [Some(low), Some(high)]] => a >= low && b <= high,
             _ => false,
         }
     }
 
     /// Whether a number is an end of the interval.
     pub fn is_end(&self, x: &Rational) -> bool {
-        [&self.low, &self.high]
-            .into_iter()
-            .flatten()
-            .any(|l| l.compare(x) == Some(Ordering::Equal))
+        self.ends()
+            .any(|end| end.compare(x) == Some(Ordering::Equal))
     }
 
     /// Whether the interval holds both positive and negative numbers.
@@ -218,38 +203,26 @@ impl Domain {
     /// The part with the given sign: numbers ≥ 0 for `positive`, else numbers ≤ 0.
     pub fn half(&self, positive: bool) -> Domain {
         let zero = Some(Limit::number(Rational::zero(), false));
-        if positive {
-            Domain {
-                low: zero,
-                high: self.high.clone(),
-            }
-        } else {
-            Domain {
-                low: self.low.clone(),
-                high: zero,
-            }
+        match positive {
+            true => Domain::new(zero, self.high.clone()),
+            false => Domain::new(self.low.clone(), zero),
         }
     }
 
     /// The domain as a condition on a symbol, such as `0 < theta < pi/2`.
     pub fn words(&self, symbol: &str) -> String {
-        let end = |l: &Limit| match (
-            l.of_pi && !l.value.is_zero(),
-            l.value.numer(),
-            l.value.denom(),
-        ) {
-            (false, ..) => l.value.to_string(),
-            (true, n, d) => {
-                let n = match n.as_i64() {
-                    Some(1) => String::new(),
-                    Some(-1) => String::from("-"),
-                    _ => format!("{n}*"),
-                };
-                if *d == Int::from(1) {
-                    format!("{n}pi")
-                } else {
-                    format!("{n}pi/{d}")
-                }
+        let end = |l: &Limit| {
+            if !l.of_pi || l.value.is_zero() {
+                return l.value.to_string();
+            }
+            let times = match l.value.numer().as_i64() {
+                Some(1) => String::new(),
+                Some(-1) => String::from("-"),
+                _ => format!("{}*", l.value.numer()),
+            };
+            match l.value.is_integer() {
+                true => format!("{times}pi"),
+                false => format!("{times}pi/{}", l.value.denom()),
             }
         };
         let sign = |l: &Limit| if l.open { "<" } else { "≤" };
@@ -272,20 +245,22 @@ impl Domains {
             if all.symbols.contains_key(name) {
                 continue;
             }
-            if self.unit_vectors.iter().flatten().any(|s| s == name) {
-                all.symbols
-                    .insert(name.clone(), Domain::between(ratio(-1, 1), ratio(1, 1)));
-                continue;
-            }
-            let domain = if role.turns {
-                Domain::first_quadrant()
-            } else {
-                Domain::positive()
+            let domain = match role.turns {
+                _ if self.is_component(name) => Domain::between(ratio(-1, 1), ratio(1, 1)),
+                true => Domain::first_quadrant(),
+                false => Domain::positive(),
             };
-            assumed.push(domain.words(name));
+            if !self.is_component(name) {
+                assumed.push(domain.words(name));
+            }
             all.symbols.insert(name.clone(), domain);
         }
         (all, assumed)
+    }
+
+    /// Whether a symbol is a component of a unit vector.
+    pub fn is_component(&self, name: &Symbol) -> bool {
+        self.unit_vectors.iter().flatten().any(|s| s == name)
     }
 
     /// The domain with every symbol of some formulas declared.

@@ -107,10 +107,9 @@ fn drawn(
         let Some(domain) = domains.symbols.get(name) else {
             continue;
         };
-        let list = if role.bare {
-            numbers(domain, wanted)
-        } else {
-            directions(domain, role.divisor, wanted)
+        let list = match role.bare {
+            true => numbers(domain, wanted),
+            false => directions(domain, role.divisor, wanted),
         };
         if list.is_empty() {
             return Vec::new();
@@ -135,17 +134,15 @@ fn drawn(
                 1..EARLY => i + k,
                 _ => random.next() as usize,
             };
-            point
-                .coordinates
-                .insert((*name).clone(), list[pick % list.len()].clone());
+            let value = list[pick % list.len()].clone();
+            point.coordinates.insert((*name).clone(), value);
         }
         if k >= 12 {
             for (name, domain, list) in &axes {
                 let drawn = random_number(domain, &mut random).filter(|v| domain.contains(v));
                 if let (Coordinate::Number(_), Some(value)) = (&list[0], drawn) {
-                    point
-                        .coordinates
-                        .insert((*name).clone(), Coordinate::Number(value));
+                    let value = Coordinate::Number(value);
+                    point.coordinates.insert((*name).clone(), value);
                 }
             }
         }
@@ -173,18 +170,20 @@ pub fn at_ends(near: &[Sample], domains: &Domains) -> Vec<Sample> {
     for point in near {
         let mut moved = vec![point.clone()];
         for (name, at) in &point.coordinates {
-            let tied = domains.unit_vectors.iter().flatten().any(|s| s == name);
+            let tied = domains.is_component(name);
             let Some(domain) = domains.symbols.get(name) else {
                 continue;
             };
             if tied || matches!(at, Coordinate::Direction { .. }) {
                 continue;
             }
-            let ends = [&domain.low, &domain.high].into_iter().flatten();
-            let closed = ends.filter(|l| !l.open).map(|end| match end.of_pi {
-                true => Coordinate::Pi(end.value.clone()),
-                false => Coordinate::Number(end.value.clone()),
-            });
+            let closed = domain
+                .ends()
+                .filter(|l| !l.open)
+                .map(|end| match end.of_pi {
+                    true => Coordinate::Pi(end.value.clone()),
+                    false => Coordinate::Number(end.value.clone()),
+                });
             let zero = Rational::zero();
             let inside = domain.contains(&zero) && !domain.is_end(&zero);
             for value in closed.chain(inside.then_some(Coordinate::Number(zero))) {
@@ -264,11 +263,8 @@ fn place_units(point: &mut Sample, units: &[Unit<'_>], k: usize) -> bool {
 impl Sample {
     /// The point in words, symbols in alphabetical order.
     pub fn words(&self) -> String {
-        self.coordinates
-            .iter()
-            .map(|(name, c)| c.words(name))
-            .collect::<Vec<_>>()
-            .join(", ")
+        let words = self.coordinates.iter().map(|(name, c)| c.words(name));
+        words.collect::<Vec<_>>().join(", ")
     }
 
     /// The point for evaluation in a certified number type. With `radians`, angles known by direction also get their value.
@@ -276,15 +272,9 @@ impl Sample {
         let mut point = Point::default();
         let number = Outcome::<T>::from_rational;
         for (name, coordinate) in &self.coordinates {
-            match coordinate {
-                Coordinate::Number(value) => {
-                    point.values.insert(name.clone(), number(value));
-                }
-                Coordinate::Pi(value) => {
-                    point
-                        .values
-                        .insert(name.clone(), number(value).times(&T::pi()));
-                }
+            let value = match coordinate {
+                Coordinate::Number(value) => number(value),
+                Coordinate::Pi(value) => number(value).times(&T::pi()),
                 Coordinate::Direction {
                     divisor,
                     unit,
@@ -292,13 +282,13 @@ impl Sample {
                 } => {
                     let unit_of = [number(&unit[0]), number(&unit[1])];
                     point.directions.insert(name.clone(), (*divisor, unit_of));
-                    if radians {
-                        point
-                            .values
-                            .insert(name.clone(), value_of(*divisor, unit, *turns));
+                    if !radians {
+                        continue;
                     }
+                    value_of(*divisor, unit, *turns)
                 }
-            }
+            };
+            point.values.insert(name.clone(), value);
         }
         point
     }
@@ -308,13 +298,13 @@ impl Sample {
 fn value_of<T: Certified>(divisor: u32, unit: &[Rational; 2], turns: i32) -> Outcome<T> {
     let number = |n: i64| Outcome::<T>::from_rational(&ratio(n, 1));
     let below = &unit[0] + Rational::one();
-    let psi = if below.is_zero() {
-        T::pi()
-    } else {
-        let half = Outcome::<T>::from_rational(&(&unit[1] / below));
-        half.call(Function::Atan)
-            .unwrap_or(Outcome::Unknown)
-            .times(&number(2))
+    let psi = match below.is_zero() {
+        true => T::pi(),
+        false => {
+            let half = Outcome::<T>::from_rational(&(&unit[1] / below));
+            let half = half.call(Function::Atan).unwrap_or(Outcome::Unknown);
+            half.times(&number(2))
+        }
     };
     psi.plus(&T::pi().times(&number(2 * i64::from(turns))))
         .times(&number(i64::from(divisor)))

@@ -70,10 +70,7 @@ fn inside<const BITS: u32>(e: &Expr, bits: f64) -> Option<bool> {
     let Outcome::Value(Big(value)) = evaluate::<Big<BITS>>(e, &Point::default()) else {
         return None;
     };
-    let bound = Dyadic {
-        mantissa: One::one(),
-        exponent: -(bits.ceil() as i64),
-    };
+    let bound = Dyadic::new(1, -(bits.ceil() as i64));
     Some(value.high < bound && bound.neg() < value.low)
 }
 

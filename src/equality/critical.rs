@@ -154,10 +154,7 @@ fn free_symbols(arguments: &[Expr], domains: &Domains, at: &Sample) -> Vec<Symbo
     let mut names: Vec<Symbol> = arguments.iter().flat_map(|e| e.symbols()).collect();
     names.sort();
     names.dedup();
-    names.retain(|name| {
-        at.coordinates.contains_key(name)
-            && !domains.unit_vectors.iter().flatten().any(|s| s == name)
-    });
+    names.retain(|name| at.coordinates.contains_key(name) && !domains.is_component(name));
     names.truncate(SYMBOLS);
     names
 }
@@ -171,16 +168,10 @@ fn parts(domain: &Domain, cuts: &[f64]) -> Vec<Domain> {
     let mut out = Vec::new();
     let mut low = domain.low.clone();
     for cut in cuts {
-        out.push(Domain {
-            low: low.clone(),
-            high: beside(*cut, -1.0),
-        });
+        out.push(Domain::new(low, beside(*cut, -1.0)));
         low = beside(*cut, 1.0);
     }
-    out.push(Domain {
-        low,
-        high: domain.high.clone(),
-    });
+    out.push(Domain::new(low, domain.high.clone()));
     out
 }
 
@@ -215,10 +206,7 @@ fn whole(arguments: &[&Expr], domains: &Domains) -> Option<Part> {
 fn enclosed(e: &Expr, part: &Part) -> Outcome<Interval> {
     let mut point = Point::default();
     for (name, [low, high]) in part {
-        let value = Interval {
-            low: *low,
-            high: *high,
-        };
+        let value = Interval::new(*low, *high);
         point.values.insert(name.clone(), Outcome::Value(value));
     }
     evaluate(e, &point)
@@ -363,10 +351,7 @@ fn descended(e: &Expr, start: &Sample, domains: &Domains, roles: &Roles) -> Samp
         };
         let role = roles.symbols.get(name).cloned().unwrap_or_default();
         let value = lowest(e, name, &here, domain).and_then(|x| {
-            let part = Domain {
-                low: beside(x, -1.0),
-                high: beside(x, 1.0),
-            };
+            let part = Domain::new(beside(x, -1.0), beside(x, 1.0));
             crate::domain::within(&part, domain, &role)
         });
         let Some(value) = value else { continue };
@@ -471,7 +456,7 @@ fn far(domain: &Domain) -> Vec<Coordinate> {
         let power = Rational::from(Int::from(10).pow(k.unsigned_abs()));
         let size = if k < 0 { power.recip() } else { power };
         out.extend([size.clone(), -size.clone()]);
-        for end in [&domain.low, &domain.high].into_iter().flatten() {
+        for end in domain.ends() {
             if !end.of_pi {
                 out.extend([&end.value + &size, &end.value - &size]);
             }

@@ -33,7 +33,7 @@ pub(super) fn doubles(at: &Sample) -> Point<f64> {
 
 /// Numbers of a domain in ascending order, dense near its ends and, where it has none, near zero.
 fn grid(domain: &Domain) -> Vec<f64> {
-    let [low, high] = [&domain.low, &domain.high].map(|l| l.as_ref().map(|l| l.approximate()));
+    let [low, high] = domain.bounds();
     let far = (-20..=32).map(|k| 10f64.powf(f64::from(k) / 4.0));
     let mut out: Vec<f64> = match (low, high) {
         (Some(low), Some(high)) => {
@@ -45,7 +45,7 @@ fn grid(domain: &Domain) -> Vec<f64> {
         (None, Some(high)) => far.map(|x| high - x).collect(),
         (None, None) => far.flat_map(|x| [x, -x]).chain([0.0]).collect(),
     };
-    for limit in [&domain.low, &domain.high].into_iter().flatten() {
+    for limit in domain.ends() {
         if !limit.open {
             out.push(limit.approximate());
         }
@@ -149,9 +149,8 @@ pub(crate) fn zero_apart(
     let here = |low: f64, high: f64| {
         let mut point = at.point::<Interval>(true);
         point.directions.remove(name);
-        point
-            .values
-            .insert(name.clone(), Outcome::Value(Interval { low, high }));
+        let value = Outcome::Value(Interval::new(low, high));
+        point.values.insert(name.clone(), value);
         point
     };
     let inside = |x: f64| from_f64(x).is_some_and(|x| domain.contains(&x));
@@ -194,8 +193,8 @@ pub(crate) fn zero_apart(
 }
 
 fn exactly(low: f64, high: f64) -> Option<Enclosure> {
-    Some(Enclosure {
-        low: Dyadic::from_f64(low)?,
-        high: Dyadic::from_f64(high)?,
-    })
+    Some(Enclosure::new(
+        Dyadic::from_f64(low)?,
+        Dyadic::from_f64(high)?,
+    ))
 }

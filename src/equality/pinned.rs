@@ -26,7 +26,7 @@ pub(super) fn pins(needed: &[Expr], domains: &Domains) -> Vec<Pin> {
         let (Some(name), None) = (names.next(), names.next()) else {
             continue;
         };
-        let tied = domains.unit_vectors.iter().flatten().any(|s| s == name);
+        let tied = domains.is_component(name);
         let Some(domain) = domains.symbols.get(name).filter(|_| !tied) else {
             continue;
         };

@@ -31,11 +31,16 @@ pub(crate) struct Finding {
 }
 
 impl Finding {
-    pub(crate) fn new(verdict: Verdict, note: &'static str, proof: Proof) -> Finding {
+    pub(crate) fn new(
+        verdict: Verdict,
+        note: &'static str,
+        kind: &'static str,
+        words: impl Into<String>,
+    ) -> Finding {
         Finding {
             verdict,
             note,
-            proof,
+            proof: Proof::of(kind, words),
             assumed: Vec::new(),
             counterexample: None,
             diagnosis: Vec::new(),
@@ -47,7 +52,32 @@ impl Finding {
         kind: &'static str,
         words: impl Into<String>,
     ) -> Finding {
-        Finding::new(Verdict::Different, note, Proof::of(kind, words))
+        Finding::new(Verdict::Different, note, kind, words)
+    }
+
+    /// Different, as the diagnosis tells in the same words; its code is the note without `DIFF_`.
+    pub(super) fn told(
+        note: &'static str,
+        kind: &'static str,
+        words: impl Into<String>,
+        hint: impl Into<String>,
+    ) -> Finding {
+        let words = words.into();
+        let code = note.strip_prefix("DIFF_").unwrap_or(note);
+        Finding::different(note, kind, words.clone()).with(Diagnosis::new(code, words, hint))
+    }
+
+    pub(super) fn is_equivalent(&self) -> bool {
+        self.verdict == Verdict::Equivalent
+    }
+
+    /// Adds what another finding assumed.
+    pub(super) fn assume(&mut self, more: Vec<String>) {
+        for words in more {
+            if !self.assumed.contains(&words) {
+                self.assumed.push(words);
+            }
+        }
     }
 
     /// No steps are left: what no proof and no point settled before is undecided for that reason.
@@ -61,11 +91,7 @@ impl Finding {
         };
         if !settled {
             let words = "the two were not settled within the limit of work";
-            *self = Finding::new(
-                Verdict::Undecided,
-                "UNDECIDED_LIMIT",
-                Proof::of("none", words),
-            );
+            *self = Finding::new(Verdict::Undecided, "UNDECIDED_LIMIT", "none", words);
         }
     }
 
@@ -83,7 +109,20 @@ pub(crate) struct Context<'a> {
     pub diagnose: bool,
 }
 
-impl Context<'_> {
+impl<'a> Context<'a> {
+    pub(super) fn new(key: &'a Key, options: &'a Options, diagnose: bool) -> Context<'a> {
+        Context {
+            key,
+            options,
+            diagnose,
+        }
+    }
+
+    /// The same without a look for what is wrong.
+    pub(super) fn plain(&self) -> Context<'a> {
+        Context::new(self.key, self.options, false)
+    }
+
     /// Dimension of a symbol, where the question declares it.
     pub fn dimension_of(&self, name: &str) -> Option<Dimension> {
         let found = self.key.question.given().find(|g| *g.name == *name);
@@ -106,27 +145,12 @@ impl Context<'_> {
 /// Compares a reading with the key.
 pub(crate) fn contents(key: &Key, answer: &Reading, options: &Options) -> Finding {
     let diagnose = options.strength == Strength::Identity;
-    compare(
-        &Context {
-            key,
-            options,
-            diagnose,
-        },
-        answer,
-    )
+    compare(&Context::new(key, options, diagnose), answer)
 }
 
 /// The verdict alone, without looking for what is wrong.
 pub(crate) fn verdict_of(key: &Key, answer: &Reading, options: &Options) -> Verdict {
-    compare(
-        &Context {
-            key,
-            options,
-            diagnose: false,
-        },
-        answer,
-    )
-    .verdict
+    compare(&Context::new(key, options, false), answer).verdict
 }
 
 /// A value, possibly with the name it is given to; or relations.
@@ -224,11 +248,8 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
                     .expr()
                     .is_some_and(|e| e.symbols().contains(theirs));
                 if inside && !is_asked(theirs) {
-                    finding = Finding::different(
-                        "DIFF_KIND",
-                        "kind",
-                        format!("a value is expected, and the answer is an equation for {theirs}"),
-                    );
+                    let words = "a value is expected, and the answer is an equation for";
+                    finding = Finding::different("DIFF_KIND", "kind", format!("{words} {theirs}"));
                 } else if !asked.is_empty() && !is_asked(theirs) && declared_symbol(ctx, theirs) {
                     finding = other_name(finding, &asked[0].name.clone(), theirs);
                 }
@@ -243,8 +264,8 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
                 // What cannot be solved still says the same as itself.
                 Verdict::Equivalent | Verdict::Invalid => finding,
                 _ if same => {
-                    let proof = Proof::of("identity", "the same relation");
-                    Finding::new(Verdict::Equivalent, "EQUIV_SOLUTIONS", proof)
+                    let words = "the same relation";
+                    Finding::new(Verdict::Equivalent, "EQUIV_SOLUTIONS", "identity", words)
                 }
                 _ => finding,
             }
@@ -292,7 +313,7 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
                     .take(3)
                     .filter(|name| may_hold(ctx, mine, name, expected))
                     .map(solved)
-                    .find(|finding| finding.verdict == Verdict::Equivalent)
+                    .find(Finding::is_equivalent)
                     .unwrap_or_else(|| kind("a value is expected, and the answer is a relation")),
             }
         }
@@ -307,10 +328,7 @@ fn nameless(
     sides: &[Content],
     signs: &[Relation],
 ) -> Option<Finding> {
-    let plain = Context {
-        diagnose: false,
-        ..*ctx
-    };
+    let plain = ctx.plain();
     let (first, others) = sides.split_first()?;
     let mut finding = values(&plain, expected, first);
     // `KE = mv²/2`: letters that stand nowhere else are a name of the value.
@@ -320,9 +338,9 @@ fn nameless(
     {
         finding = values(&plain, expected, value);
     }
-    let right = finding.verdict == Verdict::Equivalent;
+    let right = finding.is_equivalent();
     let follows = |(sign, side): (&Relation, &Content)| match sign {
-        Relation::Equal => values(&plain, expected, side).verdict == Verdict::Equivalent,
+        Relation::Equal => values(&plain, expected, side).is_equivalent(),
         Relation::Approximately => close(ctx, expected, side),
         _ => false,
     };
@@ -331,10 +349,7 @@ fn nameless(
 
 /// Whether a side behind ≈ is the expected value with its factor rounded: to two digits a number is at most 1/20 off.
 fn close(ctx: &Context, expected: &Content, side: &Content) -> bool {
-    let plain = Context {
-        diagnose: false,
-        ..*ctx
-    };
+    let plain = ctx.plain();
     let share = || quotient(side.expr()?, expected.expr()?, &plain);
     let near = |share| number::within(&share, &Expr::one(), &Tolerance::Relative(ratio(1, 20)));
     share().and_then(near) == Some(true)
@@ -418,16 +433,14 @@ fn may_hold(ctx: &Context, sides: &[Content], name: &Symbol, value: &Content) ->
 }
 
 pub(super) fn kind(words: &str) -> Finding {
-    Finding::different("DIFF_KIND", "kind", words).with(Diagnosis::new("KIND", words, words))
+    Finding::told("DIFF_KIND", "kind", words, words)
 }
 
 fn other_name(finding: Finding, mine: &Symbol, theirs: &Symbol) -> Finding {
-    let same = finding.verdict == Verdict::Equivalent;
     let words = format!("the answer speaks of {theirs}, and {mine} is asked for");
-    let message = if same {
-        format!("{words}; the right side is the expected one")
-    } else {
-        words.clone()
+    let message = match finding.is_equivalent() {
+        true => format!("{words}; the right side is the expected one"),
+        false => words.clone(),
     };
     Finding::different("DIFF_NAME", "kind", words.clone())
         .with(Diagnosis::new("NAME", message, words))
@@ -443,11 +456,9 @@ fn chain(ctx: &Context, answer: &Reading, finding: &mut Finding) {
     }
     if let Some([one, two]) = apart(ctx, sides, signs) {
         let message = format!("{} and {} are not equal", ctx.say(one), ctx.say(two));
-        finding.diagnosis.push(Diagnosis::new(
-            "CHAIN",
-            message,
-            "two sides of your chain of equations are not equal",
-        ));
+        let hint = "two sides of your chain of equations are not equal";
+        let found = Diagnosis::new("CHAIN", message, hint);
+        finding.diagnosis.push(found);
     }
 }
 
@@ -485,8 +496,7 @@ pub(super) fn values(ctx: &Context, expected: &Content, answer: &Content) -> Fin
                 (false, 2) => "two values are expected",
                 (false, _) => "several values are expected",
             };
-            let finding = Finding::different("DIFF_ONE_OF_TWO", "kind", words);
-            finding.with(Diagnosis::new("ONE_OF_TWO", words, "there are two values"))
+            Finding::told("DIFF_ONE_OF_TWO", "kind", words, "there are two values")
         }
         (Content::Scalar(e), Content::Either(a)) => {
             let right = a.iter().filter(|a| equal(ctx, e, a)).count();
@@ -499,8 +509,7 @@ pub(super) fn values(ctx: &Context, expected: &Content, answer: &Content) -> Fin
                 _ => "one of the two values is the expected one; the other is not",
             };
             let hint = "the answer is a single value: decide which sign it has";
-            let finding = Finding::different("DIFF_TWO_FOR_ONE", "kind", words);
-            finding.with(Diagnosis::new("TWO_FOR_ONE", words, hint))
+            Finding::told("DIFF_TWO_FOR_ONE", "kind", words, hint)
         }
         (Content::Vector(e), Content::Scalar(a)) => {
             // `a × a = 0`
@@ -513,11 +522,8 @@ pub(super) fn values(ctx: &Context, expected: &Content, answer: &Content) -> Fin
                 true => "the component is right; the direction is missing",
                 false => "a vector is expected, and the answer is a number",
             };
-            Finding::different("DIFF_KIND", "kind", message).with(Diagnosis::new(
-                "KIND",
-                message,
-                "a vector is asked: give its direction or components",
-            ))
+            let hint = "a vector is asked: give its direction or components";
+            Finding::told("DIFF_KIND", "kind", message, hint)
         }
         (Content::Scalar(e), Content::Vector(a)) => {
             // `-(3v/2l) k` for a spin: only the sense of rotation is left of the vector.
@@ -531,39 +537,26 @@ pub(super) fn values(ctx: &Context, expected: &Content, answer: &Content) -> Fin
 }
 
 fn equal(ctx: &Context, expected: &Expr, answer: &Expr) -> bool {
-    scalars(ctx, expected, answer).verdict == Verdict::Equivalent
+    scalars(ctx, expected, answer).is_equivalent()
 }
 
 /// Components of vectors, one by one; the first that differs decides.
 fn all_of(ctx: &Context, expected: &[Expr; 3], answer: &[Expr; 3]) -> Finding {
-    let plain = Context {
-        key: ctx.key,
-        options: ctx.options,
-        diagnose: false,
-    };
+    let plain = ctx.plain();
     let mut undecided = None;
     let mut total: Option<Finding> = None;
     for (i, (e, a)) in expected.iter().zip(answer).enumerate() {
-        let finding = scalars(&plain, e, a);
+        let mut finding = scalars(&plain, e, a);
         match finding.verdict {
             Verdict::Equivalent => match &mut total {
                 None => total = Some(finding),
-                Some(t) => {
-                    let new: Vec<String> = finding
-                        .assumed
-                        .into_iter()
-                        .filter(|w| !t.assumed.contains(w))
-                        .collect();
-                    t.assumed.extend(new);
-                }
+                Some(total) => total.assume(finding.assumed),
             },
             Verdict::Undecided => undecided = Some(finding),
             _ => {
-                let mut finding = finding;
                 if ctx.diagnose {
-                    finding
-                        .diagnosis
-                        .extend(partial::vectors(ctx, expected, answer, i));
+                    let found = partial::vectors(ctx, expected, answer, i);
+                    finding.diagnosis.extend(found);
                     if let Some(first) = finding.diagnosis.first() {
                         finding.note = partial::note(first.code);
                     }

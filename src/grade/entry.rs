@@ -12,7 +12,7 @@ use serde_json::{Map, Value};
 use super::{Form, Given, Grade, Key, Options, Proof, Question, Tolerance, Verdict, number};
 use crate::dimension;
 use crate::domain::{Domain, Limit};
-use crate::expr::{Rational, Symbol};
+use crate::expr::Rational;
 use crate::formula::Fault;
 
 /// Longest line, in bytes.
@@ -141,11 +141,7 @@ fn declare(question: &mut Question, name: &str, entry: &Value) -> Result<(), Str
     if !valid {
         return Err(format!("{name:?} is no name of a symbol"));
     }
-    let mut given = Given {
-        name: Symbol::from(name),
-        latex: None,
-        dimension: None,
-    };
+    let mut given = Given::named(name);
     let fields = match entry {
         Value::Null => Map::new(),
         Value::Object(fields) => fields.clone(),

@@ -66,6 +66,17 @@ pub struct Given {
     pub dimension: Option<Dimension>,
 }
 
+impl Given {
+    /// A symbol of which the name alone is known.
+    pub fn named(name: impl Into<Symbol>) -> Given {
+        Given {
+            name: name.into(),
+            latex: None,
+            dimension: None,
+        }
+    }
+}
+
 /// How a comparison is carried out.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
@@ -189,10 +200,8 @@ fn from_reading(mut reading: Reading, question: &Question) -> Key {
     // A component of a vector has either sign.
     for name in &names {
         if formula::is_component(name) && !question.domains.symbols.contains_key(name) {
-            question
-                .domains
-                .symbols
-                .insert(name.clone(), Domain::real());
+            let domains = &mut question.domains.symbols;
+            domains.insert(name.clone(), Domain::real());
         }
     }
     for name in relation::unsigned(&reading.content) {
@@ -201,12 +210,7 @@ fn from_reading(mut reading: Reading, question: &Question) -> Key {
             domains.entry(name).or_insert_with(Domain::real);
         }
     }
-    let unknown = names.into_iter().map(|name| Given {
-        name,
-        latex: None,
-        dimension: None,
-    });
-    question.symbols.extend(unknown);
+    question.symbols.extend(names.into_iter().map(Given::named));
     let mut readable = if question.closed {
         Symbols::strict()
     } else {

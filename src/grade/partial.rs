@@ -11,7 +11,8 @@ use super::compare::{Context, is_short, same_number};
 use super::{Diagnosis, fraction, number};
 use crate::dimension::{self, Clash, Dimension};
 use crate::equality::identical as proved;
-use crate::expr::{Expr, Function, Node, Symbol, ratio};
+use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
+use std::collections::BTreeSet;
 use trial::Trial;
 
 /// Points weighed before a proof.
@@ -22,29 +23,20 @@ const MOST_LOOKS: usize = 60_000;
 
 /// The note of a grade whose first diagnosis has this code.
 pub(crate) fn note(code: &str) -> &'static str {
-    match code {
-        "DIMENSION" | "DIMENSION_CLASH" => "DIFF_DIMENSION",
-        "SIGN" => "DIFF_SIGN",
-        "FACTOR" => "DIFF_FACTOR",
-        "FACTOR_SYMBOL" => "DIFF_FACTOR_SYMBOL",
-        "MAGNITUDE" => "DIFF_MAGNITUDE",
-        "RECIPROCAL" => "DIFF_RECIPROCAL",
-        "SIN_COS" => "DIFF_SIN_COS",
-        "HALF" | "DOUBLE" => "DIFF_HALF",
-        "EXCHANGED" => "DIFF_EXCHANGED",
-        "SYMBOL_SIGN" => "DIFF_SYMBOL_SIGN",
-        "SPECIAL_CASE" => "DIFF_SPECIAL_CASE",
-        "SMALL_ANGLE" => "DIFF_SMALL_ANGLE",
-        "POWER" => "DIFF_POWER",
-        "SYMBOLS_EXTRA" | "SYMBOLS_MISSING" => "DIFF_SYMBOLS",
-        "ROUNDED" => "DIFF_ROUNDED",
-        "DEGREES" => "DIFF_DEGREES",
-        "TEN" => "DIFF_TEN",
-        "SIGN_X" | "SIGN_Y" | "SIGN_Z" => "DIFF_SIGN_COMPONENT",
-        "SWAPPED" => "DIFF_SWAPPED",
-        _ => "DIFF",
-    }
+    let code = match code {
+        "DIMENSION_CLASH" => "DIMENSION",
+        "DOUBLE" => "HALF",
+        "SYMBOLS_EXTRA" | "SYMBOLS_MISSING" => "SYMBOLS",
+        "SIGN_X" | "SIGN_Y" | "SIGN_Z" => "SIGN_COMPONENT",
+        other => other,
+    };
+    let own = |note: &&str| note.strip_prefix("DIFF_") == Some(code);
+    NOTES.split(' ').find(own).unwrap_or("DIFF")
 }
+
+const NOTES: &str = "DIFF_DIMENSION DIFF_SIGN DIFF_FACTOR DIFF_FACTOR_SYMBOL DIFF_MAGNITUDE DIFF_RECIPROCAL \
+    DIFF_SIN_COS DIFF_HALF DIFF_EXCHANGED DIFF_SYMBOL_SIGN DIFF_SPECIAL_CASE DIFF_SMALL_ANGLE DIFF_POWER \
+    DIFF_SYMBOLS DIFF_ROUNDED DIFF_DEGREES DIFF_TEN DIFF_SIGN_COMPONENT DIFF_SWAPPED";
 
 /// What is wrong with an expression that is known to differ.
 pub(crate) fn diagnose(ctx: &Context, expected: &Expr, answer: &Expr) -> Vec<Diagnosis> {
@@ -86,14 +78,9 @@ pub(crate) fn diagnose(ctx: &Context, expected: &Expr, answer: &Expr) -> Vec<Dia
 /// What is wrong with a number.
 pub(crate) fn numbers(expected: &Expr, answer: &Expr) -> Vec<Diagnosis> {
     let mut found = Vec::new();
-    let negated = -answer;
-    if same_number(expected, &negated) {
-        found.push(Diagnosis::new(
-            "SIGN",
-            "right up to the sign",
-            "check the sign",
-        ));
-        return found;
+    let sign = |message: &str| Diagnosis::new("SIGN", message, "check the sign");
+    if same_number(expected, &-answer) {
+        return vec![sign("right up to the sign")];
     }
     // An angle that is a fraction in degrees was rounded in degrees.
     let in_degrees = answer.is_arc().then(|| {
@@ -111,38 +98,29 @@ pub(crate) fn numbers(expected: &Expr, answer: &Expr) -> Vec<Diagnosis> {
     let digits = number::digits_shared(&value, &exact);
     if (2..100).contains(&digits) {
         let message = format!("the expected value rounded to {digits} significant digits");
-        found.push(Diagnosis::new(
-            "ROUNDED",
-            message,
-            "give the exact value rather than a rounded one",
-        ));
-        return found;
+        let hint = "give the exact value rather than a rounded one";
+        return vec![Diagnosis::new("ROUNDED", message, hint)];
     }
     let minus = -value.clone();
     let digits = number::digits_shared(&minus, &exact);
     if (2..100).contains(&digits) {
         // As far as anything is compared.
-        let message = match digits < number::MOST_DIGITS {
+        found.push(sign(match digits < number::MOST_DIGITS {
             true => "right up to the sign and rounding",
             false => "right up to the sign",
-        };
-        found.push(Diagnosis::new("SIGN", message, "check the sign"));
+        }));
     }
     if let Some(e) = fraction(expected).filter(|e| *e != ratio(0, 1)) {
         let q = &value / &e;
         let tens = |k: i32| q.abs() == number::ten_to(k);
         if let Some(k) = (-12..=12).find(|k| *k != 0 && tens(*k)) {
-            found.push(Diagnosis::new(
-                "TEN",
-                format!("off by a factor 10^{k}"),
-                "check powers of ten and prefixes of units",
-            ));
+            let message = format!("off by a factor 10^{k}");
+            let hint = "check powers of ten and prefixes of units";
+            found.push(Diagnosis::new("TEN", message, hint));
         } else if slip(&q) {
-            found.push(Diagnosis::new(
-                "FACTOR",
-                format!("right up to the factor {q}"),
-                "a constant factor is wrong",
-            ));
+            let message = format!("right up to the factor {q}");
+            let hint = "a constant factor is wrong";
+            found.push(Diagnosis::new("FACTOR", message, hint));
         }
     }
     found
@@ -158,53 +136,44 @@ pub(crate) fn vectors(
     let domains = &ctx.key.question.domains;
     let all = |f: &dyn Fn(usize) -> Expr| (0..3).all(|i| proved(&expected[i], &f(i), domains));
     if all(&|i| -&answer[i]) {
-        return vec![Diagnosis::new(
-            "SIGN",
-            "right up to the sign of the whole vector",
-            "check the direction of your vector",
-        )];
+        let message = "right up to the sign of the whole vector";
+        let hint = "check the direction of your vector";
+        return vec![Diagnosis::new("SIGN", message, hint)];
     }
     let others = (0..3)
         .filter(|i| *i != first)
         .all(|i| proved(&expected[i], &answer[i], domains));
     if others && proved(&expected[first], &-&answer[first], domains) {
         let (code, axis) = [("SIGN_X", "x"), ("SIGN_Y", "y"), ("SIGN_Z", "z")][first];
-        return vec![Diagnosis::new(
-            code,
-            format!("the {axis}-component has the wrong sign, the others are right"),
-            "one component has the wrong sign",
-        )];
+        let message = format!("the {axis}-component has the wrong sign, the others are right");
+        let hint = "one component has the wrong sign";
+        return vec![Diagnosis::new(code, message, hint)];
     }
     if proved(&expected[0], &answer[1], domains) && proved(&expected[1], &answer[0], domains) {
-        return vec![Diagnosis::new(
-            "SWAPPED",
-            "the components are exchanged",
-            "check which component is which",
-        )];
+        let message = "the components are exchanged";
+        let hint = "check which component is which";
+        return vec![Diagnosis::new("SWAPPED", message, hint)];
     }
     let mut found = Vec::new();
     if others {
         let axis = ["x", "y", "z"][first];
-        found.push(Diagnosis::new(
-            "COMPONENT",
-            format!("only the {axis}-component is wrong"),
-            "one of the components is right",
-        ));
+        let message = format!("only the {axis}-component is wrong");
+        let hint = "one of the components is right";
+        found.push(Diagnosis::new("COMPONENT", message, hint));
     }
-    let mut more = diagnose(ctx, &expected[first], &answer[first]);
-    found.append(&mut more);
+    found.extend(diagnose(ctx, &expected[first], &answer[first]));
     found
 }
 
 /// A factor so common that a number off by it is told: any other would be met by chance too often.
-fn slip(q: &crate::expr::Rational) -> bool {
+fn slip(q: &Rational) -> bool {
     [(2, 1), (1, 2), (4, 1), (1, 4)]
         .iter()
         .any(|(n, d)| *q == ratio(*n, *d))
 }
 
 /// A fraction a slip of the pen would produce.
-fn simple(q: &crate::expr::Rational) -> bool {
+fn simple(q: &Rational) -> bool {
     q.numer().bits() <= 7 && q.denom().bits() <= 7
 }
 
@@ -246,25 +215,15 @@ fn dimensions(ctx: &Context, expected: &Expr, answer: &Expr) -> Option<Diagnosis
 
 /// The missing factor in words: `a length is missing below`.
 fn lacking(missing: &Dimension) -> String {
-    let mut words = Vec::new();
-    for (name, k) in [
-        ("mass", &missing.mass),
-        ("length", &missing.length),
-        ("time", &missing.time),
-        ("current", &missing.current),
-        ("temperature", &missing.temperature),
-    ] {
-        if !num_traits::Zero::is_zero(k) {
-            let times = k.abs();
-            let power = if times == ratio(1, 1) {
-                String::new()
-            } else {
-                format!("^{times}")
-            };
-            let place = if k.is_positive() { "above" } else { "below" };
-            words.push(format!("a factor {name}{power} is missing {place}"));
-        }
-    }
+    let word = |(name, k): (&str, &Rational)| {
+        let power = match k.abs() {
+            times if times == ratio(1, 1) => String::new(),
+            times => format!("^{times}"),
+        };
+        let place = if k.is_positive() { "above" } else { "below" };
+        format!("a factor {name}{power} is missing {place}")
+    };
+    let words: Vec<String> = missing.powers().map(word).collect();
     words.join(", ")
 }
 
@@ -272,21 +231,17 @@ fn lacking(missing: &Dimension) -> String {
 fn symbols(ctx: &Context, expected: &Expr, answer: &Expr) -> Vec<Diagnosis> {
     let (mine, theirs) = (answer.symbols(), expected.symbols());
     let mut found = Vec::new();
-    let list = |names: &[&Symbol]| {
-        names
-            .iter()
-            .map(|n| ctx.say(&Expr::symbol(n)))
-            .collect::<Vec<_>>()
-            .join(", ")
+    let list = |some: &BTreeSet<Symbol>, without: &BTreeSet<Symbol>| {
+        let names = some.difference(without).map(|n| ctx.say(&Expr::symbol(n)));
+        names.collect::<Vec<_>>().join(", ")
     };
-    let extra: Vec<&Symbol> = mine.difference(&theirs).collect();
+    let (extra, missing) = (list(&mine, &theirs), list(&theirs, &mine));
     if !extra.is_empty() {
-        let words = format!("the value does not depend on {}", list(&extra));
+        let words = format!("the value does not depend on {extra}");
         found.push(Diagnosis::new("SYMBOLS_EXTRA", words.clone(), words));
     }
-    let missing: Vec<&Symbol> = theirs.difference(&mine).collect();
     if !missing.is_empty() {
-        let words = format!("the value depends on {} too", list(&missing));
+        let words = format!("the value depends on {missing} too");
         found.push(Diagnosis::new("SYMBOLS_MISSING", words.clone(), words));
     }
     found

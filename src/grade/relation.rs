@@ -20,7 +20,7 @@ use std::collections::BTreeSet;
 use std::slice::from_ref;
 
 use super::compare::{Context, Finding};
-use super::{Apart, Diagnosis, Proof, Verdict};
+use super::{Apart, Diagnosis, Verdict};
 use crate::algebra::{self, Field, Sign};
 use crate::domain::{Coordinate, Domain, Domains, Sample, roles, samples};
 use crate::expr::{Expr, Function, Node, Point, Rational, Symbol, ratio};
@@ -39,6 +39,42 @@ use solved::{same_angle, solved_in, unknowns};
 struct Normal {
     difference: Expr,
     relation: Relation,
+}
+
+impl Normal {
+    fn new(difference: Expr, relation: Relation) -> Normal {
+        Normal {
+            difference,
+            relation,
+        }
+    }
+
+    /// The same relation of another difference.
+    fn of(&self, difference: Expr) -> Normal {
+        Normal::new(difference, self.relation)
+    }
+}
+
+/// Note, words and hint where each of two equations has a solution of its own, and where one is lost or gained.
+const OTHER: [&str; 3] = [
+    "DIFF_EQUATION",
+    "the equation says something else than the expected one",
+    "compare your equation with the law it comes from, term by term",
+];
+const LOST: [&str; 3] = [
+    "DIFF_ROOT_LOST",
+    "a solution of the expected equation does not fulfil the answer",
+    "a solution is missing or the equation says something else",
+];
+const GAINED: [&str; 3] = [
+    "DIFF_ROOT_GAINED",
+    "the answer has a solution that the expected equation lacks",
+    "your equation is fulfilled where it should not be",
+];
+
+/// Different, with note, words and hint.
+fn told([note, words, hint]: [&'static str; 3]) -> Finding {
+    Finding::told(note, "solutions", words, hint)
 }
 
 /// Compares two systems of relations.
@@ -130,7 +166,7 @@ pub(crate) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Fin
         }
         _ => {
             let same = |a: &Vec<Normal>, b: &Vec<Normal>| {
-                system::compare(ctx, a, b, domains).verdict == Verdict::Equivalent
+                system::compare(ctx, a, b, domains).is_equivalent()
             };
             let found = |cases: &[Vec<Normal>], others: &[Vec<Normal>]| {
                 cases.iter().all(|a| others.iter().any(|b| same(a, b)))
@@ -194,10 +230,8 @@ fn links(sides: &[Content], signs: &[Relation]) -> Option<Vec<Normal>> {
 }
 
 fn either<'e>(pairs: impl Iterator<Item = (&'e Expr, &'e Expr)>, relation: Relation) -> Normal {
-    Normal {
-        difference: Expr::product(pairs.map(|(a, b)| a - b).collect::<Vec<_>>()),
-        relation,
-    }
+    let differences: Vec<Expr> = pairs.map(|(a, b)| a - b).collect();
+    Normal::new(Expr::product(differences), relation)
 }
 
 fn normal(left: &Expr, right: &Expr, relation: Relation) -> Normal {
@@ -206,14 +240,9 @@ fn normal(left: &Expr, right: &Expr, relation: Relation) -> Normal {
         Relation::GreaterEqual => (right - left, Relation::LessEqual),
         other => (left - right, other),
     };
-    let equation = matches!(relation, Relation::Equal | Relation::NotEqual);
-    Normal {
-        difference: if equation {
-            rooted(difference)
-        } else {
-            difference
-        },
-        relation,
+    match relation {
+        Relation::Equal | Relation::NotEqual => Normal::new(rooted(difference), relation),
+        _ => Normal::new(difference, relation),
     }
 }
 
@@ -256,9 +285,8 @@ fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
             _ => {}
         }
     }
-    given.retain(|words| !finding.assumed.contains(words));
-    if finding.verdict == Verdict::Equivalent {
-        finding.assumed.extend(given);
+    if finding.is_equivalent() {
+        finding.assume(given);
     }
     finding
 }
@@ -274,30 +302,23 @@ fn as_written(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
                 expected.relation.sign(),
                 answer.relation.sign()
             );
-            let finding = Finding::different("DIFF_RELATION", "kind", words.clone());
-            finding.with(Diagnosis::new("RELATION", words.clone(), words))
+            Finding::told("DIFF_RELATION", "kind", words.clone(), words)
         }
     }
 }
 
 fn same_solutions(words: &str) -> Finding {
-    let proof = Proof::of("solutions", words);
-    Finding::new(Verdict::Equivalent, "EQUIV_SOLUTIONS", proof)
+    Finding::new(Verdict::Equivalent, "EQUIV_SOLUTIONS", "solutions", words)
 }
 
 fn undecided(words: &str) -> Finding {
-    let proof = Proof::of("none", words);
-    Finding::new(Verdict::Undecided, "UNDECIDED_SOLUTIONS", proof)
+    Finding::new(Verdict::Undecided, "UNDECIDED_SOLUTIONS", "none", words)
 }
 
 /// The finding where the expected relation says nothing.
 fn says_nothing(what: &str) -> Finding {
     let words = format!("the expected relation {what}, even over the reals: it says nothing");
-    Finding::new(
-        Verdict::Invalid,
-        "INVALID_EXPECTED",
-        Proof::of("none", words),
-    )
+    Finding::new(Verdict::Invalid, "INVALID_EXPECTED", "none", words)
 }
 
 /// The domains with every symbol real.
@@ -328,10 +349,7 @@ pub(crate) fn proportional(f: &Expr, g: &Expr, domains: &Domains) -> bool {
 
 /// `e = 0`.
 fn equation(e: &Expr) -> Normal {
-    Normal {
-        difference: e.clone(),
-        relation: Relation::Equal,
-    }
+    Normal::new(e.clone(), Relation::Equal)
 }
 
 /// The sign of a formula on the domain.
@@ -400,27 +418,21 @@ fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     }
     if same_angle == Some(false) {
         let words = "the two equations fix the angle at different values";
-        return Finding::different("DIFF_EQUATION", "solutions", words).with(Diagnosis::new(
-            "EQUATION",
-            words,
-            "compare your equation with the law it comes from, term by term",
-        ));
+        return told([OTHER[0], words, OTHER[2]]);
     }
     if solved_in(f, g, domains) && solved_in(g, f, domains) {
         let mut finding = same_solutions("each equation, solved, fulfils the other");
-        finding
-            .assumed
-            .push("what was divided by is not zero".into());
+        let given = "what was divided by is not zero";
+        finding.assumed.push(given.into());
         return finding;
     }
     // Without roots of sums, as in c = √(a² + b²).
     let plain = [expected, answer].map(|n| unrooted(n, domains));
     if plain.iter().any(Option::is_some) {
-        let [a, b] = [f, g].map(Expr::clone);
         let [p, q] = plain.map(|n| n.map(|n| n.difference));
-        let (a, b) = (p.unwrap_or(a), q.unwrap_or(b));
+        let (a, b) = (p.unwrap_or(f.clone()), q.unwrap_or(g.clone()));
         let found = locus::compare(&a, &b, domains).and_then(|c| from_parts(ctx, &a, &b, c));
-        if let Some(found) = found.filter(|found| found.verdict == Verdict::Equivalent) {
+        if let Some(found) = found.filter(Finding::is_equivalent) {
             return found;
         }
     }
@@ -470,45 +482,29 @@ fn from_parts(ctx: &Context, f: &Expr, g: &Expr, compared: Compared) -> Option<F
         }
         return Some(finding);
     }
-    let sought: BTreeSet<Symbol> = {
-        let asked = ctx.key.question.asked.iter().map(|g| g.name.clone());
-        let asked: BTreeSet<Symbol> = asked.filter(|name| shared.contains(name)).collect();
-        if asked.is_empty() { shared } else { asked }
-    };
+    let sought = sought_of(ctx, shared);
     let free = |part: &Part| part.expr.symbols().is_disjoint(&sought);
     if !sought.is_empty() && lost.iter().chain(&gained).all(free) {
         let mut finding = same_solutions("the two differ by factors without the sought quantity");
         let factors = lost.iter().chain(&gained);
-        finding.assumed = factors
-            .map(|part| format!("{} ≠ 0", write_plain(&part.expr)))
-            .collect();
+        finding.assumed = factors.map(|part| not_zero(&part.expr)).collect();
         return Some(finding);
     }
     let found = |parts: &[Part]| parts.iter().find(|p| p.at.is_some()).cloned();
     let open = |parts: &[Part]| parts.iter().any(|p| p.at.is_none());
     match (found(&lost), found(&gained)) {
         (Some(at), Some(_)) => {
-            let words = "the equation says something else than the expected one";
-            let mut finding = parted(ctx, words, "DIFF_EQUATION", &at, false);
+            let mut finding = parted(ctx, OTHER, &at, false);
             if let Some(term) = turned_term(f, g, &ctx.key.question.domains) {
                 let message = format!("right with the sign of {} turned", ctx.say(&term));
                 finding.note = "DIFF_TERM_SIGN";
-                finding.diagnosis = vec![Diagnosis::new(
-                    "TERM_SIGN",
-                    message,
-                    "one term of your equation has the wrong sign",
-                )];
+                let hint = "one term of your equation has the wrong sign";
+                finding.diagnosis = vec![Diagnosis::new("TERM_SIGN", message, hint)];
             }
             Some(finding)
         }
-        (Some(at), None) => {
-            let words = "a solution of the expected equation does not fulfil the answer";
-            Some(parted(ctx, words, "DIFF_ROOT_LOST", &at, false))
-        }
-        (None, Some(at)) => {
-            let words = "the answer has a solution that the expected equation lacks";
-            Some(parted(ctx, words, "DIFF_ROOT_GAINED", &at, true))
-        }
+        (Some(at), None) => Some(parted(ctx, LOST, &at, false)),
+        (None, Some(at)) => Some(parted(ctx, GAINED, &at, true)),
         (None, None) => {
             debug_assert!(open(&lost) || open(&gained));
             None
@@ -516,39 +512,40 @@ fn from_parts(ctx: &Context, f: &Expr, g: &Expr, compared: Compared) -> Option<F
     }
 }
 
-fn parted(ctx: &Context, words: &str, note: &'static str, part: &Part, gained: bool) -> Finding {
-    let mut finding = Finding::different(note, "solutions", words);
+fn parted(ctx: &Context, words: [&'static str; 3], part: &Part, gained: bool) -> Finding {
+    let mut finding = told(words);
     if let Some((at, value)) = &part.at {
         let (zero, other) = (
             "left minus right is 0".to_string(),
             format!("left minus right is {}", ctx.say(value)),
         );
         let (yours, expected) = if gained { (zero, other) } else { (other, zero) };
-        finding.counterexample = Some(Apart {
-            at: at.clone(),
-            yours,
-            expected,
-        });
+        finding.counterexample = Some(Apart::new(at, yours, expected));
     }
-    let hint = match note {
-        "DIFF_EQUATION" => "compare your equation with the law it comes from, term by term",
-        "DIFF_ROOT_LOST" => "a solution is missing or the equation says something else",
-        _ => "your equation is fulfilled where it should not be",
-    };
-    let code = match note {
-        "DIFF_EQUATION" => "EQUATION",
-        "DIFF_ROOT_LOST" => "ROOT_LOST",
-        _ => "ROOT_GAINED",
-    };
-    finding.with(Diagnosis::new(code, words, hint))
+    finding
 }
 
 /// The sought quantity of two relations: what is asked for, else the symbols they share.
 fn sought_in(ctx: &Context, f: &Expr, g: &Expr) -> BTreeSet<Symbol> {
-    let all: BTreeSet<Symbol> = f.symbols().intersection(&g.symbols()).cloned().collect();
+    let all = f.symbols().intersection(&g.symbols()).cloned().collect();
+    sought_of(ctx, all)
+}
+
+/// What is asked for among some symbols, else all of these.
+fn sought_of(ctx: &Context, all: BTreeSet<Symbol>) -> BTreeSet<Symbol> {
     let asked = ctx.key.question.asked.iter().map(|g| g.name.clone());
     let asked: BTreeSet<Symbol> = asked.filter(|name| all.contains(name)).collect();
     if asked.is_empty() { all } else { asked }
+}
+
+/// The assumption that a formula is not zero.
+fn not_zero(e: &Expr) -> String {
+    format!("{} ≠ 0", write_plain(e))
+}
+
+/// What is said of a relation that holds at a point, and of one that does not.
+fn holding(holds: bool) -> &'static str {
+    if holds { "holds" } else { "does not hold" }
 }
 
 /// Points of which others are made that lie on boundaries.
@@ -564,13 +561,13 @@ fn on_boundaries(sample: &Sample, differences: &[&Expr], domains: &Domains) -> V
         let was = moved.coordinates.insert(name.clone(), number)?;
         (matches!(was, Coordinate::Number(_)) && domain.contains(&root)).then_some(moved)
     };
-    let all = differences.iter().flat_map(|f| {
-        let names = unknowns(f, f).into_iter();
-        names
-            .filter_map(move |name| moved(f, &name))
-            .collect::<Vec<_>>()
-    });
-    all.filter(|moved| domains.admits(moved)).collect()
+    let mut all = Vec::new();
+    for f in differences {
+        all.extend(unknowns(f, f).iter().filter_map(|name| moved(f, name)));
+    }
+    all.into_iter()
+        .filter(|moved| domains.admits(moved))
+        .collect()
 }
 
 /// A point in fractions alone.
@@ -591,8 +588,11 @@ fn fractions(sample: &Sample) -> Point<Rational> {
 }
 
 /// The differences of all sides of two systems.
-fn differences<'n>(expected: &'n [Normal], answer: &'n [Normal]) -> Vec<&'n Expr> {
-    let all = expected.iter().chain(answer);
+fn differences<'n>(
+    expected: impl IntoIterator<Item = &'n Normal>,
+    answer: impl IntoIterator<Item = &'n Normal>,
+) -> Vec<&'n Expr> {
+    let all = expected.into_iter().chain(answer);
     all.map(|n| &n.difference).collect()
 }
 
@@ -627,20 +627,12 @@ fn apart_at_points(ctx: &Context, expected: &[Normal], answer: &[Normal]) -> Opt
         if let (Some(e), Some(a)) = (truth(expected), truth(answer))
             && e != a
         {
-            let word = |holds: bool| if holds { "holds" } else { "does not hold" }.to_string();
-            let words = "one holds where the other does not";
-            let mut finding = Finding::different("DIFF_INEQUALITY", "counterexample", words);
-            finding.counterexample = Some(Apart {
-                at: sample.words(),
-                yours: word(a),
-                expected: word(e),
-            });
+            let [note, words, hint] = system::OTHER_NUMBERS;
+            let mut finding = Finding::different(note, "counterexample", words);
+            finding.counterexample = Some(Apart::new(sample.words(), holding(a), holding(e)));
             finding.assumed = assumed;
-            return Some(finding.with(Diagnosis::new(
-                "INEQUALITY",
-                "the inequality holds elsewhere than it should",
-                "check the bound and the direction of your inequality",
-            )));
+            let message = "the inequality holds elsewhere than it should";
+            return Some(finding.with(Diagnosis::new("INEQUALITY", message, hint)));
         }
     }
     None

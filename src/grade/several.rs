@@ -30,12 +30,8 @@ pub(super) fn joined(ctx: &Context, expected: &Content, reading: &Reading) -> Op
         return None;
     }
     // `u = v/3, w = 4v/3` where u is asked.
-    let asked = ctx
-        .key
-        .question
-        .asked
-        .first()
-        .map(|given| given.name.clone());
+    let asked = ctx.key.question.asked.first();
+    let asked = asked.map(|given| given.name.clone());
     if let (None, Some(name), Some(answer)) = (results(expected), asked, results(answer)) {
         if answer.iter().any(|(other, _)| *other == name) {
             return Some(by_name(ctx, &[(name, expected.clone())], &answer));
@@ -88,8 +84,11 @@ pub(super) fn joined(ctx: &Context, expected: &Content, reading: &Reading) -> Op
         }
         // `a = c, b = c` for `a = b, b = c`
         let system = relation::joined(ctx, whole, mine);
-        let same = system.verdict == Verdict::Equivalent;
-        return Some(if same { system } else { found });
+        return Some(if system.is_equivalent() {
+            system
+        } else {
+            found
+        });
     }
     match relations(expected) && relations(answer) {
         true => Some(relation::joined(ctx, expected, answer)),
@@ -174,10 +173,8 @@ fn components(content: &Content) -> Option<Content> {
             Some(stem) => name.rsplit_once('_') == Some((stem, axis)),
             None => **name == *axis,
         };
-        results
-            .iter()
-            .find(|(name, _)| of(name))
-            .map(|(_, value)| value)
+        let mut all = results.iter();
+        all.find_map(|(name, value)| of(name).then_some(value))
     };
     let axes = ["x", "y", "z"].map(along);
     let zero = Expr::zero();
@@ -224,28 +221,18 @@ fn by_name(ctx: &Context, expected: &[(Symbol, Content)], answer: &[(Symbol, Con
     for (name, value) in expected {
         let Some((_, mine)) = answer.iter().find(|(other, _)| other == name) else {
             let words = format!("{name} is missing");
-            let finding = Finding::different("DIFF_ONE_OF_TWO", "kind", words.clone());
-            return finding.with(Diagnosis::new(
-                "ONE_OF_TWO",
-                words,
-                "more results are asked for",
-            ));
+            let hint = "more results are asked for";
+            return Finding::told("DIFF_ONE_OF_TWO", "kind", words, hint);
         };
         let mut finding = values(ctx, value, mine);
         if finding.verdict == Verdict::Different {
             let words = format!("{name} is wrong");
-            finding
-                .diagnosis
-                .insert(0, Diagnosis::new("RESULT", words.clone(), words));
+            let found = Diagnosis::new("RESULT", words.clone(), words);
+            finding.diagnosis.insert(0, found);
             return finding;
         }
         match &mut total {
-            Some(total) if finding.verdict == Verdict::Equivalent => {
-                finding
-                    .assumed
-                    .retain(|words| !total.assumed.contains(words));
-                total.assumed.extend(finding.assumed);
-            }
+            Some(total) if finding.is_equivalent() => total.assume(finding.assumed),
             _ => total = Some(finding),
         }
     }
@@ -263,10 +250,7 @@ fn by_name(ctx: &Context, expected: &[(Symbol, Content)], answer: &[(Symbol, Con
 
 /// Values in any order, of which each has to be given.
 pub(super) fn lists(ctx: &Context, expected: &[Expr], answer: &[Expr]) -> Finding {
-    let plain = Context {
-        diagnose: false,
-        ..*ctx
-    };
+    let plain = ctx.plain();
     let mut found = vec![false; answer.len()];
     let (mut total, mut undecided, mut lost) = (None::<Finding>, None, None);
     for value in expected {
@@ -285,13 +269,12 @@ pub(super) fn lists(ctx: &Context, expected: &[Expr], answer: &[Expr]) -> Findin
         match (here, &mut total) {
             (None, _) => lost = lost.or(Some(value)),
             (Some(finding), None) => total = Some(finding),
-            (Some(finding), Some(total)) => total.assumed.extend(finding.assumed),
+            (Some(finding), Some(total)) => total.assume(finding.assumed),
         }
     }
     let gained = answer.iter().zip(&found).find(|(_, found)| !**found);
     if let Some(total) = total.as_mut() {
         total.assumed.sort();
-        total.assumed.dedup();
     }
     match (lost, gained, undecided, total) {
         (None, None, _, Some(total)) => total,
@@ -301,8 +284,7 @@ pub(super) fn lists(ctx: &Context, expected: &[Expr], answer: &[Expr]) -> Findin
                 2 => "one of the two values is missing".to_string(),
                 _ => format!("the value {} is missing", ctx.say(lost)),
             };
-            let finding = Finding::different("DIFF_ONE_OF_TWO", "kind", words.clone());
-            finding.with(Diagnosis::new("ONE_OF_TWO", words, "there are more values"))
+            Finding::told("DIFF_ONE_OF_TWO", "kind", words, "there are more values")
         }
         (lost, gained, ..) => {
             let beside = gained.map_or(&answer[0], |(value, _)| value);
@@ -313,12 +295,8 @@ pub(super) fn lists(ctx: &Context, expected: &[Expr], answer: &[Expr]) -> Findin
                 }
                 _ => {
                     let words = format!("{} is none of the values", ctx.say(beside));
-                    let finding = Finding::different("DIFF_ROOT_GAINED", "kind", words.clone());
-                    finding.with(Diagnosis::new(
-                        "ROOT_GAINED",
-                        words,
-                        "check each of your values",
-                    ))
+                    let hint = "check each of your values";
+                    Finding::told("DIFF_ROOT_GAINED", "kind", words, hint)
                 }
             }
         }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::compare::{Context, Finding, scalars};
-use super::{Diagnosis, Key, Proof, Tolerance, Verdict};
+use super::{Diagnosis, Key, Tolerance, Verdict};
 use crate::dimension::{self, Clash, Dimension, Unit};
 use crate::expr::Expr;
 use crate::formula::{self, Content, Quantity, Reading, write_plain};
@@ -40,15 +40,13 @@ pub(super) fn behind(key: &Key, reading: &Reading, finding: &mut Finding) {
     };
     match asked {
         Some(asked) if asked != unit.dimension && finding.verdict != Verdict::Undecided => {
-            let right = finding.verdict == Verdict::Equivalent;
+            let right = finding.is_equivalent();
             *finding = wrong(&asked, &unit.dimension, &unit.dimension.si(), right);
         }
-        Some(_) if !constant && !is_coherent(unit) && finding.verdict == Verdict::Equivalent => {
+        Some(_) if !constant && !is_coherent(unit) && finding.is_equivalent() => {
             let words = "the symbols carry their units; the unit behind the formula is another one";
-            *finding =
-                Finding::new(Verdict::Invalid, "INVALID_UNIT", Proof::of("none", words)).with(
-                    Diagnosis::new("UNIT_OF_SYMBOLS", words, "leave the unit away"),
-                );
+            let found = Diagnosis::new("UNIT_OF_SYMBOLS", words, "leave the unit away");
+            *finding = Finding::new(Verdict::Invalid, "INVALID_UNIT", "none", words).with(found);
         }
         None if constant && !unit.dimension.is_none() => {
             *finding = extra(&unit.dimension.si(), false)
@@ -144,14 +142,12 @@ pub(super) fn metres(key: &Key, reading: &mut Reading) {
     }
 }
 
+const MISSING: &str = "a unit is missing";
+
 /// The finding where a number stands without a unit.
 pub(super) fn missing(unit: &str) -> Finding {
     let words = format!("the unit {unit} is missing");
-    Finding::different("DIFF_UNIT_MISSING", "dimension", words.clone()).with(Diagnosis::new(
-        "UNIT_MISSING",
-        words,
-        "a unit is missing",
-    ))
+    Finding::told("DIFF_UNIT_MISSING", "dimension", words, MISSING)
 }
 
 fn is_coherent(unit: &Unit) -> bool {
@@ -160,16 +156,12 @@ fn is_coherent(unit: &Unit) -> bool {
 
 /// Dimension of what is asked, where it is known and not that of a number.
 fn asked(key: &Key) -> Option<Dimension> {
-    if let Some(unit) = &key.reading.unit {
-        return Some(unit.dimension.clone());
-    }
-
-    if let Some(dimension) = &key.question.dimension {
+    let unit = key.reading.unit.as_ref().map(|unit| &unit.dimension);
+    if let Some(dimension) = unit.or(key.question.dimension.as_ref()) {
         return Some(dimension.clone());
     }
     let known = |name: &str| {
-        let all = key.question.given();
-        let mut all = all.into_iter();
+        let mut all = key.question.given();
         all.find(|g| *g.name == *name)?.dimension.clone()
     };
     let mut found = None;
@@ -185,9 +177,8 @@ fn asked(key: &Key) -> Option<Dimension> {
 pub(super) fn quantities(ctx: &Context, expected: &Quantity, answer: &Quantity) -> Finding {
     let (asked, given) = (&expected.unit.dimension, &answer.unit.dimension);
     if asked != given {
-        let number_right =
-            scalars(ctx, &expected.value, &answer.value).verdict == Verdict::Equivalent;
-        return wrong(asked, given, &answer.unit_text, number_right);
+        let right = scalars(ctx, &expected.value, &answer.value).is_equivalent();
+        return wrong(asked, given, &answer.unit_text, right);
     }
     let mut finding = match &ctx.options.tolerance {
         // So many of the unit the expected value is written in.
@@ -200,72 +191,59 @@ pub(super) fn quantities(ctx: &Context, expected: &Quantity, answer: &Quantity) 
     let turns = [&expected.unit, &answer.unit].map(|u| (u.cycles, u.angle));
     if let [(true, false), (false, true)] | [(false, true), (true, false)] = turns {
         let words = "Hz counts turns in a second, rad/s radians: one is 2π of the other";
-        return Finding::different("DIFF_UNIT", "dimension", words).with(Diagnosis::new(
-            "UNIT_WRONG",
-            words,
-            "is an angular velocity asked for, or a frequency?",
-        ));
+        let hint = "is an angular velocity asked for, or a frequency?";
+        let found = Diagnosis::new("UNIT_WRONG", words, hint);
+        return Finding::different("DIFF_UNIT", "dimension", words).with(found);
     }
-    if finding.verdict == Verdict::Equivalent && expected.unit.value() != answer.unit.value() {
+    if finding.is_equivalent() && expected.unit.value() != answer.unit.value() {
         let words = format!(
-            "{} is the same in {}",
-            format_args!("{} {}", write_plain(&answer.written), answer.unit_text),
+            "{} {} is the same in {}",
+            write_plain(&answer.written),
+            answer.unit_text,
             expected.unit_text
         );
-        finding
-            .diagnosis
-            .push(Diagnosis::new("UNIT_CONVERTED", words.clone(), words));
+        let found = Diagnosis::new("UNIT_CONVERTED", words.clone(), words);
+        finding.diagnosis.push(found);
     } else if finding.verdict == Verdict::Different
-        && scalars(ctx, &expected.written, &answer.written).verdict == Verdict::Equivalent
+        && scalars(ctx, &expected.written, &answer.written).is_equivalent()
     {
         finding.note = "DIFF_UNIT";
         let words = format!(
             "the number is right for {}, not for {}",
             expected.unit_text, answer.unit_text
         );
-        finding.diagnosis.insert(
-            0,
-            Diagnosis::new(
-                "UNIT_PREFIX",
-                words,
-                "check the prefix or scale of your unit",
-            ),
-        );
+        let hint = "check the prefix or scale of your unit";
+        let found = Diagnosis::new("UNIT_PREFIX", words, hint);
+        finding.diagnosis.insert(0, found);
     }
     finding
 }
 
 fn wrong(asked: &Dimension, given: &Dimension, unit: &str, number_right: bool) -> Finding {
     let words = format!("{unit} measures {given}, and {asked} is asked for");
-    let mut message = words.clone();
-    if number_right {
-        message.push_str("; the number is right");
-    }
-    Finding::different("DIFF_UNIT", "dimension", words).with(Diagnosis::new(
-        "UNIT_WRONG",
-        message,
-        format!("the unit {unit} does not fit what is asked"),
-    ))
+    let beside = if number_right {
+        "; the number is right"
+    } else {
+        ""
+    };
+    let message = format!("{words}{beside}");
+    let hint = format!("the unit {unit} does not fit what is asked");
+    let found = Diagnosis::new("UNIT_WRONG", message, hint);
+    Finding::different("DIFF_UNIT", "dimension", words).with(found)
 }
 
 /// A number or formula for a quantity with a unit.
 pub(super) fn without(ctx: &Context, expected: &Quantity, answer: &Expr) -> Finding {
-    if expected.unit.dimension.is_none() {
-        return scalars(ctx, &expected.value, answer);
-    }
     // A formula in symbols carries its unit with them.
-    if !answer.is_constant() {
+    if expected.unit.dimension.is_none() || !answer.is_constant() {
         return scalars(ctx, &expected.value, answer);
     }
     if answer.is_zero() && expected.value.is_zero() {
         let words = "zero is zero in any unit; other numbers need theirs";
-        return scalars(ctx, &expected.value, answer).with(Diagnosis::new(
-            "UNIT_MISSING",
-            words,
-            "a unit is missing",
-        ));
+        let found = Diagnosis::new("UNIT_MISSING", words, MISSING);
+        return scalars(ctx, &expected.value, answer).with(found);
     }
-    let right = scalars(ctx, &expected.written, answer).verdict == Verdict::Equivalent;
+    let right = scalars(ctx, &expected.written, answer).is_equivalent();
     let words = match right {
         true => format!(
             "the number is right, and its unit {} is missing",
@@ -273,11 +251,7 @@ pub(super) fn without(ctx: &Context, expected: &Quantity, answer: &Expr) -> Find
         ),
         false => "the unit is missing, and the number is not the expected one".to_string(),
     };
-    Finding::different("DIFF_UNIT_MISSING", "dimension", words.clone()).with(Diagnosis::new(
-        "UNIT_MISSING",
-        words,
-        "a unit is missing",
-    ))
+    Finding::told("DIFF_UNIT_MISSING", "dimension", words, MISSING)
 }
 
 /// A quantity with a unit for a number or formula.
@@ -300,7 +274,7 @@ pub(super) fn with(ctx: &Context, expected: &Expr, answer: &Quantity) -> Finding
         // Zero is zero in any unit.
         _ if expected.is_zero() && answer.value.is_zero() => scalars(ctx, expected, &answer.value),
         _ => {
-            let right = scalars(ctx, expected, &answer.written).verdict == Verdict::Equivalent;
+            let right = scalars(ctx, expected, &answer.written).is_equivalent();
             extra(&answer.unit_text, right)
         }
     }
@@ -311,9 +285,6 @@ fn extra(unit: &str, right: bool) -> Finding {
         true => format!("a pure number is expected; without {unit} it would be right"),
         false => format!("a pure number is expected, not one in {unit}"),
     };
-    Finding::different("DIFF_UNIT_EXTRA", "dimension", words.clone()).with(Diagnosis::new(
-        "UNIT_EXTRA",
-        words,
-        "a unit stands where none is asked",
-    ))
+    let hint = "a unit stands where none is asked";
+    Finding::told("DIFF_UNIT_EXTRA", "dimension", words, hint)
 }

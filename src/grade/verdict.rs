@@ -107,6 +107,20 @@ pub struct Apart {
     pub expected: String,
 }
 
+impl Apart {
+    pub(crate) fn new(
+        at: impl Into<String>,
+        yours: impl Into<String>,
+        expected: impl Into<String>,
+    ) -> Apart {
+        Apart {
+            at: at.into(),
+            yours: yours.into(),
+            expected: expected.into(),
+        }
+    }
+}
+
 /// One thing found out about a wrong answer.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Diagnosis {

@@ -21,6 +21,11 @@ pub struct Interval {
 }
 
 impl Interval {
+    /// The interval between two doubles.
+    pub fn new(low: f64, high: f64) -> Interval {
+        Interval { low, high }
+    }
+
     /// Whether the intervals have no number in common.
     pub fn is_disjoint(&self, other: &Interval) -> bool {
         self.high < other.low || other.high < self.low
@@ -35,10 +40,8 @@ impl Interval {
     }
 
     fn dyadic(&self) -> Option<Enclosure> {
-        Some(Enclosure {
-            low: Dyadic::from_f64(self.low)?,
-            high: Dyadic::from_f64(self.high)?,
-        })
+        let end = Dyadic::from_f64;
+        Some(Enclosure::new(end(self.low)?, end(self.high)?))
     }
 }
 
@@ -86,28 +89,17 @@ impl Certified for Interval {
             _ => false,
         };
         if exact || value.is_zero() {
-            Interval {
-                low: near,
-                high: near,
-            }
+            Interval::new(near, near)
         } else if near.is_nan() {
-            Interval {
-                low: f64::NEG_INFINITY,
-                high: f64::INFINITY,
-            }
+            Interval::new(f64::NEG_INFINITY, f64::INFINITY)
         } else {
-            Interval {
-                low: near.next_down(),
-                high: near.next_up(),
-            }
+            Interval::new(near.next_down(), near.next_up())
         }
     }
     fn pi() -> Outcome<Self> {
         // The double nearest to π is 884279719003555/2⁴⁸, about 1.2·10⁻¹⁶ below it.
-        Value(Interval {
-            low: std::f64::consts::PI,
-            high: std::f64::consts::PI.next_up(),
-        })
+        let near = std::f64::consts::PI;
+        Value(Interval::new(near, near.next_up()))
     }
     fn plus(&self, other: &Self) -> Outcome<Self> {
         Interval::of(sum(self.low, other.low).0, sum(self.high, other.high).1)

@@ -27,20 +27,22 @@ pub enum Round {
 }
 
 impl Dyadic {
+    /// `mantissa`·2^`exponent`.
+    pub fn new(mantissa: impl Into<BigInt>, exponent: i64) -> Dyadic {
+        Dyadic {
+            mantissa: mantissa.into(),
+            exponent,
+        }
+    }
+
     /// Zero.
     pub fn zero() -> Dyadic {
-        Dyadic {
-            mantissa: BigInt::zero(),
-            exponent: 0,
-        }
+        Dyadic::new(0, 0)
     }
 
     /// An integer.
     pub fn from_int(value: i64) -> Dyadic {
-        Dyadic {
-            mantissa: BigInt::from(value),
-            exponent: 0,
-        }
+        Dyadic::new(value, 0)
     }
 
     /// The exact value of a finite double.
@@ -51,15 +53,11 @@ impl Dyadic {
         let bits = value.to_bits();
         let raw = ((bits >> 52) & 0x7ff) as i64;
         let fraction = (bits & ((1 << 52) - 1)) as i64;
-        let (m, e) = if raw == 0 {
-            (fraction, -1074)
-        } else {
-            (fraction | 1 << 52, raw - 1075)
+        let (m, e) = match raw {
+            0 => (fraction, -1074),
+            _ => (fraction | 1 << 52, raw - 1075),
         };
-        Some(Dyadic {
-            mantissa: BigInt::from(if value < 0.0 { -m } else { m }),
-            exponent: e,
-        })
+        Some(Dyadic::new(if value < 0.0 { -m } else { m }, e))
     }
 
     /// Sign: −1, 0 or 1.
@@ -82,18 +80,12 @@ impl Dyadic {
 
     /// x·2^k, exactly.
     pub fn scale(&self, k: i64) -> Dyadic {
-        Dyadic {
-            mantissa: self.mantissa.clone(),
-            exponent: self.exponent.saturating_add(k),
-        }
+        Dyadic::new(self.mantissa.clone(), self.exponent.saturating_add(k))
     }
 
     /// −x.
     pub fn neg(&self) -> Dyadic {
-        Dyadic {
-            mantissa: -&self.mantissa,
-            exponent: self.exponent,
-        }
+        Dyadic::new(-&self.mantissa, self.exponent)
     }
 
     /// Rounded to at most `bits` bits of mantissa.
@@ -103,10 +95,11 @@ impl Dyadic {
             return self;
         }
         let drop = have - u64::from(bits);
-        Dyadic {
-            mantissa: shift_right(&self.mantissa, drop, to),
-            exponent: self.exponent + drop as i64,
-        }
+        let mantissa = match to {
+            Round::Down => &self.mantissa >> drop,
+            Round::Up => -((-&self.mantissa) >> drop),
+        };
+        Dyadic::new(mantissa, self.exponent + drop as i64)
     }
 
     /// The largest integer up to x·2^w.
@@ -127,10 +120,9 @@ impl Dyadic {
         if other.mantissa.is_zero() {
             return self.clone().round(bits, to);
         }
-        let (large, small) = if self.top() >= other.top() {
-            (self, other)
-        } else {
-            (other, self)
+        let (large, small) = match self.top() >= other.top() {
+            true => (self, other),
+            false => (other, self),
         };
         let reach = (2 * i64::from(bits) + 8).max(large.mantissa.bits() as i64 + 8);
         if large.top() - small.top() > reach {
@@ -140,10 +132,7 @@ impl Dyadic {
                 (1, Round::Up) => 1,
                 _ => return large.clone().round(bits, to),
             };
-            let bound = Dyadic {
-                mantissa: BigInt::from(sign),
-                exponent: large.top() - reach,
-            };
+            let bound = Dyadic::new(sign, large.top() - reach);
             return aligned_sum(large, &bound).round(bits, to);
         }
         aligned_sum(large, small).round(bits, to)
@@ -151,31 +140,23 @@ impl Dyadic {
 
     /// x·y, exactly.
     pub fn mul(&self, other: &Dyadic) -> Dyadic {
-        Dyadic {
-            mantissa: &self.mantissa * &other.mantissa,
-            exponent: self.exponent.saturating_add(other.exponent),
-        }
+        let exponent = self.exponent.saturating_add(other.exponent);
+        Dyadic::new(&self.mantissa * &other.mantissa, exponent)
     }
 
     /// x/n for a positive integer, rounded.
     pub fn div_small(&self, n: u64, bits: u32, to: Round) -> Dyadic {
         let shift = u64::from(bits) + 2 + u64::from(64 - n.leading_zeros());
         let shift = shift.saturating_sub(self.mantissa.bits());
-        Dyadic {
-            mantissa: div_round(&(&self.mantissa << shift), &BigInt::from(n), to),
-            exponent: self.exponent - shift as i64,
-        }
-        .round(bits, to)
+        let mantissa = div_round(&(&self.mantissa << shift), &BigInt::from(n), to);
+        Dyadic::new(mantissa, self.exponent - shift as i64).round(bits, to)
     }
 
     /// 1/x for x ≠ 0, rounded.
     pub fn recip(&self, bits: u32, to: Round) -> Dyadic {
         let shift = u64::from(bits) + 1 + self.mantissa.bits();
-        Dyadic {
-            mantissa: div_round(&(BigInt::one() << shift), &self.mantissa, to),
-            exponent: -self.exponent - shift as i64,
-        }
-        .round(bits, to)
+        let mantissa = div_round(&(BigInt::one() << shift), &self.mantissa, to);
+        Dyadic::new(mantissa, -self.exponent - shift as i64).round(bits, to)
     }
 
     /// √x for x ≥ 0, rounded.
@@ -189,11 +170,7 @@ impl Dyadic {
         if to == Round::Up && &root * &root != wide {
             root += 1;
         }
-        Dyadic {
-            mantissa: root,
-            exponent: (self.exponent - shift) / 2,
-        }
-        .round(bits, to)
+        Dyadic::new(root, (self.exponent - shift) / 2).round(bits, to)
     }
 
     /// A fraction, rounded.
@@ -203,20 +180,15 @@ impl Dyadic {
         }
         let (n, d) = (value.numer().to_bigint(), value.denom().to_bigint());
         let shift = (u64::from(bits) + 1 + d.bits()).saturating_sub(n.bits());
-        Dyadic {
-            mantissa: div_round(&(n << shift), &d, to),
-            exponent: -(shift as i64),
-        }
-        .round(bits, to)
+        Dyadic::new(div_round(&(n << shift), &d, to), -(shift as i64)).round(bits, to)
     }
 
     /// The exact fraction; the caller bounds the exponent.
     pub fn to_rational(&self) -> Rational {
         let power = BigInt::one() << self.exponent.unsigned_abs();
-        if self.exponent >= 0 {
-            Rational::from(Int::from(&self.mantissa * power))
-        } else {
-            Rational::new(Int::from(self.mantissa.clone()), Int::from(power))
+        match self.exponent >= 0 {
+            true => Rational::from(Int::from(&self.mantissa * power)),
+            false => Rational::new(Int::from(self.mantissa.clone()), Int::from(power)),
         }
     }
 
@@ -291,19 +263,15 @@ impl Ord for Dyadic {
         if sign != Ordering::Equal || self.mantissa.is_zero() {
             return sign;
         }
-        let size = self.top().cmp(&other.top());
-        let size = if size != Ordering::Equal {
-            size
-        } else {
+        let size = self.top().cmp(&other.top()).then_with(|| {
             // Equal tops: the exponents differ by no more than the longer mantissa.
             let low = self.exponent.min(other.exponent);
             let [a, b] = [self, other].map(|x| x.mantissa.abs() << (x.exponent - low) as u64);
             a.cmp(&b)
-        };
-        if self.sign() < 0 {
-            size.reverse()
-        } else {
-            size
+        });
+        match self.sign() < 0 {
+            true => size.reverse(),
+            false => size,
         }
     }
 }
@@ -311,17 +279,7 @@ impl Ord for Dyadic {
 fn aligned_sum(a: &Dyadic, b: &Dyadic) -> Dyadic {
     let low = a.exponent.min(b.exponent);
     let m = (&a.mantissa << (a.exponent - low) as u64) + (&b.mantissa << (b.exponent - low) as u64);
-    Dyadic {
-        mantissa: m,
-        exponent: low,
-    }
-}
-
-fn shift_right(m: &BigInt, by: u64, to: Round) -> BigInt {
-    match to {
-        Round::Down => m >> by,
-        Round::Up => -((-m) >> by),
-    }
+    Dyadic::new(m, low)
 }
 
 fn div_round(n: &BigInt, d: &BigInt, to: Round) -> BigInt {

@@ -1,6 +1,6 @@
 //! Intervals with dyadic ends at a chosen precision, and the same with the precision in the type.
 
-use num_traits::{One, Signed, Zero};
+use num_traits::{Signed, Zero};
 
 use super::dyadic::{Dyadic, Round};
 use super::{Certified, Outcome, series};
@@ -20,20 +20,40 @@ pub struct Enclosure {
 }
 
 impl Enclosure {
+    /// The interval between two numbers.
+    pub fn new(low: Dyadic, high: Dyadic) -> Enclosure {
+        Enclosure { low, high }
+    }
+
     /// The interval of one number.
     pub fn point(x: Dyadic) -> Enclosure {
-        Enclosure {
-            low: x.clone(),
-            high: x,
-        }
+        Enclosure::new(x.clone(), x)
+    }
+
+    /// The interval between two numbers, rounded outwards.
+    fn outwards(low: Dyadic, high: Dyadic, bits: u32) -> Enclosure {
+        Enclosure::new(low.round(bits, Round::Down), high.round(bits, Round::Up))
+    }
+
+    /// The interval with ends of fewer bits.
+    pub(super) fn rounded(&self, bits: u32) -> Enclosure {
+        Enclosure::outwards(self.low.clone(), self.high.clone(), bits)
+    }
+
+    /// How wide it is at most.
+    pub(super) fn width(&self, bits: u32) -> Dyadic {
+        self.high.add(&self.low.neg(), bits, Round::Up)
+    }
+
+    /// Above which power of two no number of it lies.
+    pub(super) fn top(&self) -> i64 {
+        self.low.top().max(self.high.top())
     }
 
     /// The tightest interval of the precision around a fraction.
     pub fn of(value: &Rational, bits: u32) -> Enclosure {
-        Enclosure {
-            low: Dyadic::from_rational(value, bits, Round::Down),
-            high: Dyadic::from_rational(value, bits, Round::Up),
-        }
+        let end = |to| Dyadic::from_rational(value, bits, to);
+        Enclosure::new(end(Round::Down), end(Round::Up))
     }
 
     /// The circle constant.
@@ -65,26 +85,18 @@ impl Enclosure {
 
     /// −x.
     pub fn neg(&self) -> Enclosure {
-        Enclosure {
-            low: self.high.neg(),
-            high: self.low.neg(),
-        }
+        Enclosure::new(self.high.neg(), self.low.neg())
     }
 
     /// x·2^k.
     pub fn scale(&self, k: i64) -> Enclosure {
-        Enclosure {
-            low: self.low.scale(k),
-            high: self.high.scale(k),
-        }
+        Enclosure::new(self.low.scale(k), self.high.scale(k))
     }
 
     /// Sum.
     pub fn add(&self, other: &Enclosure, bits: u32) -> Enclosure {
-        Enclosure {
-            low: self.low.add(&other.low, bits, Round::Down),
-            high: self.high.add(&other.high, bits, Round::Up),
-        }
+        let low = self.low.add(&other.low, bits, Round::Down);
+        Enclosure::new(low, self.high.add(&other.high, bits, Round::Up))
     }
 
     /// Difference.
@@ -100,53 +112,39 @@ impl Enclosure {
             (1, -1) => (self.high.mul(&other.low), self.low.mul(&other.high)),
             (-1, 1) => (self.low.mul(&other.high), self.high.mul(&other.low)),
             _ => {
-                let ends = [
-                    self.low.mul(&other.low),
-                    self.low.mul(&other.high),
-                    self.high.mul(&other.low),
-                    self.high.mul(&other.high),
-                ];
-                let [a, b, c, d] = ends;
-                let low = a.clone().min(b.clone()).min(c.clone()).min(d.clone());
-                (low, a.max(b).max(c).max(d))
+                let (a, b) = (self.low.mul(&other.high), self.high.mul(&other.low));
+                let (c, d) = (self.low.mul(&other.low), self.high.mul(&other.high));
+                (a.min(b), c.max(d))
             }
         };
-        Enclosure {
-            low: low.round(bits, Round::Down),
-            high: high.round(bits, Round::Up),
-        }
+        Enclosure::outwards(low, high, bits)
     }
 
     /// Square; never negative.
     pub fn square(&self, bits: u32) -> Enclosure {
         let a = self.abs();
-        Enclosure {
-            low: a.low.mul(&a.low).round(bits, Round::Down),
-            high: a.high.mul(&a.high).round(bits, Round::Up),
-        }
+        Enclosure::outwards(a.low.mul(&a.low), a.high.mul(&a.high), bits)
     }
 
     /// Quotient by a positive integer.
     pub fn div_small(&self, n: u64, bits: u32) -> Enclosure {
-        Enclosure {
-            low: self.low.div_small(n, bits, Round::Down),
-            high: self.high.div_small(n, bits, Round::Up),
-        }
+        let low = self.low.div_small(n, bits, Round::Down);
+        Enclosure::new(low, self.high.div_small(n, bits, Round::Up))
     }
 
     /// Reciprocal; `None` around zero.
     pub fn recip(&self, bits: u32) -> Option<Enclosure> {
-        (!self.has_zero()).then(|| Enclosure {
-            low: self.high.recip(bits, Round::Down),
-            high: self.low.recip(bits, Round::Up),
+        (!self.has_zero()).then(|| {
+            let low = self.high.recip(bits, Round::Down);
+            Enclosure::new(low, self.low.recip(bits, Round::Up))
         })
     }
 
     /// Square root; `None` where the interval reaches below zero.
     pub fn sqrt(&self, bits: u32) -> Option<Enclosure> {
-        (self.low.sign() >= 0).then(|| Enclosure {
-            low: self.low.sqrt(bits, Round::Down),
-            high: self.high.sqrt(bits, Round::Up),
+        (self.low.sign() >= 0).then(|| {
+            let low = self.low.sqrt(bits, Round::Down);
+            Enclosure::new(low, self.high.sqrt(bits, Round::Up))
         })
     }
 
@@ -155,19 +153,14 @@ impl Enclosure {
         match self.sides() {
             1 => self.clone(),
             -1 => self.neg(),
-            _ => Enclosure {
-                low: Dyadic::zero(),
-                high: self.low.neg().max(self.high.clone()),
-            },
+            _ => Enclosure::new(Dyadic::zero(), self.low.neg().max(self.high.clone())),
         }
     }
 
     /// The interval widened by ±`by`.
     pub fn widen(&self, by: &Dyadic, bits: u32) -> Enclosure {
-        Enclosure {
-            low: self.low.add(&by.neg(), bits, Round::Down),
-            high: self.high.add(by, bits, Round::Up),
-        }
+        let low = self.low.add(&by.neg(), bits, Round::Down);
+        Enclosure::new(low, self.high.add(by, bits, Round::Up))
     }
 
     /// The double nearest to every number inside; `None` where the ends round apart or beyond the range of doubles.
@@ -194,22 +187,19 @@ impl Enclosure {
 
     /// Number of decimal digits in which the two ends agree, roughly; large for an exact value.
     pub fn digits(&self) -> u32 {
-        let width = self.high.add(&self.low.neg(), 32, Round::Up);
+        let width = self.width(32);
         if width.sign() == 0 {
             return u32::MAX;
         }
-        let size = self.low.top().max(self.high.top());
-        let bits = size.saturating_sub(width.top()).max(0) as u64;
+        let bits = self.top().saturating_sub(width.top()).max(0) as u64;
         // log10 2 = 0.30103
         (bits * 30_103 / 100_000).min(1_000_000) as u32
     }
 
     /// A decimal number within half a unit of its last digit of the middle, with the given number of significant digits.
     pub fn decimal(&self, digits: u32) -> String {
-        let middle = self
-            .low
-            .add(&self.high, 4 * digits + 64, Round::Down)
-            .scale(-1);
+        let sum = self.low.add(&self.high, 4 * digits + 64, Round::Down);
+        let middle = sum.scale(-1);
         if middle.mantissa.is_zero() {
             return "0".into();
         }
@@ -223,21 +213,18 @@ impl Enclosure {
 
     /// 1 where all is ≥ 0, −1 where all is ≤ 0, 0 where both signs occur.
     fn sides(&self) -> i32 {
-        if self.low.sign() >= 0 {
-            1
-        } else if self.high.sign() <= 0 {
-            -1
-        } else {
-            0
+        match (self.low.sign() >= 0, self.high.sign() <= 0) {
+            (true, _) => 1,
+            (_, true) => -1,
+            _ => 0,
         }
     }
 
     fn in_range(self) -> Outcome<Enclosure> {
         let fits = |x: &Dyadic| x.mantissa.is_zero() || x.top().abs() <= RANGE;
-        if fits(&self.low) && fits(&self.high) {
-            Outcome::Value(self)
-        } else {
-            Outcome::Unknown
+        match fits(&self.low) && fits(&self.high) {
+            true => Outcome::Value(self),
+            false => Outcome::Unknown,
         }
     }
 }
@@ -268,24 +255,17 @@ pub fn decimal(value: &Rational, digits: u32) -> String {
         text = shown(exponent);
     }
     let sign = if value.is_negative() { "-" } else { "" };
-    let body = if (-5..digits as i32).contains(&exponent) {
-        if exponent < 0 {
-            format!("0.{}{}", "0".repeat((-exponent - 1) as usize), text)
-        } else {
+    let pointed = |whole: &str, part: &str| match part {
+        "" => whole.to_string(),
+        _ => format!("{whole}.{part}"),
+    };
+    let body = match exponent {
+        -5..0 => format!("0.{}{text}", "0".repeat((-exponent - 1) as usize)),
+        0.. if exponent < digits as i32 => {
             let (whole, part) = text.split_at((exponent as usize + 1).min(text.len()));
-            if part.is_empty() {
-                whole.to_string()
-            } else {
-                format!("{whole}.{part}")
-            }
+            pointed(whole, part)
         }
-    } else {
-        let (whole, part) = text.split_at(1);
-        if part.is_empty() {
-            format!("{whole}e{exponent}")
-        } else {
-            format!("{whole}.{part}e{exponent}")
-        }
+        _ => format!("{}e{exponent}", pointed(&text[..1], &text[1..])),
     };
     format!("{sign}{body}")
 }
@@ -357,8 +337,5 @@ impl<const BITS: u32> Certified for Big<BITS> {
 
 /// The exact fraction 1, as an enclosure.
 pub(super) fn unit() -> Enclosure {
-    Enclosure::point(Dyadic {
-        mantissa: One::one(),
-        exponent: 0,
-    })
+    Enclosure::point(Dyadic::from_int(1))
 }

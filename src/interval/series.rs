@@ -33,7 +33,7 @@ pub(super) fn pi(bits: u32) -> Enclosure {
             .scale(4)
             .sub(&inverse_series(239, w, true).scale(2), w)
     });
-    rounded(full, bits)
+    full.rounded(bits)
 }
 
 /// ln 2 = 18 artanh(1/26) − 2 artanh(1/4801) + 8 artanh(1/8749).
@@ -48,7 +48,7 @@ fn ln_two(bits: u32) -> Enclosure {
             .sub(&b.scale(1), w)
             .add(&c.scale(3), w)
     });
-    rounded(full, bits)
+    full.rounded(bits)
 }
 
 /// atan(1/n) (alternating) or artanh(1/n): Σ (±1)^k / ((2k+1) n^(2k+1)) in fixed point with `w` bits.
@@ -68,22 +68,20 @@ fn inverse_series(n: u64, w: u32, alternating: bool) -> Enclosure {
     }
     // Each power is at most 2 units too small (the error shrinks by n² ≥ 25 per step and grows by 1), each term so by at
     // most 3; the terms left out sum to less than 2 units.
-    let error = BigInt::from(3 * terms + 2);
-    let [low, high] = [&total - &error, &total + &error];
-    let end = |m| Dyadic {
-        mantissa: m,
-        exponent: -i64::from(w),
-    };
-    Enclosure {
-        low: end(low),
-        high: end(high),
-    }
+    around(total, BigInt::from(3 * terms + 2), w)
 }
 
-fn rounded(e: &Enclosure, bits: u32) -> Enclosure {
-    Enclosure {
-        low: e.low.clone().round(bits, Round::Down),
-        high: e.high.clone().round(bits, Round::Up),
+/// A number in fixed point with `w` bits, known up to an error.
+fn around(total: BigInt, error: BigInt, w: u32) -> Enclosure {
+    let end = |m: BigInt| Dyadic::new(m, -i64::from(w));
+    Enclosure::new(end(&total - &error), end(total + error))
+}
+
+/// How often an argument is halved, or its root drawn, before a series: a part of the root of the bits where these are many.
+fn halvings(bits: u32, part: i64, few: i64) -> i64 {
+    match bits > 400 {
+        true => i64::from(bits.isqrt()) / part,
+        false => few,
     }
 }
 
@@ -123,27 +121,17 @@ fn monotone(x: &Enclosure, f: impl Fn(&Dyadic) -> Enclosure) -> Enclosure {
     if x.is_exact() {
         return low;
     }
-    Enclosure {
-        low: low.low,
-        high: f(&x.high).high,
-    }
+    Enclosure::new(low.low, f(&x.high).high)
 }
 
 /// [sin x, cos x].
 fn sin_cos(x: &Enclosure, bits: u32) -> [Enclosure; 2] {
-    let anything = Enclosure {
-        low: Dyadic::from_int(-1),
-        high: Dyadic::from_int(1),
-    };
-    if x.low.top().max(x.high.top()) > LARGEST {
-        return [anything.clone(), anything];
-    }
-    let width = x.high.add(&x.low.neg(), 64, Round::Up);
-    if width.top() > 2 {
+    let anything = Enclosure::new(Dyadic::from_int(-1), Dyadic::from_int(1));
+    if x.top() > LARGEST || x.width(64).top() > 2 {
         return [anything.clone(), anything];
     }
     // |x| < 2^128: the reduction loses at most that many bits.
-    let w = bits + 40 + x.low.top().max(x.high.top()).max(0) as u32;
+    let w = bits + 40 + x.top().max(0) as u32;
     let middle = x.low.add(&x.high, w, Round::Down).scale(-1);
     let point = Enclosure::point(middle.clone());
     let quarter = pi(w).scale(-1);
@@ -158,10 +146,7 @@ fn sin_cos(x: &Enclosure, bits: u32) -> [Enclosure; 2] {
             None => BigInt::zero(),
         },
     };
-    let turns = Enclosure::point(Dyadic {
-        mantissa: k.clone(),
-        exponent: 0,
-    });
+    let turns = Enclosure::point(Dyadic::new(k.clone(), 0));
     let rest = point.sub(&turns.mul(&quarter, w), w);
     let [sin, cos] = sin_cos_small(&rest, w);
     let four: BigInt = ((k % 4) + 4) % 4;
@@ -172,41 +157,24 @@ fn sin_cos(x: &Enclosure, bits: u32) -> [Enclosure; 2] {
         _ => [sin, cos],
     };
     // The rounding of the middle is below the width of a working unit; for an exact argument it is repeated here.
-    let spread =
-        x.high
-            .add(&middle.neg(), 64, Round::Up)
-            .max(middle.add(&x.low.neg(), 64, Round::Up));
+    let above = x.high.add(&middle.neg(), 64, Round::Up);
+    let spread = above.max(middle.add(&x.low.neg(), 64, Round::Up));
     [sin, cos].map(|value| {
         let wide = value.widen(&spread, bits);
-        let (low, high) = (
-            wide.low.max(anything.low.clone()),
-            wide.high.min(anything.high.clone()),
-        );
-        Enclosure { low, high }
+        let low = wide.low.max(anything.low.clone());
+        Enclosure::new(low, wide.high.min(anything.high.clone()))
     })
 }
 
 /// The integer nearest to a number.
 fn nearest(x: &Dyadic) -> BigInt {
-    let half = x.add(
-        &Dyadic {
-            mantissa: BigInt::one(),
-            exponent: -1,
-        },
-        256,
-        Round::Down,
-    );
-    half.floor_of(0)
+    x.add(&Dyadic::new(1, -1), 256, Round::Down).floor_of(0)
 }
 
 /// [sin x, cos x] for |x| < 1, by halving j times, Taylor, and doubling: with d = cos − 1, sin 2x = 2 sin x (1 + d) and
 /// d(2x) = 4d + 2d².
 fn sin_cos_small(x: &Enclosure, bits: u32) -> [Enclosure; 2] {
-    let halvings = if bits > 400 {
-        i64::from(bits.isqrt()) / 2
-    } else {
-        4
-    };
+    let halvings = halvings(bits, 2, 4);
     let w = bits + 2 * halvings as u32 + 8;
     let y = x.scale(-halvings);
     let square = y.square(w);
@@ -219,7 +187,7 @@ fn sin_cos_small(x: &Enclosure, bits: u32) -> [Enclosure; 2] {
         sin = sin.mul(&d.add(&unit(), w), w).scale(1);
         d = d.scale(2).add(&d.square(w).scale(1), w);
     }
-    [rounded(&sin, bits), rounded(&d.add(&unit(), w), bits)]
+    [sin.rounded(bits), d.add(&unit(), w).rounded(bits)]
 }
 
 /// Σ (±1)^k t_k/b_k for 0 ≤ s ≤ 1/4 in fixed point with `w` bits, where t_0 = 1 and t_k = t_{k−1} s/a_k; `at` gives the whole
@@ -250,32 +218,20 @@ fn fixed_series(
     }
     // Each power is at most 3 units too small (the error shrinks by 4 per step and grows by 2), each term so by at most 4; the
     // terms left out shrink by 4 from 3 units on; and the slope in s is at most Σ k/4^(k−1)/3 < 1.
-    let error = (high - low) + 4 * terms + 4;
-    let end = |m| Dyadic {
-        mantissa: m,
-        exponent: -i64::from(w),
-    };
-    Enclosure {
-        low: end(&total - &error),
-        high: end(total + error),
-    }
+    around(total, (high - low) + 4 * terms + 4, w)
 }
 
 /// eˣ.
 pub(super) fn exp(x: &Enclosure, bits: u32) -> Outcome<Enclosure> {
     // 2^39 keeps the result's exponent countable.
-    if x.low.top().max(x.high.top()) > 39 {
+    if x.top() > 39 {
         return Unknown;
     }
     Value(monotone(x, |t| exp_point(t, bits)))
 }
 
 fn exp_point(x: &Dyadic, bits: u32) -> Enclosure {
-    let halvings = if bits > 400 {
-        i64::from(bits.isqrt()) / 2
-    } else {
-        6
-    };
+    let halvings = halvings(bits, 2, 6);
     let w = bits + 64 + halvings as u32;
     let point = Enclosure::point(x.clone());
     let ln2 = ln_two(w);
@@ -283,10 +239,7 @@ fn exp_point(x: &Dyadic, bits: u32) -> Enclosure {
         Some(inverse) => nearest(&point.mul(&inverse, w).low),
         None => BigInt::zero(),
     };
-    let turns = Enclosure::point(Dyadic {
-        mantissa: k.clone(),
-        exponent: 0,
-    });
+    let turns = Enclosure::point(Dyadic::new(k.clone(), 0));
     let y = point.sub(&turns.mul(&ln2, w), w).scale(-halvings);
     // |y| < 1/2: the rest of the series is at most the first term left out times 1/(1 − 1/2).
     let (mut term, mut total) = (unit(), unit());
@@ -301,7 +254,7 @@ fn exp_point(x: &Dyadic, bits: u32) -> Enclosure {
     for _ in 0..halvings {
         total = total.square(w);
     }
-    rounded(&total.scale(k.to_i64().unwrap_or(0)), bits)
+    total.scale(k.to_i64().unwrap_or(0)).rounded(bits)
 }
 
 /// ln x.
@@ -321,10 +274,7 @@ fn ln_point(x: &Dyadic, bits: u32) -> Enclosure {
     let mut k = x.top();
     let mut m = x.scale(-k);
     // m in [1/2, 1); below 0.7 it is doubled.
-    if m < (Dyadic {
-        mantissa: BigInt::from(45),
-        exponent: -6,
-    }) {
+    if m < Dyadic::new(45, -6) {
         m = m.scale(1);
         k -= 1;
     }
@@ -332,11 +282,7 @@ fn ln_point(x: &Dyadic, bits: u32) -> Enclosure {
     let mut roots = 0;
     // Near 1 the quotient is small already, and roots would cancel digits.
     if m.sub(&unit(), 64).abs().high.top() > -8 {
-        roots = if bits > 400 {
-            i64::from(bits.isqrt()) / 2
-        } else {
-            4
-        };
+        roots = halvings(bits, 2, 4);
     }
     let w = w + roots as u32 + 8;
     for _ in 0..roots {
@@ -348,7 +294,7 @@ fn ln_point(x: &Dyadic, bits: u32) -> Enclosure {
     };
     let part = odd_series(&z, w, false).scale(1 + roots);
     let turns = Enclosure::point(Dyadic::from_int(k));
-    rounded(&turns.mul(&ln_two(w), w).add(&part, w), bits)
+    turns.mul(&ln_two(w), w).add(&part, w).rounded(bits)
 }
 
 /// Σ (±1)^k z^(2k+1)/(2k+1) for |z| ≤ 1/2: artanh z, or atan z with alternating signs.
@@ -359,17 +305,14 @@ fn odd_series(z: &Enclosure, w: u32, alternating: bool) -> Enclosure {
 
 /// atan x; its slope is at most 1, so a narrow interval that is not far from zero needs one end only.
 fn atan(x: &Enclosure, bits: u32) -> Enclosure {
-    let width = x.high.add(&x.low.neg(), 64, Round::Up);
+    let width = x.width(64);
     let is_narrow =
         width.top().saturating_add(i64::from(bits) / 2) < x.low.top() && x.low.top() <= 4;
     if !is_narrow || width.sign() == 0 {
         return monotone(x, |t| atan_point(t, bits));
     }
     let low = atan_point(&x.low, bits);
-    Enclosure {
-        low: low.low,
-        high: low.high.add(&width, bits, Round::Up),
-    }
+    Enclosure::new(low.low, low.high.add(&width, bits, Round::Up))
 }
 
 /// atan x by |x| > 1 → π/2 − atan(1/x), then atan x = 2 atan(x/(1 + √(1 + x²))).
@@ -380,11 +323,7 @@ fn atan_point(x: &Dyadic, bits: u32) -> Enclosure {
     if x.sign() < 0 {
         return atan_point(&x.neg(), bits).neg();
     }
-    let halvings = if bits > 400 {
-        i64::from(bits.isqrt()) / 8
-    } else {
-        2
-    };
+    let halvings = halvings(bits, 8, 2);
     let w = bits + 32;
     let point = Enclosure::point(x.clone());
     let inverted = x.top() > 0;
@@ -400,12 +339,10 @@ fn atan_point(x: &Dyadic, bits: u32) -> Enclosure {
         };
     }
     let angle = odd_series(&z, w, true).scale(halvings);
-    let angle = if inverted {
-        pi(w).scale(-1).sub(&angle, w)
-    } else {
-        angle
-    };
-    rounded(&angle, bits)
+    match inverted {
+        true => pi(w).scale(-1).sub(&angle, w).rounded(bits),
+        false => angle.rounded(bits),
+    }
 }
 
 /// asin x = atan(x/√(1 − x²)); ±π/2 at ±1.
@@ -418,26 +355,19 @@ fn asin(x: &Enclosure, bits: u32) -> Outcome<Enclosure> {
         return Unknown;
     }
     let w = bits + 32;
+    let quarter = pi(w).scale(-1);
     let at = |t: &Dyadic| {
         let point = Enclosure::point(t.clone());
         // (1 − t)(1 + t) loses nothing near ±1.
         let rest = unit().sub(&point, 4 * w).mul(&unit().add(&point, 4 * w), w);
         match rest.sqrt(w).and_then(|r| r.recip(w)) {
             Some(inverse) => atan(&point.mul(&inverse, w), w),
-            None if rest.is_exact() => {
-                if t.sign() > 0 {
-                    pi(w).scale(-1)
-                } else {
-                    pi(w).scale(-1).neg()
-                }
-            }
-            None => Enclosure {
-                low: pi(w).scale(-1).neg().low,
-                high: pi(w).scale(-1).high,
-            },
+            None if !rest.is_exact() => Enclosure::new(quarter.high.neg(), quarter.high.clone()),
+            None if t.sign() > 0 => quarter.clone(),
+            None => quarter.neg(),
         }
     };
-    Value(rounded(&monotone(x, at), bits))
+    Value(monotone(x, at).rounded(bits))
 }
 
 fn hyperbolic(x: &Enclosure, function: Function, bits: u32) -> Outcome<Enclosure> {
@@ -451,15 +381,8 @@ fn hyperbolic(x: &Enclosure, function: Function, bits: u32) -> Outcome<Enclosure
     match function {
         Function::Cosh => cosh(&x.abs()).then(|high| {
             // Even, and increasing in |x|.
-            cosh(&Enclosure::point(x.abs().low)).then(|low| {
-                Value(rounded(
-                    &Enclosure {
-                        low: low.low.clone(),
-                        high: high.high.clone(),
-                    },
-                    bits,
-                ))
-            })
+            cosh(&Enclosure::point(x.abs().low))
+                .then(|low| Value(Enclosure::new(low.low.clone(), high.high.clone()).rounded(bits)))
         }),
         _ => exp(x, w).then(|up| {
             if up.recip(w).is_none() {
@@ -474,7 +397,7 @@ fn hyperbolic(x: &Enclosure, function: Function, bits: u32) -> Outcome<Enclosure
                     _ => difference.mul(&sum.recip(w).unwrap_or_else(unit), w),
                 }
             };
-            Value(rounded(&monotone(x, at), bits))
+            Value(monotone(x, at).rounded(bits))
         }),
     }
 }

@@ -143,7 +143,7 @@ struct Place<'a> {
 /// Where a symbol lives; `None` where that is no place for identities, or the symbol is an angle as well as a value.
 fn place<'a>(name: &'a Symbol, role: &Role, domains: &'a Domains) -> Option<Place<'a>> {
     let domain = domains.symbols.get(name)?;
-    let [low, high] = [&domain.low, &domain.high].map(|l| l.as_ref().map(|l| l.approximate()));
+    let [low, high] = domain.bounds();
     if role.turns && role.bare || low.is_some() && low == high {
         return None;
     }

@@ -164,11 +164,8 @@ impl Story {
             return in_decade(mine, values, room);
         }
         // A multiple of the right answer is met by others more easily than anything else.
-        let ctx = Context {
-            key,
-            options: &Options::default(),
-            diagnose: false,
-        };
+        let options = Options::default();
+        let ctx = Context::new(key, &options, false);
         let right = key.reading.content.expr();
         let multiple = |e: &Expr| right.is_some_and(|right| quotient(e, right, &ctx).is_some());
         if !written.first().is_some_and(multiple) {

@@ -3,7 +3,7 @@
 use num_traits::Signed;
 
 use super::super::number::{self, Tolerance};
-use super::super::{Apart, Diagnosis, Proof, Strength, Verdict, fraction, partial};
+use super::super::{Apart, Diagnosis, Strength, Verdict, fraction, partial};
 use super::{Context, Finding};
 use crate::algebra::Field;
 use crate::equality::{
@@ -48,9 +48,10 @@ pub(crate) fn scalars(ctx: &Context, expected: &Expr, answer: &Expr) -> Finding 
 fn at_points(found: AtPoints, assumed: Vec<String>) -> Finding {
     let mut finding = match found.equal {
         true => {
-            let mut proof = Proof::of("modular", found.words());
-            proof.bound = Some(found.bound);
-            Finding::new(Verdict::Equivalent, "EQUIV_MODULAR", proof)
+            let words = found.words();
+            let mut finding = Finding::new(Verdict::Equivalent, "EQUIV_MODULAR", "modular", words);
+            finding.proof.bound = Some(found.bound);
+            finding
         }
         false => Finding::different("DIFF", "modular", found.words()),
     };
@@ -81,11 +82,8 @@ fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) ->
                 },
         } => on_branch(&ctx.say(&e), &elsewhere),
         Equality::Different(at) => {
-            let mut finding = Finding::different(
-                "DIFF",
-                "counterexample",
-                "the values differ at a point of the domain",
-            );
+            let words = "the values differ at a point of the domain";
+            let mut finding = Finding::different("DIFF", "counterexample", words);
             finding.counterexample = Some(apart(&at));
             finding
         }
@@ -93,21 +91,15 @@ fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) ->
             side: Side::Right, ..
         } => {
             let words = format!("{} has no value anywhere", ctx.say(answer));
-            Finding::new(Verdict::Invalid, "INVALID_UNDEFINED", Proof::of("none", words.clone())).with(Diagnosis::new(
-                "UNDEFINED",
-                words,
-                "your formula has no value anywhere: look for a division by zero or the root of something negative",
-            ))
+            let hint = "your formula has no value anywhere: look for a division by zero or the root of something negative";
+            Finding::new(Verdict::Invalid, "INVALID_UNDEFINED", "none", words.clone())
+                .with(Diagnosis::new("UNDEFINED", words, hint))
         }
         Equality::Invalid {
             side: Side::Left, ..
         } => {
             let words = format!("the expected {} has no value anywhere", ctx.say(expected));
-            Finding::new(
-                Verdict::Invalid,
-                "INVALID_EXPECTED",
-                Proof::of("none", words),
-            )
+            Finding::new(Verdict::Invalid, "INVALID_EXPECTED", "none", words)
         }
         Equality::Undecided { reason, evidence } => open(reason, &evidence),
     }
@@ -115,14 +107,13 @@ fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) ->
 
 /// Equal on the whole domain, with what the proof took for granted.
 fn identical(ground: Ground, assumptions: Vec<Assumption>) -> Finding {
-    let proof = Proof::of("identity", ground.words());
     let sign = |a: &Assumption| matches!(a, Assumption::NotNegative(_));
     let note = match assumptions.iter().any(sign) {
         true => "EQUIV_ASSUMED",
         false if assumptions.is_empty() => "EQUIV_IDENTITY",
         false => "EQUIV_WHERE_DEFINED",
     };
-    let mut finding = Finding::new(Verdict::Equivalent, note, proof);
+    let mut finding = Finding::new(Verdict::Equivalent, note, "identity", ground.words());
     finding.assumed = assumptions
         .iter()
         .map(|a| match a {
@@ -139,8 +130,8 @@ fn identical(ground: Ground, assumptions: Vec<Assumption>) -> Finding {
 /// Equal wherever both have a value. Where only one of them has, nothing is compared; that is told.
 fn where_defined(elsewhere: &equality::Counterexample) -> Finding {
     let words = "equal wherever both formulas have a value";
-    let proof = Proof::of("identity", words);
-    let mut finding = Finding::new(Verdict::Equivalent, "EQUIV_WHERE_DEFINED", proof);
+    let note = "EQUIV_WHERE_DEFINED";
+    let mut finding = Finding::new(Verdict::Equivalent, note, "identity", words);
     let lacking = match elsewhere.left == Value::None {
         true => "the expected formula",
         false => "the answer",
@@ -153,17 +144,12 @@ fn where_defined(elsewhere: &equality::Counterexample) -> Finding {
 /// Equal where an expression is not negative, and different elsewhere.
 fn on_branch(condition: &str, elsewhere: &equality::Counterexample) -> Finding {
     let where_equal = format!("where {condition} ≥ 0");
-    let mut finding = Finding::different(
-        "DIFF_BRANCH",
-        "branch",
-        format!("equal {where_equal}, different elsewhere"),
-    );
+    let words = format!("equal {where_equal}, different elsewhere");
+    let mut finding = Finding::different("DIFF_BRANCH", "branch", words);
     finding.counterexample = Some(apart(elsewhere));
-    finding.with(Diagnosis::new(
-        "BRANCH",
-        format!("right {where_equal}; elsewhere it differs"),
-        "your formula is right on a part of the domain only: think of signs",
-    ))
+    let message = format!("right {where_equal}; elsewhere it differs");
+    let hint = "your formula is right on a part of the domain only: think of signs";
+    finding.with(Diagnosis::new("BRANCH", message, hint))
 }
 
 /// Undecided, with the reason and what was seen.
@@ -194,20 +180,12 @@ fn open(reason: Reason, evidence: &Evidence) -> Finding {
             evidence.digits
         ),
     };
-    Finding::new(
-        Verdict::Undecided,
-        note,
-        Proof::of("none", format!("{words}{seen}")),
-    )
+    Finding::new(Verdict::Undecided, note, "none", words + &seen)
 }
 
 fn apart(c: &equality::Counterexample) -> Apart {
     let [expected, yours] = c.values();
-    Apart {
-        at: c.at.words(),
-        yours,
-        expected,
-    }
+    Apart::new(c.at.words(), yours, expected)
 }
 
 /// How the root of odd degree of a negative number is understood, where one occurs.
@@ -242,18 +220,12 @@ fn tolerant(
         number::within(&ratio, &Expr::one(), tolerance)?
     };
     if inside {
-        return Some(Finding::new(
-            Verdict::Equivalent,
-            "EQUIV_TOLERANCE",
-            Proof::of("tolerance", tolerance.words()),
-        ));
+        let (note, words) = ("EQUIV_TOLERANCE", tolerance.words());
+        return Some(Finding::new(Verdict::Equivalent, note, "tolerance", words));
     }
     constant.then(|| {
-        let mut finding = Finding::different(
-            "DIFF_TOLERANCE",
-            "tolerance",
-            format!("not {}", tolerance.words()),
-        );
+        let words = format!("not {}", tolerance.words());
+        let mut finding = Finding::different("DIFF_TOLERANCE", "tolerance", words);
         if ctx.diagnose {
             finding.diagnosis = partial::numbers(expected, answer);
         }

@@ -12,7 +12,7 @@ use super::{GLANCES, simple, swap};
 use crate::algebra::Field;
 use crate::domain::{Coordinate, Domains, Roles, Sample, roles, samples};
 use crate::equality::identical as proved;
-use crate::expr::{Expr, Function, Node, Point, Scalar, Symbol, Table, ratio};
+use crate::expr::{Expr, Function, Node, Point, Rational, Scalar, Symbol, Table, ratio};
 use crate::formula::write_plain;
 use crate::interval::{Interval, Outcome, evaluate};
 
@@ -47,6 +47,8 @@ fn fits(values: &[Weighed], others: impl Iterator<Item = Weighed>) -> bool {
     known
 }
 
+const SIDE: &str = "check from which side the angle is measured";
+
 impl<'a> Trial<'a> {
     pub(super) fn new(ctx: &'a Context, expected: &'a Expr, answer: &'a Expr) -> Trial<'a> {
         let domains = &ctx.key.question.domains;
@@ -55,34 +57,24 @@ impl<'a> Trial<'a> {
         // The first points have many ones, at which a power is as good as another.
         let points = samples(&uses, &all, 2 + GLANCES);
         // What is known by its direction alone costs less by far; that does where no angle is needed in radians.
+        let direction = |s: &Sample, name: &Symbol| {
+            matches!(s.coordinates.get(name), Some(Coordinate::Direction { .. }))
+        };
+        let mut angles = uses.symbols.iter().filter(|(_, r)| r.turns);
         let radians = uses.radians
-            || uses
-                .symbols
-                .iter()
-                .filter(|(_, r)| r.turns)
-                .any(|(name, r)| {
-                    let direction = |s: &Sample| {
-                        matches!(s.coordinates.get(name), Some(Coordinate::Direction { .. }))
-                    };
-                    r.bare || !points.iter().all(direction)
-                });
+            || angles.any(|(name, r)| r.bare || !points.iter().all(|s| direction(s, name)));
         let points: Vec<_> = points.iter().skip(2).map(|s| s.point(radians)).collect();
-        let at = |e: &Expr| points.iter().map(|p| evaluate(e, p)).collect::<Vec<_>>();
-        let turns = [expected, answer]
-            .iter()
-            .flat_map(|e| e.parts())
-            .any(|part| {
-                use Function::{Cos, Sin, Tan};
-                matches!(part.node(), Node::Call(Sin | Cos | Tan, _))
-            });
+        use Function::{Cos, Sin, Tan};
+        let turning = |part: &Expr| matches!(part.node(), Node::Call(Sin | Cos | Tan, _));
+        let turns = expected.parts().chain(answer.parts()).any(turning);
         Trial {
             expected,
             answer,
             domains,
             turns,
             uses: [expected, answer].map(|e| roles(&[e])),
-            values: at(expected),
-            answers: at(answer),
+            values: values(expected, &points),
+            answers: values(answer, &points),
             points,
         }
     }
@@ -118,18 +110,19 @@ impl<'a> Trial<'a> {
 
     /// Whether the answer with other values of its symbols equals the expected formula. It is weighed at points changed in
     /// that way before the changed formula is built.
-    fn mends_at(&self, change: impl Fn(&mut Place), symbols: BTreeMap<Symbol, Expr>) -> bool {
+    fn mends_at<const N: usize>(
+        &self,
+        change: impl Fn(&mut Place),
+        symbols: [(Symbol, Expr); N],
+    ) -> bool {
         let weigh = |point: &Place| {
             let mut point = point.clone();
             change(&mut point);
             evaluate(self.answer, &point)
         };
+        let changed = || self.answer.substitute(&BTreeMap::from(symbols));
         fits(&self.values, self.points.iter().map(weigh))
-            && proved(
-                self.expected,
-                &self.answer.substitute(&symbols),
-                self.domains,
-            )
+            && proved(self.expected, &changed(), self.domains)
     }
 
     /// Whether the answer changed as a whole equals the expected formula; its values are changed first.
@@ -155,14 +148,9 @@ impl<'a> Trial<'a> {
 
     pub(super) fn sign(&self) -> Option<Diagnosis> {
         let minus = Weighed::from_rational(&ratio(-1, 1));
-        self.mends_whole(|v| Some(v.times(&minus)), |e| -e)
-            .then(|| {
-                Diagnosis::new(
-                    "SIGN",
-                    "right up to the sign",
-                    "check the sign, and which direction counts as positive",
-                )
-            })
+        let right = self.mends_whole(|v| Some(v.times(&minus)), |e| -e);
+        let hint = "check the sign, and which direction counts as positive";
+        right.then(|| Diagnosis::new("SIGN", "right up to the sign", hint))
     }
 
     /// A constant factor.
@@ -174,26 +162,18 @@ impl<'a> Trial<'a> {
             let fraction = fraction(&k).is_some_and(|k| simple(&k));
             if let Some([low, high]) = number::bounds(&k).filter(|_| !fraction) {
                 let one = ratio(1, 1);
-                if [&low, &high]
-                    .iter()
-                    .all(|k| (*k - &one).abs() < ratio(1, 50))
-                {
+                let near = |k: &&Rational| (*k - &one).abs() < ratio(1, 50);
+                if [&low, &high].iter().all(near) {
                     let digits = number::digits_shared(&low, &[one.clone(), one]).min(30);
                     let message =
                         format!("right to about {digits} digits: a coefficient was rounded");
-                    return Some(Diagnosis::new(
-                        "ROUNDED",
-                        message,
-                        "give exact coefficients rather than rounded ones",
-                    ));
+                    let hint = "give exact coefficients rather than rounded ones";
+                    return Some(Diagnosis::new("ROUNDED", message, hint));
                 }
             }
             let message = format!("right up to the constant factor {}", write_plain(&k));
-            return Some(Diagnosis::new(
-                "FACTOR",
-                message,
-                "a constant factor is wrong",
-            ));
+            let hint = "a constant factor is wrong";
+            return Some(Diagnosis::new("FACTOR", message, hint));
         }
         None
     }
@@ -209,23 +189,15 @@ impl<'a> Trial<'a> {
             return None;
         }
         let shown = field.expr(&q);
-        let known: BTreeSet<Symbol> = ctx
-            .key
-            .question
-            .symbols
-            .iter()
-            .map(|g| g.name.clone())
-            .collect();
+        let known = ctx.key.question.symbols.iter();
+        let known: BTreeSet<Symbol> = known.map(|g| g.name.clone()).collect();
         let calls = shown.parts().any(|e| matches!(e.node(), Node::Call(..)));
         if calls || !shown.symbols().is_subset(&known) || shown.size() > 12 {
             return None;
         }
         let message = format!("too large by the factor {}", ctx.say(&shown));
-        Some(Diagnosis::new(
-            "FACTOR_SYMBOL",
-            message,
-            "a factor is missing or too much; compare the dimensions",
-        ))
+        let hint = "a factor is missing or too much; compare the dimensions";
+        Some(Diagnosis::new("FACTOR_SYMBOL", message, hint))
     }
 
     /// Whether answer over expected may be a product of powers of symbols and of one root of a sum. Whatever is a power of a
@@ -245,12 +217,7 @@ impl<'a> Trial<'a> {
         }
         let free = |name: &Symbol| match self.domains.symbols.get(name) {
             Some(domain) => domain.high.is_none() && !domain.changes_sign(),
-            None => !self
-                .domains
-                .unit_vectors
-                .iter()
-                .flatten()
-                .any(|s| s == name),
+            None => !self.domains.is_component(name),
         };
         let grown = |e: &Expr, name: &Symbol| -> Option<f64> {
             let at = |scale: i64| {
@@ -280,35 +247,22 @@ impl<'a> Trial<'a> {
     pub(super) fn magnitude(&self) -> Option<Diagnosis> {
         let square = |e: &Expr| e.powi(2);
         let values = |v: &[Weighed]| -> Vec<f64> {
-            v.iter()
-                .filter_map(|o| o.clone().value())
-                .map(|i| i.low.abs().max(i.high.abs()))
-                .collect()
+            let known = v.iter().filter_map(|o| o.clone().value());
+            known.map(|i| i.low.abs().max(i.high.abs())).collect()
         };
-        let close = values(&self.values)
-            .iter()
-            .zip(values(&self.answers))
-            .all(|(a, b)| (a - b).abs() <= 1e-9 * a.abs().max(b));
-        (close && proved(&square(self.expected), &square(self.answer), self.domains)).then(|| {
-            Diagnosis::new(
-                "MAGNITUDE",
-                "right in magnitude; the sign is wrong on a part of the domain",
-                "the magnitude is right: think of the sign",
-            )
-        })
+        let mut pairs = values(&self.values).into_iter().zip(values(&self.answers));
+        let close = pairs.all(|(a, b)| (a - b).abs() <= 1e-9 * a.abs().max(b));
+        let right = close && proved(&square(self.expected), &square(self.answer), self.domains);
+        let message = "right in magnitude; the sign is wrong on a part of the domain";
+        let hint = "the magnitude is right: think of the sign";
+        right.then(|| Diagnosis::new("MAGNITUDE", message, hint))
     }
 
     pub(super) fn reciprocal(&self) -> Option<Diagnosis> {
-        if self.answer.is_zero() {
-            return None;
-        }
-        self.mends_whole(Weighed::recip, |e| e.powi(-1)).then(|| {
-            Diagnosis::new(
-                "RECIPROCAL",
-                "the reciprocal of the expected value",
-                "numerator and denominator look exchanged",
-            )
-        })
+        let right = !self.answer.is_zero() && self.mends_whole(Weighed::recip, |e| e.powi(-1));
+        let message = "the reciprocal of the expected value";
+        let hint = "numerator and denominator look exchanged";
+        right.then(|| Diagnosis::new("RECIPROCAL", message, hint))
     }
 
     pub(super) fn sin_cos(&self) -> Option<Diagnosis> {
@@ -316,15 +270,10 @@ impl<'a> Trial<'a> {
             return None;
         }
         let swapped = swap(self.answer);
-        (swapped != *self.answer && self.mends(&swapped))
-            .then(|| {
-                Diagnosis::new(
-                    "SIN_COS",
-                    "right with sine and cosine exchanged",
-                    "check from which side the angle is measured",
-                )
-            })
-            .or_else(|| self.one_swapped())
+        let right = swapped != *self.answer && self.mends(&swapped);
+        let message = "right with sine and cosine exchanged";
+        let found = right.then(|| Diagnosis::new("SIN_COS", message, SIDE));
+        found.or_else(|| self.one_swapped())
     }
 
     /// One symbol's sines and cosines exchanged.
@@ -337,13 +286,9 @@ impl<'a> Trial<'a> {
         let right = Expr::pi() * Expr::ratio(1, 2);
         angles.iter().find_map(|name| {
             let turned = self.answer.put(name, &(&right - &Expr::symbol(name)));
-            self.mends(&turned).then(|| {
-                Diagnosis::new(
-                    "SIN_COS",
-                    format!("right with {name} measured from the other side"),
-                    "check from which side the angle is measured",
-                )
-            })
+            let message = format!("right with {name} measured from the other side");
+            let right = self.mends(&turned);
+            right.then(|| Diagnosis::new("SIN_COS", message, SIDE))
         })
     }
 
@@ -353,68 +298,49 @@ impl<'a> Trial<'a> {
             let turn = |point: &mut Place| {
                 let value = point.values.get_mut(&name);
                 let sine = point.directions.get_mut(&name).map(|(_, [_, sine])| sine);
-                value
-                    .into_iter()
-                    .chain(sine)
-                    .for_each(|v| *v = v.times(&minus));
+                let all = value.into_iter().chain(sine);
+                all.for_each(|v| *v = v.times(&minus));
             };
-            let flipped = BTreeMap::from([(name.clone(), -Expr::symbol(&name))]);
-            self.mends_at(turn, flipped).then(|| {
-                Diagnosis::new(
-                    "SYMBOL_SIGN",
-                    format!("right with {name} replaced by -{name}"),
-                    format!("check the sign with which {name} enters"),
-                )
-            })
+            let message = format!("right with {name} replaced by -{name}");
+            let hint = format!("check the sign with which {name} enters");
+            let right = self.mends_at(turn, [(name.clone(), -Expr::symbol(&name))]);
+            right.then(|| Diagnosis::new("SYMBOL_SIGN", message, hint))
         })
     }
 
     /// A length, mass or the like taken twice or half.
     pub(super) fn doubled(&self, ctx: &Context) -> Option<Diagnosis> {
-        self.answer
-            .symbols()
-            .into_iter()
-            .filter(|name| !self.turned(name)[1])
-            .find_map(|name| {
-                for (n, d, code, words) in [(1, 2, "HALF", "half of"), (2, 1, "DOUBLE", "twice")] {
-                    let factor = Weighed::from_rational(&ratio(n, d));
-                    let scale = |point: &mut Place| {
-                        let value = point.values.get_mut(&name);
-                        value.into_iter().for_each(|v| *v = v.times(&factor));
-                    };
-                    let scaled = Expr::symbol(&name) * Expr::ratio(n, d);
-                    if self.mends_at(scale, BTreeMap::from([(name.clone(), scaled)])) {
-                        let message = format!(
-                            "right with {words} {} in place of {}",
-                            ctx.say(&Expr::symbol(&name)),
-                            ctx.say(&Expr::symbol(&name))
-                        );
-                        return Some(Diagnosis::new(
-                            code,
-                            message,
-                            format!("check what {name} measures: the whole or the half"),
-                        ));
-                    }
+        for name in self.answer.symbols() {
+            if self.turned(&name)[1] {
+                continue;
+            }
+            let symbol = Expr::symbol(&name);
+            for (n, d, code, words) in [(1, 2, "HALF", "half of"), (2, 1, "DOUBLE", "twice")] {
+                let factor = Weighed::from_rational(&ratio(n, d));
+                let scale = |point: &mut Place| {
+                    let value = point.values.get_mut(&name);
+                    value.into_iter().for_each(|v| *v = v.times(&factor));
+                };
+                if self.mends_at(scale, [(name.clone(), &symbol * &Expr::ratio(n, d))]) {
+                    let shown = ctx.say(&symbol);
+                    let message = format!("right with {words} {shown} in place of {shown}");
+                    let hint = format!("check what {name} measures: the whole or the half");
+                    return Some(Diagnosis::new(code, message, hint));
                 }
-                None
-            })
+            }
+        }
+        None
     }
 
     /// Two symbols of the same kind exchanged, or all symbols of body 1 with those of body 2.
     pub(super) fn exchanged(&self, ctx: &Context) -> Option<Diagnosis> {
-        let names: Vec<Symbol> = self
-            .expected
-            .symbols()
-            .union(&self.answer.symbols())
-            .cloned()
-            .collect();
+        let (theirs, mine) = (self.expected.symbols(), self.answer.symbols());
+        let names: Vec<Symbol> = theirs.union(&mine).cloned().collect();
         let mut all = BTreeMap::new();
         for (i, a) in names.iter().enumerate() {
             for b in &names[i + 1..] {
-                let base = |n: &str| {
-                    n.trim_end_matches(|c: char| c.is_ascii_digit() || c == '_')
-                        .to_string()
-                };
+                let index = |c: char| c.is_ascii_digit() || c == '_';
+                let base = |n: &str| n.trim_end_matches(index).to_string();
                 let kin = match (ctx.dimension_of(a), ctx.dimension_of(b)) {
                     (Some(x), Some(y)) => x == y && !x.is_none(),
                     _ => base(a) == base(b),
@@ -422,8 +348,7 @@ impl<'a> Trial<'a> {
                 if !kin {
                     continue;
                 }
-                let pair =
-                    BTreeMap::from([(a.clone(), Expr::symbol(b)), (b.clone(), Expr::symbol(a))]);
+                let pair = [(a.clone(), Expr::symbol(b)), (b.clone(), Expr::symbol(a))];
                 if base(a) == base(b) {
                     all.extend(pair.clone());
                 }
@@ -432,21 +357,15 @@ impl<'a> Trial<'a> {
                     exchange(&mut point.directions, a, b);
                 };
                 if self.mends_at(swapped, pair) {
-                    return Some(Diagnosis::new(
-                        "EXCHANGED",
-                        format!("right with {a} and {b} exchanged"),
-                        format!("check which is {a} and which {b}"),
-                    ));
+                    let message = format!("right with {a} and {b} exchanged");
+                    let hint = format!("check which is {a} and which {b}");
+                    return Some(Diagnosis::new("EXCHANGED", message, hint));
                 }
             }
         }
-        (all.len() > 2 && self.mends(&self.answer.substitute(&all))).then(|| {
-            Diagnosis::new(
-                "EXCHANGED",
-                "right with the two bodies exchanged",
-                "check which body is which",
-            )
-        })
+        let right = all.len() > 2 && self.mends(&self.answer.substitute(&all));
+        let message = "right with the two bodies exchanged";
+        right.then(|| Diagnosis::new("EXCHANGED", message, "check which body is which"))
     }
 
     /// The answer is the expected formula at a special value of one symbol.
@@ -457,35 +376,23 @@ impl<'a> Trial<'a> {
                 continue;
             }
             let [turning, _] = self.turned(&name);
-            let cases: Vec<(Expr, String)> = if turning {
-                vec![
-                    (Expr::zero(), format!("{name} = 0")),
-                    (Expr::pi() * Expr::ratio(1, 2), format!("{name} = 90°")),
-                ]
-            } else {
-                vec![
-                    (Expr::zero(), format!("{name} = 0")),
-                    (Expr::one(), format!("{name} = 1")),
-                ]
+            let other = match turning {
+                true => (Expr::pi() * Expr::ratio(1, 2), "90°"),
+                false => (Expr::one(), "1"),
             };
-            for (value, words) in cases {
+            for (value, words) in [(Expr::zero(), "0"), other] {
                 let number = ctx.dimension_of(&name).is_none_or(|d| d.is_none());
                 if value.is_one() && !number {
                     continue;
                 }
                 if self.is(&self.expected.put(&name, &value)) {
                     let (code, words) = match turning && value.is_zero() {
-                        true => (
-                            "SMALL_ANGLE",
-                            format!("right only for small {name} (to leading order)"),
-                        ),
-                        false => ("SPECIAL_CASE", format!("right only for {words}")),
+                        true => ("SMALL_ANGLE", format!("small {name} (to leading order)")),
+                        false => ("SPECIAL_CASE", format!("{name} = {words}")),
                     };
-                    return Some(Diagnosis::new(
-                        code,
-                        words,
-                        format!("the answer should depend on {name}"),
-                    ));
+                    let message = format!("right only for {words}");
+                    let hint = format!("the answer should depend on {name}");
+                    return Some(Diagnosis::new(code, message, hint));
                 }
             }
         }
@@ -497,11 +404,9 @@ impl<'a> Trial<'a> {
                     continue;
                 }
                 if self.is(&self.expected.put(b, &Expr::symbol(a))) {
-                    return Some(Diagnosis::new(
-                        "SPECIAL_CASE",
-                        format!("right only for {b} = {a}"),
-                        format!("the answer should depend on {b}"),
-                    ));
+                    let message = format!("right only for {b} = {a}");
+                    let hint = format!("the answer should depend on {b}");
+                    return Some(Diagnosis::new("SPECIAL_CASE", message, hint));
                 }
             }
         }
@@ -514,17 +419,13 @@ impl<'a> Trial<'a> {
             return None;
         }
         let both = self.uses.iter().flat_map(|uses| uses.symbols.iter());
-        let angles: BTreeSet<Symbol> = both
-            .filter(|(_, r)| r.turns)
-            .map(|(name, _)| name.clone())
-            .collect();
-        for name in angles {
+        let angles = both.filter(|(_, r)| r.turns).map(|(name, _)| name.clone());
+        for name in angles.collect::<BTreeSet<Symbol>>() {
             let at_zero = |e: &Expr| e.put(&name, &Expr::zero());
             let (mut e, mut a) = (self.expected.clone(), self.answer.clone());
             for _ in 0..3 {
                 let (e0, a0) = (at_zero(&e), at_zero(&a));
-                let at =
-                    |e: &Expr| -> Vec<_> { self.points.iter().map(|p| evaluate(e, p)).collect() };
+                let at = |e: &Expr| values(e, &self.points);
                 if Trial::apart(&at(&e0), &at(&a0)) {
                     break;
                 }
@@ -538,11 +439,8 @@ impl<'a> Trial<'a> {
                     }
                     (false, false) if proved(&e0, &a0, self.domains) => {
                         let words = format!("right only for small {name}, to leading order");
-                        return Some(Diagnosis::new(
-                            "SMALL_ANGLE",
-                            words,
-                            format!("right only where {name} is small"),
-                        ));
+                        let hint = format!("right only where {name} is small");
+                        return Some(Diagnosis::new("SMALL_ANGLE", words, hint));
                     }
                     _ => break,
                 }
@@ -553,21 +451,18 @@ impl<'a> Trial<'a> {
 
     pub(super) fn power(&self) -> Option<Diagnosis> {
         if self.mends_whole(|v| Some(v.times(v)), |e| e.powi(2)) {
-            return Some(Diagnosis::new(
-                "POWER",
-                "the square root of the expected value",
-                "a root is too much",
-            ));
+            let message = "the square root of the expected value";
+            return Some(Diagnosis::new("POWER", message, "a root is too much"));
         }
-        if self.mends_whole(Weighed::sqrt, Expr::sqrt) {
-            return Some(Diagnosis::new(
-                "POWER",
-                "the square of the expected value",
-                "a root is missing",
-            ));
-        }
-        None
+        let right = self.mends_whole(Weighed::sqrt, Expr::sqrt);
+        let message = "the square of the expected value";
+        right.then(|| Diagnosis::new("POWER", message, "a root is missing"))
     }
+}
+
+/// The values of a formula at some points.
+fn values(e: &Expr, points: &[Place]) -> Vec<Weighed> {
+    points.iter().map(|point| evaluate(e, point)).collect()
 }
 
 /// Exchanges what two names stand for.

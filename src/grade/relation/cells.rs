@@ -7,7 +7,7 @@ use std::cmp::Ordering;
 
 use num_traits::{Signed, Zero};
 
-use super::Normal;
+use super::{Normal, differences, equation};
 use crate::algebra::{Cell, Field};
 use crate::domain::{Domain, Domains, Limit, roles};
 use crate::expr::number::sqrt_exact;
@@ -34,16 +34,10 @@ pub(super) struct Along {
     pub count: [Option<usize>; 2],
 }
 
-/// The differences of all relations.
-fn differences<'n>(first: &'n Cases, second: &'n Cases) -> Vec<&'n Expr> {
-    let all = first.iter().chain(second).flatten();
-    all.map(|n| &n.difference).collect()
-}
-
 /// Compares the cases of two answers in one symbol; `None` where there are more, or the differences are no quotients of polynomials in it
 /// or in the one square root that it stands under.
 pub(super) fn compare(first: &Cases, second: &Cases, domains: &Domains) -> Option<Along> {
-    let all = differences(first, second);
+    let all = differences(first.iter().flatten(), second.iter().flatten());
     let uses = roles(&all);
     let mut names = uses.symbols.iter();
     let (name, role) = names.next()?;
@@ -73,10 +67,8 @@ fn radicand(all: &[&Expr], name: &Symbol) -> Option<Option<Expr>> {
         [] => Some(None),
         [base] => {
             let slope = base.derivative(name);
-            slope
-                .as_number()
-                .is_some_and(|k| !k.is_zero())
-                .then(|| Some(base.clone()))
+            let linear = slope.as_number().is_some_and(|k| !k.is_zero());
+            linear.then(|| Some(base.clone()))
         }
         _ => None,
     }
@@ -115,17 +107,11 @@ fn under_root(
             Some(Some(Limit::number(sqrt_exact(&v)?, limit.open)))
         }
     };
-    let ends = Domain {
-        low: end(low, true)?,
-        high: end(high, false)?,
-    };
+    let ends = Domain::new(end(low, true)?, end(high, false)?);
     let root: Symbol = write_plain(&inside.sqrt()).into();
     let s = Expr::symbol(&root);
     let back = (s.powi(2) - Expr::from(constant.clone())) * Expr::from(slope.recip());
-    let put = |n: &Normal| Normal {
-        difference: rootless(&n.difference, inside, &s).put(name, &back),
-        relation: n.relation,
-    };
+    let put = |n: &Normal| n.of(rootless(&n.difference, inside, &s).put(name, &back));
     let each = |cases: &Cases, change: &dyn Fn(&Normal) -> Normal| {
         let system = |system: &Vec<Normal>| system.iter().map(change).collect();
         cases.iter().map(system).collect::<Vec<Vec<Normal>>>()
@@ -138,14 +124,8 @@ fn under_root(
         let turn = -(&constant / &slope);
         let limit = Some(Limit::number(turn, true));
         let rest = match slope.is_positive() {
-            true => Domain {
-                low: domain.low.clone(),
-                high: limit,
-            },
-            false => Domain {
-                low: limit,
-                high: domain.high.clone(),
-            },
+            true => Domain::new(domain.low.clone(), limit),
+            false => Domain::new(limit, domain.high.clone()),
         };
         // Nothing that has the root holds there.
         let rooted = |n: &Normal| rootless(&n.difference, inside, &s) != n.difference;
@@ -158,22 +138,15 @@ fn under_root(
         }
         let never = |n: &Normal| match rooted(n) {
             false => n.clone(),
-            true => Normal {
-                difference: Expr::one(),
-                relation: Relation::Equal,
-            },
+            true => equation(&Expr::one()),
         };
         let systems = [first, second].map(|cases| each(cases, &never));
         inner.symbols.insert(name.clone(), rest);
         let outside = along(&systems[0], &systems[1], name, &inner)?;
         out.lost = out.lost.or(outside.lost);
         out.gained = out.gained.or(outside.gained);
-        for (seen, more) in out
-            .holds
-            .iter_mut()
-            .flatten()
-            .zip(outside.holds.iter().flatten())
-        {
+        let more = outside.holds.iter().flatten();
+        for (seen, more) in out.holds.iter_mut().flatten().zip(more) {
             *seen |= more;
         }
         for (count, more) in out.count.iter_mut().zip(outside.count) {
@@ -196,7 +169,7 @@ fn rootless(e: &Expr, inside: &Expr, root: &Expr) -> Expr {
 
 /// The comparison along the domain of the symbol.
 fn along(first: &Cases, second: &Cases, name: &Symbol, domains: &Domains) -> Option<Along> {
-    let all = differences(first, second);
+    let all = differences(first.iter().flatten(), second.iter().flatten());
     // The differences for every choice of signs, then what absolute values are taken of.
     let folded = folded(&all)?;
     let choices = (0..1 << folded.len()).flat_map(|signs| {
@@ -300,11 +273,10 @@ fn words(cell: &Cell, name: &Symbol, all: &[&Expr]) -> String {
     let short = |x: &Rational| x.denom().bits() < 20;
     let value = match low == high && short(low) {
         true => low.to_string(),
-        false => Enclosure {
-            low: Enclosure::of(low, 64).low,
-            high: Enclosure::of(high, 64).high,
+        false => {
+            let [low, high] = [low, high].map(|x| Enclosure::of(x, 64));
+            Enclosure::new(low.low, high.high).decimal(6)
         }
-        .decimal(6),
     };
     format!("{name} = {value}")
 }

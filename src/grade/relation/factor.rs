@@ -1,7 +1,7 @@
 //! What one equation is of another: a multiple of it, or the same with the sign of a term turned.
 
 use super::super::compare::WRITTEN;
-use super::{Normal, same_sign};
+use super::{Normal, equation, same_sign};
 use crate::algebra::{Element, Field, Sign};
 use crate::domain::Domains;
 use crate::expr::{Expr, Node, ratio};
@@ -13,15 +13,10 @@ pub(super) fn turned_term(f: &Expr, g: &Expr, domains: &Domains) -> Option<Expr>
         return None;
     };
     (0..terms.len().min(12)).find_map(|i| {
-        let all = terms
-            .iter()
-            .enumerate()
-            .map(|(j, t)| if i == j { -t } else { t.clone() });
-        let normal = |difference: Expr| Normal {
-            difference,
-            relation: Relation::Equal,
-        };
-        same_sign(&normal(f.clone()), &normal(Expr::sum(all)), domains).map(|_| terms[i].clone())
+        let mut all = terms.clone();
+        all[i] = -&terms[i];
+        let turned = equation(&Expr::sum(all));
+        same_sign(&equation(f), &turned, domains).map(|_| terms[i].clone())
     })
 }
 
@@ -88,8 +83,5 @@ pub(super) fn unrooted(n: &Normal, domains: &Domains) -> Option<Normal> {
         _ => return None,
     };
     let product = field.element(&(&n.difference * &other)).ok()?;
-    Some(Normal {
-        difference: field.expr(&product),
-        relation: n.relation,
-    })
+    Some(n.of(field.expr(&product)))
 }

@@ -1,18 +1,18 @@
 //! Inequalities: where each holds, part by part.
 
 use super::super::compare::{Context, Finding, scalars};
-use super::super::{Apart, Diagnosis, Verdict};
+use super::super::{Apart, Verdict};
 use super::factor::{Factor, factor};
 use super::locus::{self, Extent};
 use super::solved::lies_in;
 use super::{
-    Normal, REALS, apart_at_points, over_reals, same_solutions, says_nothing, sign_of, solve_for,
-    sought_in, undecided, unknowns, unrooted,
+    Normal, REALS, apart_at_points, holding, not_zero, over_reals, same_solutions, says_nothing,
+    sign_of, solve_for, sought_in, undecided, unknowns, unrooted,
 };
 use crate::algebra::Sign;
 use crate::domain::{Domains, Sample};
 use crate::expr::Expr;
-use crate::formula::{Relation, write_plain};
+use crate::formula::Relation;
 use crate::interval::{Big, Outcome, evaluate};
 
 /// Where a relation `difference < 0` or `≤ 0` holds on a domain, as far as the sign of its difference tells.
@@ -45,13 +45,9 @@ pub(super) fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) ->
     if let Some(finding) = by_factor {
         return finding;
     }
-    apart_at_points(
-        ctx,
-        std::slice::from_ref(expected),
-        std::slice::from_ref(answer),
-    )
-    .or_else(|| other_bound(ctx, f, g))
-    .unwrap_or_else(|| {
+    let [e, a] = [expected, answer].map(std::slice::from_ref);
+    let found = apart_at_points(ctx, e, a).or_else(|| other_bound(ctx, f, g));
+    found.unwrap_or_else(|| {
         undecided("the inequalities agree at every point tried, and no proof was found")
     })
 }
@@ -115,11 +111,8 @@ fn by_factor(
         }
         if common.weak.iter().all(free) {
             let mut finding = same_solutions("the two differ by a factor that is not negative");
-            let words = common
-                .weak
-                .iter()
-                .map(|e| format!("{} ≠ 0", write_plain(e)));
-            finding.assumed = words.collect();
+            let weak = common.weak.iter();
+            finding.assumed = weak.map(not_zero).collect();
             return Some(finding);
         }
     }
@@ -129,21 +122,11 @@ fn by_factor(
             Some((at, _)) => {
                 let words =
                     "the boundary belongs to one of the two inequalities and not to the other";
-                let mut finding = Finding::different("DIFF_STRICT", "solutions", words);
-                let word = |r| {
-                    if r == Relation::Less {
-                        "does not hold"
-                    } else {
-                        "holds"
-                    }
-                };
-                finding.counterexample = Some(Apart {
-                    at,
-                    yours: word(answer.relation).into(),
-                    expected: word(expected.relation).into(),
-                });
                 let hint = "look at the case of equality";
-                return Some(finding.with(Diagnosis::new("STRICT", words, hint)));
+                let mut finding = Finding::told("DIFF_STRICT", "solutions", words, hint);
+                let word = |n: &Normal| holding(n.relation != Relation::Less);
+                finding.counterexample = Some(Apart::new(at, word(answer), word(expected)));
+                return Some(finding);
             }
             None => return Some(undecided("the two differ at most on their boundary")),
         }
@@ -151,8 +134,7 @@ fn by_factor(
     if !common.positive && common.weak.is_empty() {
         let words = "the inequality points the other way";
         let hint = "multiplying by something negative turns an inequality round";
-        let finding = Finding::different("DIFF_TURNED", "solutions", words);
-        return Some(finding.with(Diagnosis::new("TURNED", words, hint)));
+        return Some(Finding::told("DIFF_TURNED", "solutions", words, hint));
     }
     None
 }
@@ -177,11 +159,7 @@ fn beside_boundary(ctx: &Context, open: &Normal, sure: &Normal) -> Finding {
 /// Whether two inequalities set different bounds on the same symbol, one of which lies in its domain somewhere.
 fn other_bound(ctx: &Context, f: &Expr, g: &Expr) -> Option<Finding> {
     let domains = &ctx.key.question.domains;
-    let plain = Context {
-        key: ctx.key,
-        options: ctx.options,
-        diagnose: false,
-    };
+    let plain = ctx.plain();
     unknowns(f, g).iter().find_map(|name| {
         let (a, b) = (solve_for(f, name, domains)?, solve_for(g, name, domains)?);
         let inside = |bound: &Expr, sample: &Sample| {

@@ -1,9 +1,8 @@
 //! Values that one side lists, `x = 2` or `x = 1 ± √2`, held against an equation: each is put in, and they are counted.
 
-use super::super::Diagnosis;
 use super::super::compare::{Context, Finding};
 use super::solved::{lies_in, solve_for};
-use super::{Normal, cells, same_solutions};
+use super::{LOST, Normal, OTHER, cells, same_solutions, told};
 use crate::domain::Domains;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Node, Symbol};
@@ -50,11 +49,7 @@ fn number(value: &Expr, domains: &Domains) -> Option<Enclosure> {
 
 fn gained(words: String) -> Finding {
     let hint = "put each of your values into the equation";
-    Finding::different("DIFF_ROOT_GAINED", "solutions", words.clone()).with(Diagnosis::new(
-        "ROOT_GAINED",
-        words,
-        hint,
-    ))
+    Finding::told("DIFF_ROOT_GAINED", "solutions", words, hint)
 }
 
 /// Compares two equations in one symbol of which one lists values, that need not be fractions: they are the solutions of the
@@ -100,18 +95,11 @@ pub(super) fn values(expected: &Normal, answer: &Normal, domains: &Domains) -> O
             "{name} = {} does not fulfil the expected equation",
             write_plain(&value)
         ))),
-        (None, false) if mine && !inside.is_empty() => {
-            let words = "a solution of the expected equation does not fulfil the answer";
-            let hint = "a solution is missing or the equation says something else";
-            let finding = Finding::different("DIFF_ROOT_LOST", "solutions", words);
-            Some(finding.with(Diagnosis::new("ROOT_LOST", words, hint)))
-        }
+        (None, false) if mine && !inside.is_empty() => Some(told(LOST)),
         (None, true) => None,
         _ => {
-            let words = "the equation says something else than the expected one";
             let hint = "put each of the values into the equation";
-            let finding = Finding::different("DIFF_EQUATION", "solutions", words);
-            Some(finding.with(Diagnosis::new("EQUATION", words, hint)))
+            Some(told([OTHER[0], OTHER[1], hint]))
         }
     }
 }

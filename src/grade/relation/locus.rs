@@ -178,7 +178,7 @@ pub(super) fn vanishing(part: &Expr, other: &Expr, domains: &Domains) -> Option<
             let Some(domain) = domains.symbols.get(&name) else {
                 continue;
             };
-            if domains.unit_vectors.iter().flatten().any(|s| *s == name) {
+            if domains.is_component(&name) {
                 continue;
             }
             if let Some([root, value]) = zero_apart(part, other, &name, &start, domain) {

@@ -6,7 +6,7 @@
 use super::super::compare::WRITTEN;
 use super::super::number;
 use crate::algebra::Field;
-use crate::domain::{Domain, Domains, Limit, Sample, roles};
+use crate::domain::{Domain, Domains, Sample, roles};
 use crate::equality::{self, Equality};
 use crate::expr::angle::angle;
 use crate::expr::number::to_f64;
@@ -84,12 +84,11 @@ pub(super) fn solution_apart(f: &Expr, g: &Expr, domains: &Domains) -> Option<(S
             let Outcome::Value(value) = evaluate(&root, &point) else {
                 continue;
             };
-            let middle = Outcome::Value(value.clone());
-            let inside = exact_inside(&root, &sample, &name, &domains);
-            if !inside {
+            if !exact_inside(&root, &sample, &name, &domains) {
                 continue;
             }
             let mut there = point.clone();
+            let middle = Outcome::Value(value.clone());
             there.values.insert(name.clone(), middle);
             if let Outcome::Value(left) = evaluate(g, &there)
                 && !left.0.has_zero()
@@ -158,18 +157,14 @@ fn angle_of(f: &Expr, name: &Symbol, domain: &Domain, domains: &Domains) -> Opti
     let mut calls: Vec<(Function, Expr)> = f.parts().filter_map(call).collect();
     calls.dedup();
     let [(function, argument)] = calls.as_slice() else {
-        return calls
-            .is_empty()
-            .then(|| solve_for(f, name, domains))
-            .flatten();
+        let linear = calls.is_empty();
+        return linear.then(|| solve_for(f, name, domains)).flatten();
     };
     let read = angle(argument).filter(|a| a.symbols.len() == 1)?;
     let (factor, shift) = (read.symbols.get(name)?, &read.pi);
-    let end = |limit: &Option<Limit>| {
-        let turns = limit.as_ref()?.approximate() / std::f64::consts::PI;
-        Some(turns * to_f64(factor) + to_f64(shift))
-    };
-    let (from, to) = (end(&domain.low)?, end(&domain.high)?);
+    let turns = |end: f64| end / std::f64::consts::PI * to_f64(factor) + to_f64(shift);
+    let [from, to] = domain.bounds().map(|end| end.map(turns));
+    let (from, to) = (from?, to?);
     let (least, most) = match function {
         Function::Cos => (0.0, 1.0),
         _ => (-0.5, 0.5),
@@ -200,7 +195,7 @@ fn within(root: &Expr, at: &Sample, domain: &Domain) -> bool {
         return false;
     };
     let margin = 1e-9;
-    let end = |limit: &Option<Limit>| limit.as_ref().map(Limit::approximate);
-    end(&domain.low).is_none_or(|low| value.low > low + margin)
-        && end(&domain.high).is_none_or(|high| value.high < high - margin)
+    let [low, high] = domain.bounds();
+    low.is_none_or(|low| value.low > low + margin)
+        && high.is_none_or(|high| value.high < high - margin)
 }

@@ -1,16 +1,16 @@
 //! Several relations at once: chains, components of vectors, and whatever is in one symbol only.
 
 use super::super::compare::{Context, Finding};
-use super::super::{Apart, Diagnosis, Verdict};
+use super::super::{Apart, Verdict};
 use super::cells::{self, Along, Cases};
 use super::solved::{rounded, solve_for, unknowns};
 use super::{
-    Normal, REALS, apart_at_points, differences, link, over_reals, same_solutions, says_nothing,
-    undecided,
+    GAINED, LOST, Normal, OTHER, REALS, apart_at_points, differences, holding, link, over_reals,
+    same_solutions, says_nothing, told, undecided,
 };
-use crate::domain::{Domain, Domains, Limit, roles};
+use crate::domain::{Domain, Domains, roles};
 use crate::equality::{self, Equality, How};
-use crate::expr::{Expr, Function, Node, Symbol, ratio};
+use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{Relation, write_plain};
 use crate::interval::{Big, Outcome, evaluate};
 use num_traits::Zero;
@@ -74,10 +74,9 @@ pub(super) fn scaled(
     let all = differences(expected, answer);
     let uses = roles(&all);
     let (domains, _) = domains.completed(&uses);
-    let ends = |d: &Domain| [&d.low, &d.high].into_iter().flatten().cloned().collect();
     let whole = |name: &Symbol| {
-        let limits: Vec<Limit> = domains.symbols.get(name).map(ends).unwrap_or_default();
-        limits.iter().all(|l| l.value.is_zero())
+        let domain = domains.symbols.get(name);
+        domain.is_none_or(|d| d.ends().all(|l| l.value.is_zero()))
     };
     let bare = uses.symbols.values().all(|role| !role.turns);
     let free = bare && domains.relations.is_empty();
@@ -96,10 +95,7 @@ pub(super) fn scaled(
             matches!(same.equality, Equality::Same { how: How::Identity { assumptions, .. } }
                 if assumptions.is_empty())
         };
-        (-2..=4).any(power).then_some(Normal {
-            difference,
-            relation: n.relation,
-        })
+        (-2..=4).any(power).then(|| n.of(difference.clone()))
     };
     let systems = [expected, answer].map(|s| s.iter().map(fixed).collect::<Option<Vec<_>>>());
     let [Some(expected), Some(answer)] = systems else {
@@ -115,14 +111,7 @@ pub(super) fn scaled(
 /// The finding for relations in one symbol that part at a number.
 fn apart(ctx: &Context, expected: &Cases, answer: &Cases, along: &Along) -> Finding {
     let equation = |n: &Normal| n.relation == Relation::Equal;
-    let at = |at: &String, lost: bool| {
-        let word = |holds: bool| if holds { "holds" } else { "does not hold" }.to_string();
-        Apart {
-            at: at.clone(),
-            yours: word(!lost),
-            expected: word(lost),
-        }
-    };
+    let at = |at: &String, lost: bool| Apart::new(at, holding(!lost), holding(lost));
     let somewhere = || {
         let gained = along.gained.as_ref().map(|x| at(x, false));
         along.lost.as_ref().map(|x| at(x, true)).or(gained)
@@ -131,26 +120,11 @@ fn apart(ctx: &Context, expected: &Cases, answer: &Cases, along: &Along) -> Find
         [system] if system.len() == 1 => system.first().cloned(),
         _ => None,
     };
-    let (note, code, words, hint) = match (&only(expected), &only(answer)) {
+    let words = match (&only(expected), &only(answer)) {
         (Some(e), Some(a)) if equation(e) && equation(a) => match (&along.lost, &along.gained) {
-            (Some(_), Some(_)) => (
-                "DIFF_EQUATION",
-                "EQUATION",
-                "the equation says something else than the expected one",
-                "compare your equation with the law it comes from, term by term",
-            ),
-            (Some(_), None) => (
-                "DIFF_ROOT_LOST",
-                "ROOT_LOST",
-                "a solution of the expected equation does not fulfil the answer",
-                "a solution is missing or the equation says something else",
-            ),
-            _ => (
-                "DIFF_ROOT_GAINED",
-                "ROOT_GAINED",
-                "the answer has a solution that the expected equation lacks",
-                "your equation is fulfilled where it should not be",
-            ),
+            (Some(_), Some(_)) => OTHER,
+            (Some(_), None) => LOST,
+            _ => GAINED,
         },
         // Bounds and directions are told as those of inequalities in several symbols.
         (Some(e), Some(a)) => {
@@ -163,18 +137,17 @@ fn apart(ctx: &Context, expected: &Cases, answer: &Cases, along: &Along) -> Find
         }
         _ => OTHER_NUMBERS,
     };
-    let mut finding = Finding::different(note, "solutions", words);
+    let mut finding = told(words);
     finding.counterexample = somewhere();
-    finding.with(Diagnosis::new(code, words, hint))
+    finding
 }
 
-/// Note, code, words and hint for relations that hold at different numbers.
-const OTHER_NUMBERS: (&str, &str, &str, &str) = (
+/// Note, words and hint for relations that hold at different numbers.
+pub(super) const OTHER_NUMBERS: [&str; 3] = [
     "DIFF_INEQUALITY",
-    "INEQUALITY",
     "one holds where the other does not",
     "check the bound and the direction of your inequality",
-);
+];
 
 /// Two systems, at least one of several relations.
 pub(super) fn compare(
@@ -209,17 +182,13 @@ pub(super) fn compare(
 
 /// Every relation of the one system with one of the other that says the same.
 fn matched(ctx: &Context, expected: &[Normal], answer: &[Normal]) -> Option<Finding> {
-    let plain = Context {
-        key: ctx.key,
-        options: ctx.options,
-        diagnose: false,
-    };
+    let plain = ctx.plain();
     let mut left: Vec<&Normal> = answer.iter().collect();
     let mut assumed: Vec<String> = Vec::new();
     for e in expected {
         let found = left.iter().enumerate().find_map(|(i, a)| {
             let finding = link(&plain, e, a);
-            (finding.verdict == Verdict::Equivalent).then_some((i, finding))
+            finding.is_equivalent().then_some((i, finding))
         });
         let (i, finding) = found?;
         left.remove(i);
@@ -249,10 +218,7 @@ fn with_distances(systems: [&[Normal]; 2], domains: &Domains) -> ([Vec<Normal>; 
             continue;
         };
         let letter: Symbol = write_plain(bar).into();
-        let put = |n: &Normal| Normal {
-            difference: n.difference.replace(bar, &Expr::symbol(&letter)),
-            relation: n.relation,
-        };
+        let put = |n: &Normal| n.of(n.difference.replace(bar, &Expr::symbol(&letter)));
         let without = systems
             .each_ref()
             .map(|s| s.iter().map(put).collect::<Vec<_>>());
@@ -260,13 +226,12 @@ fn with_distances(systems: [&[Normal]; 2], domains: &Domains) -> ([Vec<Normal>; 
             let real = domains.symbols.get(name) == Some(&Domain::real());
             let slope = inside.derivative(name);
             let elsewhere = |n: &Normal| n.difference.symbols().contains(name);
-            real && !domains.unit_vectors.iter().flatten().any(|s| s == name)
+            real && !domains.is_component(name)
                 && slope.as_number().is_some_and(|k| !k.is_zero())
                 && !without.iter().flatten().any(elsewhere)
         };
         if inside.symbols().iter().any(reaches_all) {
-            let low = Some(Limit::number(ratio(0, 1), false));
-            domains.symbols.insert(letter, Domain { low, high: None });
+            domains.symbols.insert(letter, Domain::nonnegative());
             systems = without;
         }
     }
@@ -339,16 +304,9 @@ fn other_system((at, _): At, lost: bool) -> Finding {
         true => "a solution of the expected equations does not fulfil the answer",
         false => "a solution of the answer does not fulfil the expected equations",
     };
-    let mut finding = Finding::different("DIFF_EQUATION", "solutions", words);
-    let word = |holds: bool| if holds { "fulfilled" } else { "not fulfilled" }.to_string();
-    finding.counterexample = Some(Apart {
-        at,
-        yours: word(!lost),
-        expected: word(lost),
-    });
-    finding.with(Diagnosis::new(
-        "EQUATION",
-        words,
-        "compare your equations with the laws they come from, term by term",
-    ))
+    let hint = "compare your equations with the laws they come from, term by term";
+    let mut finding = told([OTHER[0], words, hint]);
+    let word = |holds: bool| if holds { "fulfilled" } else { "not fulfilled" };
+    finding.counterexample = Some(Apart::new(at, word(!lost), word(lost)));
+    finding
 }

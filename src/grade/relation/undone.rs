@@ -21,6 +21,14 @@ pub(super) struct Undone {
     pub given: Vec<String>,
 }
 
+impl Normal {
+    /// The relation of another difference, given what is told beside.
+    fn undone(&self, difference: Expr, given: Vec<String>) -> Undone {
+        let normal = self.of(difference);
+        Undone { normal, given }
+    }
+}
+
 /// A way to undo functions.
 pub(super) type Step = fn(&Normal, &Domains) -> Option<Undone>;
 
@@ -111,10 +119,8 @@ fn logarithms(n: &Normal, domains: &Domains) -> Option<Undone> {
         return None;
     }
     let scale = Rational::new(below, above);
-    let open: Vec<&(Rational, Expr)> = logs
-        .iter()
-        .filter(|(_, u)| !is_positive(u, domains))
-        .collect();
+    let open = logs.iter().filter(|(_, u)| !is_positive(u, domains));
+    let open: Vec<&(Rational, Expr)> = open.collect();
     // The last of the powers is positive where the product is, which is equal to something positive or above it.
     let implied = |(k, _): &(Rational, Expr)| {
         let above = k.is_negative() && matches!(n.relation, Relation::Less | Relation::LessEqual);
@@ -125,9 +131,7 @@ fn logarithms(n: &Normal, domains: &Domains) -> Option<Undone> {
         _ => open.iter().map(|(_, u)| has_to_be_positive(u)).collect(),
     };
     let side = |positive: bool| {
-        let mine = logs
-            .iter()
-            .filter(move |(k, _)| k.is_positive() == positive);
+        let mine = logs.iter().filter(|(k, _)| k.is_positive() == positive);
         Expr::product(mine.map(|(k, u)| u.power(Expr::from((k * &scale).abs()))))
     };
     let rest = Expr::sum(rest) * Expr::from(-scale.clone());
@@ -135,13 +139,7 @@ fn logarithms(n: &Normal, domains: &Domains) -> Option<Undone> {
         true => side(false),
         false => side(false) * Expr::call(Function::Exp, rest),
     };
-    Some(Undone {
-        normal: Normal {
-            difference: side(true) - right,
-            relation: n.relation,
-        },
-        given,
-    })
+    Some(n.undone(side(true) - right, given))
 }
 
 /// A call of one of these functions that a relation is linear in, with its argument: `k f(u) + W`, given as the call, the
@@ -172,10 +170,7 @@ fn turns(n: &Normal, domains: &Domains) -> Option<Undone> {
     }
     let (_, function, angle, k, value) = called(n, &[Sin, Cos, Tan])?;
     let [(from, at_from), (to, at_to)] = ends(&angle, domains)?;
-    let [least, most] = match function {
-        Cos => [ratio(0, 1), ratio(1, 1)],
-        _ => [ratio(-1, 2), ratio(1, 2)],
-    };
+    let [least, most] = range(function == Cos);
     let open = function == Tan;
     let monotone = (to < most || to == most && !(open && at_to))
         && (from > least || from == least && !(open && at_from));
@@ -185,12 +180,9 @@ fn turns(n: &Normal, domains: &Domains) -> Option<Undone> {
         Cos => (Acos, -k),
         _ => (Atan, k),
     };
-    (monotone && reached).then(|| Undone {
-        normal: Normal {
-            difference: Expr::from(k) * (angle - Expr::call(arc, value)),
-            relation: n.relation,
-        },
-        given: Vec::new(),
+    (monotone && reached).then(|| {
+        let difference = Expr::from(k) * (angle - Expr::call(arc, value));
+        n.undone(difference, Vec::new())
     })
 }
 
@@ -205,39 +197,38 @@ pub(super) fn arcs(n: &Normal, domains: &Domains) -> Option<Undone> {
         Node::Call(same, other) if *same == function => other.clone(),
         _ => {
             let [(from, at_from), (to, at_to)] = ends(&angle, domains)?;
-            let [least, most] = match function {
-                Function::Acos => [ratio(0, 1), ratio(1, 1)],
-                _ => [ratio(-1, 2), ratio(1, 2)],
-            };
-            let tangent = function == Function::Atan;
+            let [least, most] = range(function == Acos);
+            let tangent = function == Atan;
             let inside_range = (to < most || to == most && !(tangent && at_to && k.is_positive()))
                 && (from > least || from == least && !(tangent && at_from && k.is_negative()));
             if !inside_range {
                 return None;
             }
             match function {
-                Function::Atan => angle.tan(),
-                Function::Asin => angle.sin(),
+                Atan => angle.tan(),
+                Asin => angle.sin(),
                 _ => angle.cos(),
             }
         }
     };
     // An equation with an angle says itself that the arc has a value.
     let paired = matches!(angle.node(), Node::Call(same, _) if *same == function);
-    let everywhere = function == Function::Atan
+    let everywhere = function == Atan
         || n.relation == Relation::Equal && !paired
         || is_not_negative(&(Expr::one() - inside.powi(2)), domains);
     let given = match everywhere {
         true => Vec::new(),
         false => vec![format!("{} has a value", write_plain(&arc))],
     };
-    Some(Undone {
-        normal: Normal {
-            difference: Expr::from(k) * (inside - other),
-            relation: n.relation,
-        },
-        given,
-    })
+    Some(n.undone(Expr::from(k) * (inside - other), given))
+}
+
+/// Where the cosine of an angle, or its sine or tangent, only grows or only falls, in units of π.
+fn range(cosine: bool) -> [Rational; 2] {
+    match cosine {
+        true => [ratio(0, 1), ratio(1, 1)],
+        false => [ratio(-1, 2), ratio(1, 2)],
+    }
 }
 
 /// The least and the greatest value of an angle in units of π, each with whether it is reached: of a number, or of one
@@ -334,13 +325,7 @@ fn powers(n: &Normal, domains: &Domains) -> Option<Undone> {
             .collect(),
     };
     let [left, right] = sides.each_ref().map(|side| root_of(side, &common));
-    Some(Undone {
-        normal: Normal {
-            difference: left - right,
-            relation: n.relation,
-        },
-        given,
-    })
+    Some(n.undone(left - right, given))
 }
 
 /// `a rel b` with exponentials in them as `ln a rel ln b`.
@@ -358,13 +343,7 @@ fn exponents(n: &Normal, domains: &Domains) -> Option<Undone> {
         return None;
     }
     let [a, b] = sides.map(|side| logarithm(&side, domains));
-    Some(Undone {
-        normal: Normal {
-            difference: a? - b?,
-            relation: n.relation,
-        },
-        given: Vec::new(),
-    })
+    Some(n.undone(a? - b?, Vec::new()))
 }
 
 /// The logarithm of a positive formula, factor by factor.

@@ -33,12 +33,9 @@ impl Sheet {
             return None;
         }
         let mut question = entry.key.question.clone();
-        let names = values.keys().cloned().map(|name| Given {
-            name,
-            latex: None,
-            dimension: None,
-        });
-        question.symbols.extend(names);
+        question
+            .symbols
+            .extend(values.keys().cloned().map(Given::named));
         let key = key_of(entry.key.reading.content.clone(), &question);
         let content = read::answer(&key, answer).ok()?.content;
         let used = content.symbols();
