@@ -4,9 +4,9 @@ use num_integer::Integer;
 use num_traits::{One, ToPrimitive, Zero};
 
 use super::Stop;
-use super::element::{Den, Element};
+use super::element::Element;
 use super::field::{AngleOf, Base, Field, Kind};
-use super::mono::{mono_of, mono_variables};
+use super::mono::mono_variables;
 use super::poly::Poly;
 use crate::expr::angle::angle;
 use crate::expr::{Expr, Function, Int, Rational, Symbol, ratio};
@@ -35,10 +35,7 @@ impl Field {
             Some(read) => {
                 pi = read.pi;
                 for (name, factor) in read.symbols {
-                    let known = self
-                        .bases
-                        .iter()
-                        .position(|b| matches!(&b.of, AngleOf::Symbol(s) if *s == name));
+                    let known = self.base_of(&name);
                     let Some(part) = self.turns(known, AngleOf::Symbol(name), &factor)? else {
                         return Ok(None);
                     };
@@ -134,24 +131,16 @@ impl Field {
         let base = match known {
             Some(base) => base,
             None => {
-                let divisor = factor
-                    .denom()
-                    .to_u32()
-                    .filter(|d| *d < 1_000_000)
-                    .ok_or(Stop::TooLarge("angle fraction"))?;
-                self.add_base(of, divisor)
+                let divisor = factor.denom().to_u32().filter(|d| *d < 1_000_000);
+                self.add_base(of, divisor.ok_or(Stop::TooLarge("angle fraction"))?)
             }
         };
         let turns = factor * Rational::from(Int::from(i64::from(self.bases[base].divisor)));
         if !turns.is_integer() {
             return Ok(None);
         }
-        let k = turns
-            .numer()
-            .as_i64()
-            .filter(|k| k.abs() <= MOST_TURNS)
-            .ok_or(Stop::TooLarge("angle multiple"))?;
-        Ok(Some((base, k)))
+        let k = turns.numer().as_i64().filter(|k| k.abs() <= MOST_TURNS);
+        Ok(Some((base, k.ok_or(Stop::TooLarge("angle multiple"))?)))
     }
 
     /// Cosine and sine of asin x or atan x.
@@ -164,14 +153,14 @@ impl Field {
             return Ok(None);
         };
         let square = self.mul(&x, &x)?;
-        Ok(Some(if function == Function::Asin {
-            let rest = self.sub(&self.integer(1), &square)?;
-            [self.sqrt(&rest)?, x]
-        } else {
-            let rest = self.add(&self.integer(1), &square)?;
-            let root = self.sqrt(&rest)?;
-            [self.div(&self.integer(1), &root)?, self.div(&x, &root)?]
-        }))
+        let one = self.integer(1);
+        if function == Function::Asin {
+            let rest = self.sub(&one, &square)?;
+            return Ok(Some([self.sqrt(&rest)?, x]));
+        }
+        let rest = self.add(&one, &square)?;
+        let root = self.sqrt(&rest)?;
+        Ok(Some([self.div(&one, &root)?, self.div(&x, &root)?]))
     }
 
     /// asin and atan of the exact values of sine and tangent at multiples of π/6, π/4 and π/5.
@@ -180,29 +169,15 @@ impl Field {
         function: Function,
         x: &Element,
     ) -> Result<Option<Element>, Stop> {
-        let constant = x
-            .num
-            .variables()
-            .into_iter()
-            .chain(mono_variables(&x.den.mono))
-            .all(|v| matches!(self.gens[v].kind, Kind::Root));
+        let below = mono_variables(&x.den.mono);
+        let mut all = x.num.variables().into_iter().chain(below);
+        let constant = all.all(|v| matches!(self.gens[v].kind, Kind::Root));
         if !constant || !x.den.factors.is_empty() || x.num.len() > 2 {
             return Ok(None);
         }
-        for (p, q) in [
-            (1, 6),
-            (1, 4),
-            (1, 3),
-            (1, 2),
-            (1, 5),
-            (2, 5),
-            (1, 10),
-            (3, 10),
-            (1, 8),
-            (3, 8),
-            (1, 12),
-            (5, 12),
-        ] {
+        let above = [1, 1, 1, 1, 1, 2, 1, 3, 1, 3, 1, 5];
+        let below = [6, 4, 3, 2, 5, 5, 10, 10, 8, 8, 12, 12];
+        for (p, q) in above.into_iter().zip(below) {
             let no_tangent = function == Function::Atan && matches!(q, 2 | 5 | 10);
             if no_tangent || (q >= 8 && x.num.len() < 2) {
                 continue;
@@ -210,10 +185,9 @@ impl Field {
             let Some([cos, sin]) = self.of_pi(&ratio(p, q))? else {
                 continue;
             };
-            let value = if function == Function::Asin {
-                sin
-            } else {
-                self.div(&sin, &cos)?
+            let value = match function {
+                Function::Asin => sin,
+                _ => self.div(&sin, &cos)?,
             };
             if self.equal(&value, x) {
                 let pi = Element::var(self.symbol(&Symbol::from("pi")));
@@ -237,21 +211,13 @@ impl Field {
 
     /// The terms of an argument, each with its rational coefficient split off.
     pub(crate) fn angle_terms(&self, x: &Element) -> Vec<(Element, Rational)> {
-        let den = Den {
-            int: Int::one(),
-            ..x.den.clone()
+        let split = |(mono, coeff): (&[u64], &Int)| {
+            let mut den = x.den.clone();
+            let int = std::mem::replace(&mut den.int, Int::one());
+            let num = den.cancel_into(Poly::term(mono, Int::one()));
+            (Element::new(num, den), Rational::new(coeff.clone(), int))
         };
-        x.num
-            .terms()
-            .map(|(mono, coeff)| {
-                let mut den = den.clone();
-                let num = den.cancel_into(Poly::term(mono, Int::one()));
-                (
-                    Element { num, den },
-                    Rational::new(coeff.clone(), x.den.int.clone()),
-                )
-            })
-            .collect()
+        x.num.terms().map(split).collect()
     }
 
     fn turn(&self, a: &Direction, b: &Direction) -> Result<Direction, Stop> {
@@ -262,10 +228,9 @@ impl Field {
     }
 
     fn multiple(&self, unit: &Direction, k: i64) -> Result<Direction, Stop> {
-        let unit = if k < 0 {
-            [unit[0].clone(), self.neg(&unit[1])]
-        } else {
-            unit.clone()
+        let unit = match k < 0 {
+            true => [unit[0].clone(), self.neg(&unit[1])],
+            false => unit.clone(),
         };
         let mut total = [self.integer(1), Element::zero()];
         if k == 0 {
@@ -305,39 +270,27 @@ impl Field {
         let (Some(p), Some(d)) = (q.numer().as_i64(), q.denom().as_i64()) else {
             return Ok(None);
         };
-        let number = |field: &Field, n: i64, d: i64| field.number(&ratio(n, d));
         if p == 0 {
             return Ok(Some([self.integer(1), Element::zero()]));
         }
+        let (one, half) = (self.integer(1), self.number(&ratio(1, 2)));
         let pair = match (p, d) {
             (1, 3 | 6) => {
-                let long = {
-                    let three = self.integer(3);
-                    let root = self.sqrt(&three)?;
-                    self.mul(&root, &number(self, 1, 2))?
-                };
-                let short = number(self, 1, 2);
-                if d == 3 { [short, long] } else { [long, short] }
+                let long = self.sqrt(&self.integer(3))?;
+                let long = self.mul(&long, &half)?;
+                if d == 3 { [half, long] } else { [long, half] }
             }
             (1, 4) => {
-                let two = self.integer(2);
-                let root = self.sqrt(&two)?;
-                let half = self.mul(&root, &number(self, 1, 2))?;
-                [half.clone(), half]
+                let root = self.sqrt(&self.integer(2))?;
+                let both = self.mul(&root, &half)?;
+                [both.clone(), both]
             }
             (1 | 2, 5) => {
-                let five = self.integer(5);
-                let root = self.sqrt(&five)?;
-                let quarter = number(self, 1, 4);
-                let cos = self.mul(&self.add(&root, &self.integer(1))?, &quarter)?;
-                let square = self.sub(&self.integer(1), &self.mul(&cos, &cos)?)?;
+                let root = self.sqrt(&self.integer(5))?;
+                let cos = self.mul(&self.add(&root, &one)?, &self.number(&ratio(1, 4)))?;
+                let square = self.sub(&one, &self.mul(&cos, &cos)?)?;
                 let sin = self.sqrt(&square)?;
-                let unit = [cos, sin];
-                if p == 1 {
-                    unit
-                } else {
-                    self.multiple(&unit, 2)?
-                }
+                self.multiple(&[cos, sin], p)?
             }
             (_, 15) => {
                 // p/15 = a/3 + b/5.
@@ -352,9 +305,9 @@ impl Field {
                 let Some([cos, sin]) = self.of_pi(&(q * ratio(2, 1)))? else {
                     return Ok(None);
                 };
-                let square = self.mul(&self.add(&cos, &self.integer(1))?, &number(self, 1, 2))?;
+                let square = self.mul(&self.add(&cos, &one)?, &half)?;
                 let half_cos = self.sqrt(&square)?;
-                let half_sin = self.div(&self.mul(&sin, &number(self, 1, 2))?, &half_cos)?;
+                let half_sin = self.div(&self.mul(&sin, &half)?, &half_cos)?;
                 [half_cos, half_sin]
             }
             _ => self.opaque_acute(q)?,
@@ -376,8 +329,7 @@ impl Field {
         if let (Some(c), Some(s)) = (self.as_generator(&cos), self.as_generator(&sin))
             && self.gens[s].relation.is_none()
         {
-            let square = Poly::term(&mono_of(c, 2), Int::one());
-            self.relate(s, 2, Poly::one().sub(&square));
+            self.relate(s, 2, Poly::rest_of_square(c));
         }
         Ok([cos, sin])
     }

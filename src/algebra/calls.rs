@@ -44,10 +44,9 @@ impl Field {
         let even = matches!(function, Cos | Cosh);
         let flip = (odd || even) && argument.num.leading_is_negative();
         let argument = if flip { self.neg(&argument) } else { argument };
-        let exact = if matches!(function, Asin | Atan) {
-            self.exact_angle(function, &argument)?
-        } else {
-            None
+        let exact = match function {
+            Asin | Atan => self.exact_angle(function, &argument)?,
+            _ => None,
         };
         let value = match exact {
             Some(value) => value,
@@ -130,30 +129,23 @@ impl Field {
                 total = self.mul(&total, &self.pow(&base, k)?)?;
                 continue;
             }
-            let known = self
-                .gens
-                .iter()
-                .enumerate()
-                .find_map(|(v, g)| match &g.kind {
-                    Kind::Call(Function::Exp, y) => {
-                        let ratio = self.div(&term, y).ok()?.as_number()? * &factor;
-                        ratio
-                            .is_integer()
-                            .then(|| ratio.numer().as_i64())
-                            .flatten()
-                            .map(|k| (v, k))
-                    }
-                    _ => None,
-                });
+            let times = |kind: &Kind| {
+                let Kind::Call(Function::Exp, y) = kind else {
+                    return None;
+                };
+                let times = self.div(&term, y).ok()?.as_number()? * &factor;
+                times.numer().as_i64().filter(|_| times.is_integer())
+            };
+            let mut all = self.gens.iter().enumerate();
+            let known = all.find_map(|(v, g)| Some((v, times(&g.kind)?)));
             let (v, k) = match known {
                 Some(found) => found,
                 None => {
                     let part = Rational::new(Int::one(), factor.denom().clone());
                     let own = self.mul(&term, &self.number(&part))?;
-                    (
-                        self.adjoin(Kind::Call(Function::Exp, own)),
-                        factor.numer().as_i64().ok_or(Stop::TooLarge("degree"))?,
-                    )
+                    let v = self.adjoin(Kind::Call(Function::Exp, own));
+                    let k = factor.numer().as_i64();
+                    (v, k.ok_or(Stop::TooLarge("degree"))?)
                 }
             };
             total = self.mul(&total, &self.pow(&Element::var(v), k)?)?;
@@ -162,7 +154,7 @@ impl Field {
     }
 
     pub(super) fn opaque(&mut self, function: Function, argument: Element) -> Element {
-        let known = self.gens.iter().position(|g| match &g.kind {
+        let known = self.generator_that(|kind| match kind {
             Kind::Call(f, x) => *f == function && self.equal(x, &argument),
             _ => false,
         });

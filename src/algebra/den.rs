@@ -7,7 +7,7 @@ use super::Stop;
 use super::element::Den;
 use super::field::{Field, Generator, Kind};
 use super::mono::{
-    exponent, mono_add, mono_div, mono_is_one, mono_max, mono_min, mono_of, mono_variables,
+    exponent, mono_add, mono_div, mono_is_one, mono_max, mono_min, mono_of, mono_variables, powers,
 };
 use super::poly::Poly;
 
@@ -16,45 +16,22 @@ impl Den {
     pub(crate) fn common(&self, other: &Den, field: &Field) -> Result<(Den, Poly, Poly), Stop> {
         let int = self.int.lcm(&other.int);
         let mono = mono_max(&self.mono, &other.mono);
-        let mut to_self = Poly::term(&mono_div(&mono, &self.mono), &int / &self.int);
-        let mut to_other = Poly::term(&mono_div(&mono, &other.mono), &int / &other.int);
-        let mut factors = Vec::with_capacity(self.factors.len() + other.factors.len());
-        let (mut i, mut j) = (0, 0);
-        while i < self.factors.len() || j < other.factors.len() {
-            let order = match (self.factors.get(i), other.factors.get(j)) {
-                (Some(a), Some(b)) => a.0.cmp(&b.0),
-                (Some(_), None) => std::cmp::Ordering::Less,
-                _ => std::cmp::Ordering::Greater,
-            };
-            let times = |to: &mut Poly, f: &Poly, k: u32| -> Result<(), Stop> {
-                for _ in 0..k {
-                    *to = field.mul_poly(to, f)?;
-                }
-                Ok(())
-            };
-            match order {
-                std::cmp::Ordering::Less => {
-                    let (f, k) = &self.factors[i];
-                    times(&mut to_other, f, *k)?;
-                    factors.push((f.clone(), *k));
-                    i += 1;
-                }
-                std::cmp::Ordering::Greater => {
-                    let (f, k) = &other.factors[j];
-                    times(&mut to_self, f, *k)?;
-                    factors.push((f.clone(), *k));
-                    j += 1;
-                }
-                std::cmp::Ordering::Equal => {
-                    let (f, k, l) = (&self.factors[i].0, self.factors[i].1, other.factors[j].1);
-                    times(&mut to_self, f, l.saturating_sub(k))?;
-                    times(&mut to_other, f, k.saturating_sub(l))?;
-                    factors.push((f.clone(), k.max(l)));
-                    i += 1;
-                    j += 1;
-                }
+        let mut factors = self.factors.clone();
+        for (f, k) in &other.factors {
+            match factors.binary_search_by(|(g, _)| g.cmp(f)) {
+                Ok(at) => factors[at].1 = factors[at].1.max(*k),
+                Err(at) => factors.insert(at, (f.clone(), *k)),
             }
         }
+        let lacking = |den: &Den| {
+            let start = Poly::term(&mono_div(&mono, &den.mono), &int / &den.int);
+            factors.iter().try_fold(start, |to, (f, k)| {
+                let own = den.factors.iter().find(|(g, _)| g == f);
+                let own = own.map_or(0, |(_, own)| *own);
+                (own..*k).try_fold(to, |to, _| field.mul_poly(&to, f))
+            })
+        };
+        let (to_self, to_other) = (lacking(self)?, lacking(other)?);
         Ok((Den { int, mono, factors }, to_self, to_other))
     }
 
@@ -74,21 +51,17 @@ impl Den {
     }
 
     pub(crate) fn power(&self, k: u32, field: &Field) -> Result<(Den, bool), Stop> {
-        let mut out = Den::one();
         if !self.int.is_one() && u64::from(k) * self.int.bits() > 20_000 {
             return Err(Stop::TooLarge("digits"));
         }
-        out.int = self.int.pow(k);
-        for v in mono_variables(&self.mono) {
-            let e = exponent(&self.mono, v)
-                .checked_mul(k)
-                .filter(|e| *e < 128)
-                .ok_or(Stop::TooLarge("degree"))?;
-            out.mono = mono_add(&out.mono, &mono_of(v, e))?;
+        let mut out = Den::of(self.int.pow(k));
+        for (v, e) in powers(&self.mono) {
+            let e = e.checked_mul(k).filter(|e| *e < 128);
+            let power = mono_of(v, e.ok_or(Stop::TooLarge("degree"))?);
+            out.mono = mono_add(&out.mono, &power)?;
         }
-        out.factors = self
-            .factors
-            .iter()
+        let factors = self.factors.iter();
+        out.factors = factors
             .map(|(f, e)| (f.clone(), e.saturating_mul(k)))
             .collect();
         let negative = out.settle(field)?;
@@ -112,14 +85,11 @@ impl Den {
             return Err(Stop::TooLarge("degree"));
         }
         for (f, k) in &mut self.factors {
-            while !factor.is_constant() {
-                match factor.try_div(f) {
-                    Some(q) => {
-                        factor = q;
-                        *k += times;
-                    }
-                    None => break,
-                }
+            while !factor.is_constant()
+                && let Some(q) = factor.try_div(f)
+            {
+                factor = q;
+                *k += times;
             }
         }
         if factor.is_constant() {
@@ -194,14 +164,11 @@ impl Den {
             }
         }
         for (f, k) in &mut self.factors {
-            while *k > 0 {
-                match num.try_div(f) {
-                    Some(q) => {
-                        num = q;
-                        *k -= 1;
-                    }
-                    None => break,
-                }
+            while *k > 0
+                && let Some(q) = num.try_div(f)
+            {
+                num = q;
+                *k -= 1;
             }
         }
         self.factors.retain(|(_, k)| *k > 0);

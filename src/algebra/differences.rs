@@ -64,16 +64,13 @@ impl Field {
         })?;
         let &(_, _, c, s) = angles.last()?;
         let without_sine = p.by_power(s).into_iter().next()?;
-        let fewer = without_sine
-            .by_power(c)
-            .into_iter()
-            .fold(Poly::zero(), |total, part| total.add(&part));
+        let parts = without_sine.by_power(c).into_iter();
+        let fewer = parts.fold(Poly::zero(), |total, part| total.add(&part));
         let names = others.iter().enumerate().map(|(k, (name, ..))| {
             let (angle, last) = (Expr::symbol(name), Expr::symbol(last));
-            let stands_for = if senses >> k & 1 == 1 {
-                angle + last
-            } else {
-                angle - last
+            let stands_for = match senses >> k & 1 {
+                1 => angle + last,
+                _ => angle - last,
             };
             ((*name).clone(), stands_for)
         });

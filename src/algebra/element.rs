@@ -1,6 +1,6 @@
 //! An element of a field: a reduced numerator over a denominator kept in factors.
 
-use num_traits::One;
+use num_traits::{One, Zero};
 
 use super::mono::{Mono, cmp_mono, mono_is_one};
 use super::poly::Poly;
@@ -25,15 +25,16 @@ pub(crate) struct Den {
 }
 
 impl Element {
+    pub(crate) fn new(num: Poly, den: Den) -> Element {
+        Element { num, den }
+    }
+
     pub(crate) fn zero() -> Element {
         Element::from_poly(Poly::zero())
     }
 
     pub(crate) fn from_poly(num: Poly) -> Element {
-        Element {
-            num,
-            den: Den::one(),
-        }
+        Element::new(num, Den::one())
     }
 
     pub(crate) fn var(v: usize) -> Element {
@@ -59,10 +60,9 @@ impl Element {
         // Denominators p·g and q·g: only g can cancel. A sum of two products of 64-bit words fits 128 bits, but for one case.
         let g = gcd(da, db);
         let (left, right) = (na * (db / g), nb * (da / g));
-        let n = if minus {
-            left.checked_sub(right)?
-        } else {
-            left.checked_add(right)?
+        let n = match minus {
+            true => left.checked_sub(right)?,
+            false => left.checked_add(right)?,
         };
         if n == 0 {
             return Some(Element::zero());
@@ -70,25 +70,21 @@ impl Element {
         let shared = gcd(n, g);
         let int = Int::from((da / g).checked_mul(db / shared)?);
         let num = Poly::term(self.num.mono(0), Int::from(n / shared));
-        Some(Element {
+        let mono = self.den.mono.clone();
+        Some(Element::new(
             num,
-            den: Den {
-                int,
-                mono: self.den.mono.clone(),
-                factors: Vec::new(),
+            Den {
+                mono,
+                ..Den::of(int)
             },
-        })
+        ))
     }
 
     /// Length of the stored form, in terms; a measure for choosing the simpler of two.
     pub fn size(&self) -> usize {
-        self.num.len()
-            + self
-                .den
-                .factors
-                .iter()
-                .map(|(f, k)| f.len() * *k as usize)
-                .sum::<usize>()
+        let below = self.den.factors.iter();
+        let below = below.map(|(f, k)| f.len() * *k as usize);
+        self.num.len() + below.sum::<usize>()
     }
 
     /// Terms of numerator and denominator: how much there is to write.
@@ -107,19 +103,22 @@ impl Element {
         if !mono_is_one(&self.den.mono) || !self.den.factors.is_empty() {
             return None;
         }
-        if self.num.is_zero() {
-            return Some(crate::expr::ratio(0, 1));
-        }
-        self.num
-            .as_constant()
-            .map(|c| crate::expr::Rational::new(c.clone(), self.den.int.clone()))
+        let (zero, int) = (Int::zero(), self.den.int.clone());
+        let num = self.num.as_constant();
+        let num = num.or(self.num.is_zero().then_some(&zero))?;
+        Some(crate::expr::Rational::new(num.clone(), int))
     }
 }
 
 impl Den {
     pub fn one() -> Den {
+        Den::of(Int::one())
+    }
+
+    /// A number alone.
+    pub fn of(int: Int) -> Den {
         Den {
-            int: Int::one(),
+            int,
             mono: Mono::new(),
             factors: Vec::new(),
         }

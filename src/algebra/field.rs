@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use num_integer::Integer;
-use num_traits::One;
+use num_traits::{One, ToPrimitive};
 use rustc_hash::FxHashMap;
 
 use super::Stop;
@@ -156,9 +156,8 @@ impl Field {
         }
         for pair in &self.domains.unit_vectors {
             if pair.iter().any(|name| found.symbols.contains_key(name)) {
-                found
-                    .symbols
-                    .extend(pair.iter().map(|name| (name.clone(), ())));
+                let pair = pair.iter().map(|name| (name.clone(), ()));
+                found.symbols.extend(pair);
             }
         }
         for name in found.symbols.keys() {
@@ -171,24 +170,15 @@ impl Field {
         let mut terms = Vec::new();
         self.note_terms(&plain, &mut found.angles, &mut terms);
         for (name, divisor) in std::mem::take(&mut found.angles) {
-            if !self
-                .bases
-                .iter()
-                .any(|b| matches!(&b.of, AngleOf::Symbol(s) if *s == name))
-            {
+            if self.base_of(&name).is_none() {
                 self.add_base(AngleOf::Symbol(name), divisor);
             }
         }
         self.note_terms(&nested, &mut found.angles, &mut terms);
         self.add_exponentials(&found.exponents);
         for (term, divisor) in terms {
-            let known = self
-                .bases
-                .iter()
-                .any(|b| matches!(&b.of, AngleOf::Term(t) if self.equal(t, &term)));
-            if let (false, Some(divisor)) =
-                (known, divisor.as_i64().and_then(|d| u32::try_from(d).ok()))
-            {
+            let same = |b: &Base| matches!(&b.of, AngleOf::Term(t) if self.equal(t, &term));
+            if let (false, Some(divisor)) = (self.bases.iter().any(same), divisor.to_u32()) {
                 self.add_base(AngleOf::Term(term), divisor);
             }
         }
@@ -214,19 +204,18 @@ impl Field {
             for (term, factor) in found {
                 match self.as_symbol(&term) {
                     Some(name) if &*name == "pi" => {}
-                    Some(name) => {
-                        let divisor = angles.get_or_insert(&name, || 1);
-                        if let Some(d) = factor.denom().as_i64().and_then(|d| u32::try_from(d).ok())
-                        {
-                            *divisor = divisor.lcm(&d.min(1_000)).min(1_000_000);
-                        }
-                    }
-                    None => match terms.iter_mut().find(|(t, _)| self.equal(t, &term)) {
-                        Some((_, divisor)) => *divisor = divisor.lcm(factor.denom()),
-                        None => terms.push((term, factor.denom().clone())),
-                    },
+                    Some(name) => refine(angles.get_or_insert(&name, || 1), &factor),
+                    None => self.note_term(terms, term, &factor),
                 }
             }
+        }
+    }
+
+    /// A term with the least common denominator of its coefficients.
+    fn note_term(&self, terms: &mut Vec<(Element, Int)>, term: Element, factor: &Rational) {
+        match terms.iter_mut().find(|(t, _)| self.equal(t, &term)) {
+            Some((_, divisor)) => *divisor = divisor.lcm(factor.denom()),
+            None => terms.push((term, factor.denom().clone())),
         }
     }
 
@@ -244,10 +233,7 @@ impl Field {
             };
             // Bare symbols are not among the terms.
             for (term, factor) in self.angle_terms(&element) {
-                match terms.iter_mut().find(|(t, _)| self.equal(t, &term)) {
-                    Some((_, divisor)) => *divisor = divisor.lcm(factor.denom()),
-                    None => terms.push((term, factor.denom().clone())),
-                }
+                self.note_term(&mut terms, term, &factor);
             }
         }
         for (term, divisor) in terms {
@@ -281,6 +267,17 @@ impl Field {
         }
     }
 
+    /// The base angle that is a symbol or a part of one.
+    pub(super) fn base_of(&self, name: &Symbol) -> Option<usize> {
+        let mut bases = self.bases.iter();
+        bases.position(|b| matches!(&b.of, AngleOf::Symbol(s) if s == name))
+    }
+
+    /// The first generator of some kind.
+    pub(super) fn generator_that(&self, is: impl Fn(&Kind) -> bool) -> Option<usize> {
+        self.gens.iter().position(|g| is(&g.kind))
+    }
+
     /// Components of a unit vector come together, with b² = 1 − a².
     fn relate_units(&mut self, name: &Symbol) {
         for [a, b] in self.domains.unit_vectors.clone() {
@@ -288,7 +285,7 @@ impl Field {
                 continue;
             }
             let (a, b) = (self.symbol(&a), self.symbol(&b));
-            let value = Poly::one().sub(&Poly::term(&mono_of(a, 2), Int::one()));
+            let value = Poly::rest_of_square(a);
             match &self.gens[b].relation {
                 None if self.gens[a].relation.is_none() => self.relate(b, 2, value),
                 Some((_, known)) if *known == value => {}
@@ -315,11 +312,7 @@ impl Field {
     pub(crate) fn add_base(&mut self, of: AngleOf, divisor: u32) -> usize {
         let index = self.bases.len();
         let (cos, sin) = (self.adjoin(Kind::Cos(index)), self.adjoin(Kind::Sin(index)));
-        self.relate(
-            sin,
-            2,
-            Poly::one().sub(&Poly::term(&mono_of(cos, 2), Int::one())),
-        );
+        self.relate(sin, 2, Poly::rest_of_square(cos));
         self.bases.push(Base {
             of,
             divisor,
@@ -337,10 +330,8 @@ impl Field {
 
     /// Signs that were only seen at sample points and not proved.
     pub fn assumptions(&self) -> Vec<Assumption> {
-        self.assumed
-            .iter()
-            .map(|x| Assumption::NotNegative(self.expr(x)))
-            .collect()
+        let assumed = self.assumed.iter().map(|x| self.expr(x));
+        assumed.map(Assumption::NotNegative).collect()
     }
 
     // ---- polynomials modulo the relations ----
@@ -369,6 +360,9 @@ impl Field {
     }
 
     pub(crate) fn mul_poly(&self, a: &Poly, b: &Poly) -> Result<Poly, Stop> {
+        if b.is_one() {
+            return Ok(a.clone());
+        }
         self.fuel.burn(a.len() * b.len())?;
         self.reduce(a.mul(b)?)
     }
@@ -377,13 +371,8 @@ impl Field {
 
     /// The element of a fraction.
     pub fn number(&self, value: &Rational) -> Element {
-        Element {
-            num: Poly::constant(value.numer().clone()),
-            den: Den {
-                int: value.denom().clone(),
-                ..Den::one()
-            },
-        }
+        let num = Poly::constant(value.numer().clone());
+        Element::new(num, Den::of(value.denom().clone()))
     }
 
     /// The element of a whole number.
@@ -403,10 +392,7 @@ impl Field {
 
     /// −a.
     pub fn neg(&self, a: &Element) -> Element {
-        Element {
-            num: a.num.neg(),
-            den: a.den.clone(),
-        }
+        Element::new(a.num.neg(), a.den.clone())
     }
 
     /// a + b.
@@ -434,14 +420,8 @@ impl Field {
             return self.cancel(join(&a.num, &b.num), a.den.clone());
         }
         let (den, to_a, to_b) = a.den.common(&b.den, self)?;
-        let scaled = |num: &Poly, by: &Poly| {
-            if by.is_one() {
-                Ok(num.clone())
-            } else {
-                self.mul_poly(num, by)
-            }
-        };
-        self.cancel(join(&scaled(&a.num, &to_a)?, &scaled(&b.num, &to_b)?), den)
+        let (left, right) = (self.mul_poly(&a.num, &to_a)?, self.mul_poly(&b.num, &to_b)?);
+        self.cancel(join(&left, &right), den)
     }
 
     /// a · b.
@@ -455,16 +435,8 @@ impl Field {
         // Cancelling crosswise first keeps the product small.
         let mut den_a = a.den.clone();
         let mut den_b = b.den.clone();
-        let num_a = if den_b.is_one() {
-            a.num.clone()
-        } else {
-            den_b.cancel_into(a.num.clone())
-        };
-        let num_b = if den_a.is_one() {
-            b.num.clone()
-        } else {
-            den_a.cancel_into(b.num.clone())
-        };
+        let num_a = den_b.cancel_into(a.num.clone());
+        let num_b = den_a.cancel_into(b.num.clone());
         let (den, negative) = den_a.times(&den_b, self)?;
         let num = self.mul_poly(&num_a, &num_b)?;
         self.cancel(if negative { num.neg() } else { num }, den)
@@ -483,10 +455,9 @@ impl Field {
         let mut divisor = Den::one();
         let turned = divisor.multiply(&b.num, self)?;
         let num = divisor.cancel_into(a.num.clone());
-        let num = if den_b.is_one() {
-            num
-        } else {
-            self.mul_poly(&num, &den_b.expand(self)?)?
+        let num = match den_b.is_one() {
+            true => num,
+            false => self.mul_poly(&num, &den_b.expand(self)?)?,
         };
         let (den, negative) = den_a.times(&divisor, self)?;
         self.cancel(if negative ^ turned { num.neg() } else { num }, den)
@@ -567,11 +538,18 @@ impl Field {
             return Ok(Element::zero());
         }
         if den.is_one() {
-            return Ok(Element { num, den });
+            return Ok(Element::new(num, den));
         }
         self.fuel.burn(num.len() * (1 + den.factors.len()))?;
         let num = den.cancel_into(num);
-        Ok(Element { num, den })
+        Ok(Element::new(num, den))
+    }
+}
+
+/// A divisor of an angle that a coefficient of it makes finer.
+fn refine(divisor: &mut u32, factor: &Rational) {
+    if let Some(d) = factor.denom().to_u32() {
+        *divisor = divisor.lcm(&d.min(1_000)).min(1_000_000);
     }
 }
 
@@ -595,11 +573,8 @@ struct Found {
 impl Found {
     /// Symbols and angles.
     fn names(&self) -> BTreeSet<Symbol> {
-        self.symbols
-            .keys()
-            .chain(self.angles.keys())
-            .cloned()
-            .collect()
+        let names = self.symbols.keys().chain(self.angles.keys());
+        names.cloned().collect()
     }
 
     fn collect(&mut self, e: &Expr) {
@@ -617,12 +592,7 @@ impl Found {
                 match angle(argument) {
                     Some(a) => {
                         for (name, factor) in a.symbols {
-                            let divisor = self.angles.get_or_insert(&name, || 1);
-                            if let Some(d) =
-                                factor.denom().as_i64().and_then(|d| u32::try_from(d).ok())
-                            {
-                                *divisor = divisor.lcm(&d.min(1_000)).min(1_000_000);
-                            }
+                            refine(self.angles.get_or_insert(&name, || 1), &factor);
                         }
                     }
                     None => {

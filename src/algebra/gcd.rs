@@ -20,10 +20,9 @@ const MOST_TERMS: usize = 4_000;
 pub(crate) fn gcd(a: &Poly, b: &Poly, fuel: &Fuel) -> Result<Poly, Stop> {
     if a.is_zero() || b.is_zero() {
         let other = if a.is_zero() { b } else { a };
-        return Ok(if other.leading_is_negative() {
-            other.neg()
-        } else {
-            other.clone()
+        return Ok(match other.leading_is_negative() {
+            true => other.neg(),
+            false => other.clone(),
         });
     }
     let ((ca, ma, pa), (cb, mb, pb)) = (a.split(), b.split());
@@ -196,11 +195,7 @@ fn pseudo_remainder(x: &Poly, y: &Poly, v: usize, fuel: &Fuel) -> Result<Poly, S
         let shift = rest.len() + 1 - by.len();
         for (k, part) in rest.iter_mut().enumerate() {
             fuel.burn(part.len() * q.len() + by.len() * p.len() * 4)?;
-            let mut next = if q.is_one() {
-                part.clone()
-            } else {
-                part.mul(&q)?
-            };
+            let mut next = part.mul(&q)?;
             if k >= shift && k - shift < by.len() - 1 {
                 next = next.sub(&by[k - shift].mul(&p)?);
             }
@@ -216,18 +211,13 @@ fn pseudo_remainder(x: &Poly, y: &Poly, v: usize, fuel: &Fuel) -> Result<Poly, S
 /// The divisor read off its value at a large integer: gcd of the values, expanded in powers of that integer. A candidate
 /// that divides both is the greatest common divisor (Char, Geddes, Gonnet 1989); without one, `None`.
 fn by_values(a: &Poly, b: &Poly, fuel: &Fuel) -> Option<Poly> {
-    let size = |p: &Poly| {
-        p.variables()
-            .iter()
-            .map(|v| p.degree(*v) as usize + 1)
-            .product::<usize>()
+    let size = |p: &Poly| -> usize {
+        let variables = p.variables().into_iter();
+        variables.map(|v| p.degree(v) as usize + 1).product()
     };
     let bits = |p: &Poly| p.terms().map(|(_, c)| c.bits()).max().unwrap_or(0) as usize;
-    if size(a)
-        .max(size(b))
-        .saturating_mul(bits(a).min(bits(b)) + 3)
-        > 12_000
-    {
+    let each = bits(a).min(bits(b)) + 3;
+    if size(a).max(size(b)).saturating_mul(each) > 12_000 {
         return None;
     }
     let (_, _, g) = values_gcd(a, b, fuel)?.split();
@@ -246,10 +236,8 @@ fn values_gcd(a: &Poly, b: &Poly, fuel: &Fuel) -> Option<Poly> {
     let (ca, cb) = (a.content(), b.content());
     let (a, b) = (a.div_int(&ca), b.div_int(&cb));
     let largest = |p: &Poly| {
-        p.terms()
-            .map(|(_, c)| num_traits::Signed::abs(c))
-            .max()
-            .unwrap_or_else(Int::one)
+        let sizes = p.terms().map(|(_, c)| num_traits::Signed::abs(c));
+        sizes.max().unwrap_or_else(Int::one)
     };
     let mut x = largest(&a).min(largest(&b)) * Int::from(2) + Int::from(29);
     for _ in 0..3 {

@@ -37,14 +37,8 @@ pub(crate) fn quotients(
     let mut after: Vec<Minors> = vec![BTreeMap::from([(0, field.integer(1))])];
     for column in (1..=n).rev() {
         let below = |rows: u32, row: usize| rows & ((1 << row) - 1);
-        let next = extended(
-            field,
-            &after[n - column],
-            n,
-            |row| entry(row, column),
-            below,
-        )?;
-        after.push(next);
+        let known = &after[n - column];
+        after.push(extended(field, known, n, |row| entry(row, column), below)?);
     }
     let all = (1u32 << n) - 1;
     let Some(determinant) = before[n].get(&all).cloned() else {
@@ -65,11 +59,8 @@ pub(crate) fn quotients(
                 .sum();
             total = signed_sum(field, &total, &product, swaps)?;
         }
-        let moved = field.integer(if (n - 1 - unknown).is_multiple_of(2) {
-            1
-        } else {
-            -1
-        });
+        let odd = (n - 1 - unknown) % 2 == 1;
+        let moved = field.integer(if odd { -1 } else { 1 });
         values.push(field.div(&field.mul(&total, &moved)?, &determinant)?);
     }
     Ok(Some((values, determinant)))
@@ -112,9 +103,8 @@ fn extended<'a>(
 
 /// a + b, or a − b after an odd number of swaps.
 fn signed_sum(field: &Field, a: &Element, b: &Element, swaps: u32) -> Result<Element, Stop> {
-    if swaps.is_multiple_of(2) {
-        field.add(a, b)
-    } else {
-        field.sub(a, b)
+    match swaps.is_multiple_of(2) {
+        true => field.add(a, b),
+        false => field.sub(a, b),
     }
 }

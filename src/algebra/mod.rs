@@ -105,26 +105,28 @@ impl Sign {
     /// The sign of the negative.
     pub fn flip(self) -> Sign {
         match self {
-            Sign::Negative => Sign::Positive,
-            Sign::NotPositive => Sign::NotNegative,
             Sign::Zero => Sign::Zero,
-            Sign::NotNegative => Sign::NotPositive,
-            Sign::Positive => Sign::Negative,
+            _ => Sign::made(!self.is_not_negative(), self.is_strict()),
         }
     }
 
     /// The sign of a product.
     pub fn times(self, other: Sign) -> Sign {
-        use Sign::{NotNegative, Positive, Zero};
-        if self == Zero || other == Zero {
-            return Zero;
+        if self == Sign::Zero || other == Sign::Zero {
+            return Sign::Zero;
         }
-        let minus = !self.is_not_negative() ^ !other.is_not_negative();
-        let sign = match self.is_strict() && other.is_strict() {
-            true => Positive,
-            false => NotNegative,
-        };
-        if minus { sign.flip() } else { sign }
+        let plus = self.is_not_negative() == other.is_not_negative();
+        Sign::made(plus, self.is_strict() && other.is_strict())
+    }
+
+    /// Above zero or below, for certain or at most.
+    pub(crate) fn made(positive: bool, strict: bool) -> Sign {
+        match (positive, strict) {
+            (true, true) => Sign::Positive,
+            (true, false) => Sign::NotNegative,
+            (false, true) => Sign::Negative,
+            (false, false) => Sign::NotPositive,
+        }
     }
 
     /// Whether a value of this sign is nowhere zero.

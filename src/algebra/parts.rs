@@ -46,6 +46,14 @@ impl Parts {
         }
     }
 
+    /// Multiplies by a power of another product.
+    pub fn take(&mut self, other: Parts, k: u32) {
+        self.content *= other.content.pow(k);
+        for (f, e) in other.factors {
+            self.note(f, e * k);
+        }
+    }
+
     /// Joins (x − y)(x + y) to x² − y², which is shorter.
     pub fn join_conjugates(&mut self) {
         let mut i = 0;
@@ -119,17 +127,12 @@ impl Field {
         let mut total = 0;
         for (f, k) in &parts.factors {
             let fewer = self.in_differences(f);
-            let own: usize = fewer
-                .as_ref()
-                .map_or(f, |(f, _)| f)
-                .terms()
-                .map(|(m, c)| {
-                    letters(m)
-                        + usize::from(!c.abs().is_one()) * 2
-                        + 2
-                        + usize::from(c.is_negative())
-                })
-                .sum();
+            let own = |(m, c): (&[u64], &Int)| {
+                let number = usize::from(!c.abs().is_one()) * 2;
+                letters(m) + number + 2 + usize::from(c.is_negative())
+            };
+            let written = fewer.as_ref().map_or(f, |(f, _)| f);
+            let own: usize = written.terms().map(own).sum();
             total += own + usize::from(f.len() > 1) * 2 + usize::from(*k > 1);
         }
         total
@@ -145,11 +148,8 @@ impl Field {
                 let (one, x) = (Poly::one(), Poly::var(c));
                 let (minus, plus) = (x.sub(&one), x.add(&one));
                 let times = |p: &Poly| {
-                    parts
-                        .factors
-                        .iter()
-                        .find(|(f, _)| f == p)
-                        .map_or(0, |(_, k)| *k)
+                    let found = parts.factors.iter().find(|(f, _)| f == p);
+                    found.map_or(0, |(_, k)| *k)
                 };
                 let both = times(&minus).min(times(&plus));
                 if both == 0 {
@@ -177,7 +177,7 @@ pub(crate) fn letters(mono: &[u64]) -> usize {
 
 /// c² → 1 − s² throughout; s may then occur squared.
 fn exchange(p: &Poly, c: usize, s: usize) -> Option<Poly> {
-    let value = Poly::one().sub(&Poly::var(s).mul(&Poly::var(s)).ok()?);
+    let value = Poly::rest_of_square(s);
     let mut total = Poly::zero();
     for (q, chunk) in p.by_power(c).chunks(2).enumerate() {
         let block = Poly::from_powers(chunk, c).ok()?;

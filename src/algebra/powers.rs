@@ -33,12 +33,8 @@ impl Field {
                 return Ok(None);
             };
             let parts = p.by_power(g);
-            let (low, high) = (
-                parts[0].clone(),
-                parts.get(1).cloned().unwrap_or_else(Poly::zero),
-            );
-            let other = self.mul_poly(&self.mul_poly(&high, &high)?, value)?;
-            p = self.mul_poly(&low, &low)?.sub(&other);
+            let high = parts.get(1).cloned().unwrap_or_else(Poly::zero);
+            p = self.norm(&parts[0], &high, value)?;
             squared = true;
         }
         let parts = factor(&p, &self.fuel);
@@ -61,26 +57,18 @@ impl Field {
         if (0..self.gens.len()).any(|g| g != v && x.num.has(g) && self.hangs_on(g, v)) {
             return Ok(None);
         }
-        Ok(Some(
-            x.num
-                .by_power(v)
-                .into_iter()
-                .map(Element::from_poly)
-                .collect(),
-        ))
+        let parts = x.num.by_power(v).into_iter();
+        Ok(Some(parts.map(Element::from_poly).collect()))
     }
 
     /// Whether a generator's value depends on a variable.
     fn hangs_on(&self, g: usize, v: usize) -> bool {
         let inside = |p: &Poly| {
-            p.variables()
-                .iter()
-                .any(|w| *w == v || *w < g && self.hangs_on(*w, v))
+            let mut all = p.variables().into_iter();
+            all.any(|w| w == v || w < g && self.hangs_on(w, v))
         };
-        let related = self.gens[g]
-            .relation
-            .as_ref()
-            .is_some_and(|(_, value)| inside(value));
+        let relation = self.gens[g].relation.as_ref();
+        let related = relation.is_some_and(|(_, value)| inside(value));
         let deep = |x: &Element| {
             inside(&x.num)
                 || inside(&Poly::term(&x.den.mono, 1.into()))

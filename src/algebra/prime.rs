@@ -15,15 +15,16 @@ pub(crate) const fn prime<const C: u64>() -> u64 {
     (1 << 61) - C
 }
 
+/// A number below twice the modulus as a residue.
+#[inline]
+fn folded(x: u64, modulus: u64) -> u64 {
+    if x >= modulus { x - modulus } else { x }
+}
+
 /// a + b of residues.
 #[inline]
 pub(crate) fn add<const C: u64>(a: u64, b: u64) -> u64 {
-    let sum = a + b;
-    if sum >= prime::<C>() {
-        sum - prime::<C>()
-    } else {
-        sum
-    }
+    folded(a + b, prime::<C>())
 }
 
 /// −a of a residue.
@@ -39,12 +40,7 @@ pub(crate) fn times<const C: u64>(a: u64, b: u64) -> u64 {
     let wide = u128::from(a) * u128::from(b);
     if C == PLAIN {
         let sum = (wide as u64 & MASK) + (wide >> 61) as u64;
-        let folded = (sum & MASK) + (sum >> 61);
-        return if folded >= MASK {
-            folded - MASK
-        } else {
-            folded
-        };
+        return folded((sum & MASK) + (sum >> 61), MASK);
     }
     let factor = (wide as u64).wrapping_mul(inverse::<C>());
     let below = (u128::from(factor) * u128::from(prime::<C>())) >> 64;
@@ -168,12 +164,7 @@ pub(crate) fn random<const C: u64>(seed: u64, round: u64) -> u64 {
     let mut z = seed ^ (round + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    let drawn = (z ^ (z >> 31)) & MASK;
-    if drawn >= prime::<C>() {
-        drawn - prime::<C>()
-    } else {
-        drawn
-    }
+    folded((z ^ (z >> 31)) & MASK, prime::<C>())
 }
 
 #[cfg(test)]

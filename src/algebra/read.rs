@@ -11,7 +11,7 @@ use super::field::{Field, Kind};
 use super::mono::{Mono, cmp_mono, exponent, mono_add, mono_of};
 use super::poly::Poly;
 use crate::expr::number::product;
-use crate::expr::{Expr, Function, Int, Node, Rational, Symbol, ratio};
+use crate::expr::{Expr, Function, Int, Node, Rational, Symbol};
 
 /// Deepest nesting of an expression.
 const MOST_DEPTH: u32 = 120;
@@ -149,10 +149,7 @@ impl Field {
         let mut total = self.integer(1);
         for factor in factors {
             let (base, k) = match factor.node() {
-                Node::Power(base, k) if k.as_number().is_some() => (
-                    base.clone(),
-                    k.as_number().cloned().unwrap_or_else(Rational::one),
-                ),
+                Node::Power(base, k) if let Some(k) = k.as_number() => (base.clone(), k.clone()),
                 Node::Number(_) => {
                     let number = self.read(factor, depth)?;
                     total = self.mul(&total, &number)?;
@@ -185,11 +182,8 @@ impl Field {
             }
         };
         let k = exponent.numer().as_i64().ok_or(Stop::TooLarge("degree"))?;
-        let n = exponent
-            .denom()
-            .as_i64()
-            .filter(|n| *n <= 1_000)
-            .ok_or(Stop::TooLarge("degree"))?;
+        let n = exponent.denom().as_i64().filter(|n| *n <= 1_000);
+        let n = n.ok_or(Stop::TooLarge("degree"))?;
         if base.num.is_zero() {
             return match k > 0 {
                 true => Ok(base),
@@ -238,10 +232,8 @@ impl Field {
                 }
                 let argument = self.read(argument, depth)?;
                 if function == Function::Tan {
-                    let (sin, cos) = (
-                        self.call(Function::Sin, argument.clone())?,
-                        self.call(Function::Cos, argument)?,
-                    );
+                    let sin = self.call(Function::Sin, argument.clone())?;
+                    let cos = self.call(Function::Cos, argument)?;
                     return self.div(&sin, &cos);
                 }
                 self.call(function, argument)
@@ -302,14 +294,12 @@ struct Term {
 impl Term {
     fn element(self) -> Element {
         let (numer, int) = self.coeff.into_raw();
-        Element {
-            num: Poly::term(&self.above, numer),
-            den: Den {
-                int,
-                mono: self.below,
-                factors: Vec::new(),
-            },
-        }
+        let mono = self.below;
+        let den = Den {
+            mono,
+            ..Den::of(int)
+        };
+        Element::new(Poly::term(&self.above, numer), den)
     }
 }
 
@@ -331,10 +321,7 @@ fn sum(mut terms: Vec<Term>) -> Element {
         (term.above, coeff)
     };
     let num = Poly::from_terms(terms.into_iter().map(whole).collect());
-    Element {
-        num,
-        den: Den { int, ..Den::one() },
-    }
+    Element::new(num, Den::of(int))
 }
 
 fn is_high_power(e: &Expr) -> bool {
@@ -345,10 +332,6 @@ fn is_high_power(e: &Expr) -> bool {
 }
 
 fn whole(exponent: &Expr) -> Option<i64> {
-    let k = exponent.as_number()?;
-    if k.is_integer() && k.abs() < ratio(1 << 40, 1) {
-        k.numer().as_i64()
-    } else {
-        None
-    }
+    let k = exponent.as_number().filter(|k| k.is_integer())?;
+    k.numer().as_i64().filter(|k| k.abs() < 1 << 40)
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::Sign;
-use super::field::{AngleOf, Field, Kind};
+use super::field::{Field, Kind};
 use super::poly::Poly;
 use super::substitution::MOST_TERMS;
 use crate::domain::{Domain, Relation};
@@ -41,11 +41,8 @@ impl Field {
         let (Some(one), Some(other)) = (range(small), range(large)) else {
             return Vec::new();
         };
-        let is_angle = |e: &Expr| {
-            let mut bases = self.bases.iter();
-            bases.any(|b| matches!(&b.of, AngleOf::Symbol(name) if Some(name) == e.as_symbol()))
-        };
-        if !is_angle(small) || !is_angle(large) {
+        let is_angle = |e: &Expr| e.as_symbol().and_then(|name| self.base_of(name));
+        if is_angle(small).is_none() || is_angle(large).is_none() {
             return Vec::new();
         }
         let both_within = |low: Rational, high: Rational| {
@@ -114,19 +111,13 @@ impl Field {
         if self.supposed.is_empty() || p.len() > MOST_TERMS {
             return None;
         }
-        let strict = |closed: &bool| match closed {
-            true => Sign::NotNegative,
-            false => Sign::Positive,
+        let stated = |p: &Poly| {
+            let found = self.supposed.iter().find(|(q, _)| q == p);
+            found.map(|(_, closed)| Sign::made(true, !closed))
         };
-        let (mut same, opposite) = (self.supposed.iter(), p.neg());
-        if let Some((_, closed)) = same.find(|(q, _)| q == p) {
-            return Some(strict(closed));
-        }
-        let mut same = self.supposed.iter();
-        if let Some((_, closed)) = same.find(|(q, _)| *q == opposite) {
-            return Some(strict(closed).flip());
-        }
-        self.eliminated(p, &self.supposed, &[])
+        stated(p)
+            .or_else(|| stated(&p.neg()).map(Sign::flip))
+            .or_else(|| self.eliminated(p, &self.supposed, &[]))
     }
 
     /// A relation A v + B > 0 with A > 0 makes v = (δ − B)/A with a positive δ, which takes the place of v: a sign that

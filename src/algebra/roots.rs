@@ -4,6 +4,8 @@
 //! square n² and (a ± n)/2 is; an element free of √d also when e·d is. Sines of base angles and second components of unit
 //! vectors take part as the quadratic extensions they are, so that √(1 − cos²θ) is found to be |sin θ|.
 
+use std::collections::BTreeSet;
+
 use num_traits::{One, Signed};
 
 use super::element::Element;
@@ -40,10 +42,9 @@ impl Field {
 
     /// |f|ᵏ.
     fn abs_power(&mut self, f: &Poly, k: u32) -> Result<Element, Stop> {
-        let base = if k.is_multiple_of(2) {
-            Element::from_poly(f.clone())
-        } else {
-            self.abs_poly(f)?
+        let base = match k.is_multiple_of(2) {
+            true => Element::from_poly(f.clone()),
+            false => self.abs_poly(f)?,
         };
         self.pow(&base, i64::from(k))
     }
@@ -106,7 +107,7 @@ impl Field {
         }
         // A search for a hidden square would find a product of roots already there as well, but not its sign.
         if several
-            && !atoms.iter().all(|a| self.known_root(a).is_some())
+            && !atoms.iter().all(|a| self.known_root(a, 2).is_some())
             && let Some(hidden) = self.hidden_square(&product)
         {
             let hidden = self.abs(&hidden)?;
@@ -121,7 +122,7 @@ impl Field {
 
     /// √p as an element, by a new generator if need be.
     fn root_of(&mut self, p: &Poly) -> Result<Element, Stop> {
-        if let Some(v) = self.known_root(p) {
+        if let Some(v) = self.known_root(p, 2) {
             return Ok(Element::var(v));
         }
         if let Some(hidden) = self.hidden_square(p) {
@@ -135,24 +136,42 @@ impl Field {
         Ok(Element::var(v))
     }
 
-    /// The generator that is √p, if there is one.
-    fn known_root(&self, p: &Poly) -> Option<usize> {
-        self.gens.iter().position(|g| {
-            matches!(&g.kind, Kind::Root)
-                && g.relation
-                    .as_ref()
-                    .is_some_and(|(n, value)| *n == 2 && value == p)
-        })
+    /// The generator that is the n-th root of p, if there is one.
+    fn known_root(&self, p: &Poly, n: u32) -> Option<usize> {
+        let is_it = |g: &Generator| match (&g.kind, &g.relation) {
+            (Kind::Root, Some((m, value))) => *m == n && value == p,
+            _ => false,
+        };
+        self.gens.iter().position(is_it)
+    }
+
+    /// The last root in a polynomial.
+    pub(super) fn last_root(&self, p: &Poly) -> Option<usize> {
+        let mut variables = p.variables().into_iter().rev();
+        variables.find(|v| matches!(self.gens[*v].kind, Kind::Root))
+    }
+
+    /// a² − b²d, the norm of a + b√d.
+    pub(super) fn norm(&self, a: &Poly, b: &Poly, d: &Poly) -> Result<Poly, Stop> {
+        let square = self.mul_poly(&self.mul_poly(b, b)?, d)?;
+        Ok(self.mul_poly(a, a)?.sub(&square))
+    }
+
+    /// (a + n)/2.
+    fn half_sum(&self, a: &Poly, n: &Element) -> Result<Element, Stop> {
+        let sum = self.add(&Element::from_poly(a.clone()), n)?;
+        self.div(&sum, &self.integer(2))
+    }
+
+    /// g + b√d/(2g), given the variable that is √d.
+    fn with_root(&self, g: &Element, b: &Poly, root: usize) -> Result<Element, Stop> {
+        let rest = self.mul(&Element::from_poly(b.clone()), &Element::var(root))?;
+        self.add(g, &self.div(&rest, &self.mul(&self.integer(2), g)?)?)
     }
 
     /// √(a + b√d) = g + b√d/(2g) with g = √((a + n)/2), when a² − b²d is a square n²: two plain roots for a nested one.
     fn denested(&mut self, p: &Poly) -> Result<Option<Element>, Stop> {
-        let Some(root) = p
-            .variables()
-            .into_iter()
-            .rev()
-            .find(|v| matches!(self.gens[*v].kind, Kind::Root))
-        else {
+        let Some(root) = self.last_root(p) else {
             return Ok(None);
         };
         let Some((2, radicand)) = self.gens[root].relation.clone() else {
@@ -162,30 +181,22 @@ impl Field {
         let [a, b] = parts.as_slice() else {
             return Ok(None);
         };
-        let norm = self
-            .mul_poly(a, a)?
-            .sub(&self.mul_poly(&self.mul_poly(b, b)?, &radicand)?);
+        let norm = self.norm(a, b, &radicand)?;
         if norm.is_zero() || matches!(self.sign_poly(&norm), Some(Sign::Negative)) {
             return Ok(None);
         }
         let Some(n) = self.hidden_square(&norm) else {
             return Ok(None);
         };
-        let two = self.integer(2);
         for n in [n.clone(), self.neg(&n)] {
-            let half = self.div(&self.add(&Element::from_poly(a.clone()), &n)?, &two)?;
+            let half = self.half_sum(a, &n)?;
             // Simpler than p, so this ends; positive, so that the new root is real.
-            let deeper = half
-                .num
-                .variables()
-                .iter()
-                .any(|v| *v >= root && matches!(self.gens[*v].kind, Kind::Root));
+            let deeper = self.last_root(&half.num).is_some_and(|v| v >= root);
             if deeper || self.sign_of(&half) != Some(Sign::Positive) {
                 continue;
             }
             let g = self.sqrt(&half)?;
-            let rest = self.mul(&Element::from_poly(b.clone()), &Element::var(root))?;
-            let sum = self.add(&g, &self.div(&rest, &self.mul(&two, &g)?)?)?;
+            let sum = self.with_root(&g, b, root)?;
             return self.abs(&sum).map(Some);
         }
         Ok(None)
@@ -193,15 +204,11 @@ impl Field {
 
     /// An element whose square is p, if the field has one.
     fn hidden_square(&mut self, p: &Poly) -> Option<Element> {
-        let tower: Vec<usize> = self
-            .algebraic
-            .iter()
-            .copied()
-            .filter(|v| {
-                matches!(self.gens[*v].relation, Some((2, _)))
-                    && !matches!(self.gens[*v].kind, Kind::Abs(_))
-            })
-            .collect();
+        let square = |v: &usize| {
+            let Generator { kind, relation } = &self.gens[*v];
+            matches!(relation, Some((2, _))) && !matches!(kind, Kind::Abs(_))
+        };
+        let tower: Vec<usize> = self.algebraic.iter().copied().filter(square).collect();
         let mut fuel = FUEL;
         let found = self.square_in(p, &tower, &mut fuel);
         if fuel == 0 && found.is_none() {
@@ -217,13 +224,12 @@ impl Field {
         if p.is_zero() {
             return Some(Element::zero());
         }
-        *fuel = if p.len() > MOST_UNDER_ROOT {
-            0
-        } else {
-            fuel.checked_sub(1)?
+        *fuel = match p.len() > MOST_UNDER_ROOT {
+            true => 0,
+            false => fuel.checked_sub(1)?,
         };
         let Some((&g, below)) = tower.split_last() else {
-            return rational_square(p);
+            return p.sqrt().map(Element::from_poly);
         };
         let (_, radicand) = self.gens[g].relation.as_ref()?;
         if p.has(g) {
@@ -231,26 +237,15 @@ impl Field {
             let [a, b] = parts.as_slice() else {
                 return None;
             };
-            let norm = self
-                .mul_poly(a, a)
-                .ok()?
-                .sub(&self.mul_poly(&self.mul_poly(b, b).ok()?, radicand).ok()?);
+            let norm = self.norm(a, b, radicand).ok()?;
             let n = self.square_in(&norm, below, fuel)?;
-            let two = self.integer(2);
             for n in [n.clone(), self.neg(&n)] {
-                let half = self
-                    .div(&self.add(&Element::from_poly(a.clone()), &n).ok()?, &two)
-                    .ok()?;
+                let half = self.half_sum(a, &n).ok()?;
                 if half.num.is_zero() {
                     continue;
                 }
                 if let Some(x) = self.square_of_element(&half, below, fuel) {
-                    let b = self
-                        .mul(&Element::from_poly(b.clone()), &Element::var(g))
-                        .ok()?;
-                    return self
-                        .add(&x, &self.div(&b, &self.mul(&two, &x).ok()?).ok()?)
-                        .ok();
+                    return self.with_root(&x, b, g).ok();
                 }
             }
             return None;
@@ -278,34 +273,24 @@ impl Field {
     /// Whether a radicand can take part in a square together with p: numbers always can; otherwise they share a
     /// variable, possibly through other radicands of the tower.
     fn connected(&self, p: &Poly, radicand: &Poly, tower: &[usize]) -> bool {
-        let letters = |p: &Poly| -> Vec<usize> {
-            p.variables()
-                .into_iter()
-                .filter(|v| !self.is_numeric(*v))
-                .collect()
+        let letters = |p: &Poly| -> BTreeSet<usize> {
+            let all = p.variables().into_iter();
+            all.filter(|v| !self.is_numeric(*v)).collect()
         };
-        let mut reached = letters(p);
-        let goal = letters(radicand);
+        let (mut reached, goal) = (letters(p), letters(radicand));
         if reached.is_empty() || goal.is_empty() {
             return true;
         }
         loop {
-            if goal.iter().any(|v| reached.contains(v)) {
+            if !goal.is_disjoint(&reached) {
                 return true;
             }
             let before = reached.len();
             for g in tower {
-                let Some((_, value)) = &self.gens[*g].relation else {
-                    continue;
-                };
-                let variables = letters(value);
-                if variables.iter().any(|v| reached.contains(v)) {
-                    reached.extend(
-                        variables
-                            .into_iter()
-                            .filter(|v| !reached.contains(v))
-                            .collect::<Vec<_>>(),
-                    );
+                let value = self.gens[*g].relation.as_ref().map(|(_, value)| value);
+                let variables = value.map(letters).unwrap_or_default();
+                if !variables.is_disjoint(&reached) {
+                    reached.extend(variables);
                 }
             }
             if reached.len() == before {
@@ -329,69 +314,52 @@ impl Field {
     /// |x|.
     pub fn abs(&mut self, x: &Element) -> Result<Element, Stop> {
         if let Some(sign) = self.sign_of(x) {
-            return Ok(if sign.is_not_negative() {
-                x.clone()
-            } else {
-                self.neg(x)
+            return Ok(match sign.is_not_negative() {
+                true => x.clone(),
+                false => self.neg(x),
             });
         }
-        let parts = factor(&x.num, &self.fuel);
+        let (above, below) = (factor(&x.num, &self.fuel), Parts::below(&x.den));
+        let (above, below) = (self.abs_of(above)?, self.abs_of(below)?);
+        self.div(&above, &below)
+    }
+
+    fn abs_of(&mut self, parts: Parts) -> Result<Element, Stop> {
         let mut total = Element::from_poly(Poly::constant(parts.content.abs()));
         for (f, k) in parts.factors {
             let part = self.abs_power(&f, k)?;
             total = self.mul(&total, &part)?;
         }
-        let mut below = Element::from_poly(Poly::constant(x.den.int.clone()));
-        for (f, k) in Parts::below(&x.den).factors {
-            let part = self.abs_power(&f, k)?;
-            below = self.mul(&below, &part)?;
-        }
-        self.div(&total, &below)
+        Ok(total)
     }
 
     pub(super) fn abs_poly(&mut self, f: &Poly) -> Result<Element, Stop> {
-        match self.sign_poly(f) {
-            Some(sign) if sign.is_not_negative() => return Ok(Element::from_poly(f.clone())),
-            Some(_) => return Ok(Element::from_poly(f.neg())),
-            None => {}
+        let turned = |positive| if positive { f.clone() } else { f.neg() };
+        if let Some(sign) = self.sign_poly(f) {
+            return Ok(Element::from_poly(turned(sign.is_not_negative())));
         }
         let seen = match self.seen_signs(f) {
             (true, true) => (true, true),
             seen if self.by_substitution(f) != Found::Mixed => seen,
             _ => (true, true),
         };
-        match seen {
-            (true, false) => {
-                self.assume(f.clone());
-                Ok(Element::from_poly(f.clone()))
-            }
-            (false, true) => {
-                self.assume(f.neg());
-                Ok(Element::from_poly(f.neg()))
-            }
-            seen => {
-                // Seen with both signs: |f| is a generator of its own. Seen nowhere: likewise, but nothing is known of it.
-                if !seen.0 {
-                    self.complete = false;
-                }
-                let f = if f.leading_is_negative() {
-                    f.neg()
-                } else {
-                    f.clone()
-                };
-                let known = self
-                    .gens
-                    .iter()
-                    .position(|g| matches!(&g.kind, Kind::Abs(p) if *p == f));
-                if let Some(v) = known {
-                    return Ok(Element::var(v));
-                }
-                let square = self.mul_poly(&f, &f)?;
-                let v = self.adjoin(Kind::Abs(f));
-                self.relate(v, 2, square);
-                Ok(Element::var(v))
-            }
+        if seen.0 != seen.1 {
+            let f = turned(seen.0);
+            self.assume(f.clone());
+            return Ok(Element::from_poly(f));
         }
+        // Seen with both signs: |f| is a generator of its own. Seen nowhere: likewise, but nothing is known of it.
+        if !seen.0 {
+            self.complete = false;
+        }
+        let f = turned(!f.leading_is_negative());
+        if let Some(v) = self.generator_that(|kind| matches!(kind, Kind::Abs(p) if *p == f)) {
+            return Ok(Element::var(v));
+        }
+        let square = self.mul_poly(&f, &f)?;
+        let v = self.adjoin(Kind::Abs(f));
+        self.relate(v, 2, square);
+        Ok(Element::var(v))
     }
 
     /// What absolute values are taken of, hidden in roots of squares or written out.
@@ -465,14 +433,8 @@ impl Field {
     }
 
     fn odd_root_generator(&mut self, f: &Poly, n: u32) -> Element {
-        for (v, g) in self.gens.iter().enumerate() {
-            if matches!(g.kind, Kind::Root)
-                && g.relation
-                    .as_ref()
-                    .is_some_and(|(m, value)| *m == n && value == f)
-            {
-                return Element::var(v);
-            }
+        if let Some(v) = self.known_root(f, n) {
+            return Element::var(v);
         }
         // Two odd roots may depend on each other in ways not searched for, unless all radicands are single variables or primes.
         let simple = f.is_constant()
@@ -494,18 +456,13 @@ impl Field {
     /// base^exponent as an opaque generator; equal bases and exponents give the same one.
     pub(crate) fn opaque_power(&mut self, base: Element, exponent: Element) -> Element {
         self.complete = false;
-        let known = self.gens.iter().position(|g| match &g.kind {
+        let known = self.generator_that(|kind| match kind {
             Kind::Power(b, e) => self.equal(b, &base) && self.equal(e, &exponent),
             _ => false,
         });
         let v = known.unwrap_or_else(|| self.adjoin(Kind::Power(base, exponent)));
         Element::var(v)
     }
-}
-
-/// Perfect squares in the free field: a square integer times a square polynomial.
-fn rational_square(p: &Poly) -> Option<Element> {
-    p.sqrt().map(Element::from_poly)
 }
 
 /// Prime factors of a squarefree value as far as small primes reach; what is left counts as one.

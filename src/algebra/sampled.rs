@@ -6,7 +6,6 @@ use super::field::{AngleOf, Kind};
 use super::mono::powers;
 use super::poly::Poly;
 use super::prime::{PLAIN, prime, random, seed};
-use crate::domain::Limit;
 use crate::expr::number::to_f64;
 use crate::expr::{Int, Rational, Symbol};
 use num_traits::One;
@@ -73,11 +72,8 @@ impl Field {
         if !size.is_finite() {
             return None;
         }
-        Some(if f64::abs(total) <= 1e-9 * size {
-            0.0
-        } else {
-            total
-        })
+        let known = f64::abs(total) > 1e-9 * size;
+        Some(if known { total } else { 0.0 })
     }
 
     fn sample_element(&self, x: &Element, k: usize) -> Option<f64> {
@@ -102,8 +98,7 @@ impl Field {
     /// The ends of a symbol's domain in doubles: an enclosure of π would lead out of it.
     fn ends(&self, name: &Symbol) -> [Option<f64>; 2] {
         if let Some(domain) = self.domains.symbols.get(name) {
-            let limits = [&domain.low, &domain.high];
-            return limits.map(|limit| limit.as_ref().map(Limit::approximate));
+            return domain.bounds();
         }
         let range = self.interval(name);
         [range.low, range.high].map(|end| end.map(|(value, _)| to_f64(&value)))
@@ -118,10 +113,9 @@ impl Field {
                     let [low, high] = self.ends(name);
                     let positive = low.is_some_and(|l| l >= 0.0);
                     let negative = high.is_some_and(|h| h <= 0.0);
-                    if positive || (!negative && k.is_multiple_of(2)) {
-                        size
-                    } else {
-                        -size
+                    match positive || (!negative && k.is_multiple_of(2)) {
+                        true => size,
+                        false => -size,
                     }
                 }
                 None => pick(self.ends(name), fraction(name, k)),
@@ -135,19 +129,17 @@ impl Field {
                     },
                     AngleOf::Term(term) => self.sample_element(term, k)?,
                 } / f64::from(base.divisor);
-                if matches!(self.gens[v].kind, Kind::Cos(_)) {
-                    angle.cos()
-                } else {
-                    angle.sin()
+                match self.gens[v].kind {
+                    Kind::Cos(_) => angle.cos(),
+                    _ => angle.sin(),
                 }
             }
             Kind::Root => {
                 let (degree, value) = self.gens[v].relation.as_ref()?;
                 let value = self.sample(value, k)?;
-                if *degree == 2 {
-                    value.sqrt()
-                } else {
-                    value.signum() * value.abs().powf(1.0 / f64::from(*degree))
+                match degree {
+                    2 => value.sqrt(),
+                    n => value.signum() * value.abs().powf(1.0 / f64::from(*n)),
                 }
             }
             Kind::Abs(p) => self.sample(p, k)?.abs(),

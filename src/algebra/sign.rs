@@ -97,11 +97,7 @@ impl Field {
     /// The sign of a polynomial by those of its factors.
     fn sign_of_factors(&self, p: &Poly, depth: u32) -> Option<Sign> {
         let parts = factor(p, &self.fuel);
-        let mut sign = if parts.content.is_negative() {
-            Sign::Negative
-        } else {
-            Sign::Positive
-        };
+        let mut sign = Sign::made(!parts.content.is_negative(), true);
         for (f, k) in parts.factors {
             sign = sign.times(match (self.sign_irreducible(&f, depth), k % 2) {
                 (Some(Sign::Positive | Sign::Negative), 0) => Sign::Positive,
@@ -113,14 +109,12 @@ impl Field {
     }
 
     fn sign_irreducible(&self, p: &Poly, depth: u32) -> Option<Sign> {
-        if let Some(sign) = self.by_coefficients(p, &[]) {
-            return Some(sign);
-        }
-        if let Some(sign) = self.by_relations(p) {
-            return Some(sign);
-        }
-        if let Some(sign) = self.by_ends(p, depth) {
-            return Some(sign);
+        let told = self
+            .by_coefficients(p, &[])
+            .or_else(|| self.by_relations(p))
+            .or_else(|| self.by_ends(p, depth));
+        if told.is_some() {
+            return told;
         }
         // Where doubles see both signs, no proof of one is worth trying.
         if self.seen_signs(p) == (true, true) {
@@ -148,11 +142,8 @@ impl Field {
             return None;
         };
         let ends = [rest.sub(slope), rest.add(slope)];
-        let [low, high] = [
-            self.sign_sub(&ends[0], depth)?,
-            self.sign_sub(&ends[1], depth)?,
-        ];
-        between([(low, false), (high, false)])
+        let [low, high] = ends.map(|end| self.sign_sub(&end, depth));
+        between([(low?, false), (high?, false)])
     }
 
     /// What is of the first degree in an angle lies between its values at the ends of the angle's interval, which are
@@ -192,11 +183,7 @@ impl Field {
 
     /// A + B√P with A and B of opposite signs has the sign of A² − B²P on A's side.
     fn by_conjugate(&self, p: &Poly, depth: u32) -> Option<Sign> {
-        let root = p
-            .variables()
-            .into_iter()
-            .rev()
-            .find(|v| matches!(self.gens[*v].kind, Kind::Root))?;
+        let root = self.last_root(p)?;
         let (2, radicand) = self.gens[root].relation.as_ref()? else {
             return None;
         };
@@ -205,35 +192,18 @@ impl Field {
             return None;
         };
         let (sa, sb) = (self.sign_sub(a, depth)?, self.sign_sub(b, depth)?);
-        let definite = |s| matches!(s, Sign::Positive | Sign::Negative);
         if sa.is_not_negative() == sb.is_not_negative() {
-            return Some(if definite(sa) {
-                sa
-            } else if sa.is_not_negative() {
-                Sign::NotNegative
-            } else {
-                Sign::NotPositive
-            });
+            return Some(Sign::made(sa.is_not_negative(), sa.is_strict()));
         }
-        let norm = self
-            .mul_poly(a, a)
-            .ok()?
-            .sub(&self.mul_poly(&self.mul_poly(b, b).ok()?, radicand).ok()?);
+        let norm = self.norm(a, b, radicand).ok()?;
         let sn = self.sign_sub(&norm, depth)?;
         // |A| > |B|√P: A decides; otherwise B does.
-        let (decides, strict) = match sn {
-            Sign::Positive => (sa, true),
-            Sign::NotNegative => (sa, false),
-            Sign::Negative => (sb, true),
-            Sign::NotPositive => (sb, false),
+        let decides = match sn {
             Sign::Zero => return Some(Sign::Zero),
+            _ if sn.is_not_negative() => sa,
+            _ => sb,
         };
-        Some(match (decides.is_not_negative(), strict) {
-            (true, true) => Sign::Positive,
-            (true, false) => Sign::NotNegative,
-            (false, true) => Sign::Negative,
-            (false, false) => Sign::NotPositive,
-        })
+        Some(Sign::made(decides.is_not_negative(), sn.is_strict()))
     }
 
     fn sign_sub(&self, p: &Poly, depth: u32) -> Option<Sign> {
@@ -263,11 +233,7 @@ impl Field {
             if let Some(below @ (Sign::Negative | Sign::NotPositive)) = below
                 && let Some(sign @ (Sign::Positive | Sign::Negative)) = self.sign_sub(a, depth)
             {
-                return Some(match (below, sign) {
-                    (Sign::Negative, sign) => sign,
-                    (_, Sign::Positive) => Sign::NotNegative,
-                    _ => Sign::NotPositive,
-                });
+                return Some(Sign::made(sign.is_not_negative(), below.is_strict()));
             }
         }
         None
@@ -300,12 +266,7 @@ impl Field {
         }
         corners.retain(|(_, left)| !left.is_empty());
         let terms: Vec<&[u64]> = p.terms().map(|(mono, _)| mono).collect();
-        let sign = if left_at_corners(&terms, &corners) {
-            Sign::Positive
-        } else {
-            Sign::NotNegative
-        };
-        Some(if negative { sign.flip() } else { sign })
+        Some(Sign::made(!negative, left_at_corners(&terms, &corners)))
     }
 
     /// Whether a root vanishes, by the sign of its radicand. A relation that tells that sign may hold the root itself: then
@@ -373,8 +334,7 @@ impl Field {
             let [low, high] = [-1, 1].map(|end| Some((ratio(end, 1), false)));
             return Interval { low, high };
         }
-        let mut angles = self.bases.iter();
-        match angles.any(|b| matches!(&b.of, AngleOf::Symbol(s) if s == name)) {
+        match self.base_of(name).is_some() {
             true => Interval::open(ratio(0, 1), ratio(355, 226)),
             false => Interval::above_zero(true),
         }

@@ -96,8 +96,7 @@ impl Field {
                 Some(known) if known.is_not_negative() != sign.is_not_negative() => {
                     return Found::Mixed;
                 }
-                Some(known) if known.is_not_negative() => Sign::NotNegative,
-                Some(_) => Sign::NotPositive,
+                Some(known) => Sign::made(known.is_not_negative(), false),
             });
         }
         total.map_or(Found::Unknown, Found::Proved)
@@ -215,26 +214,17 @@ impl Field {
     /// Rewrites a polynomial of even degree in (cos β, sin β), s reduced, through C = cos 2β and S = sin 2β in the same
     /// variables, up to a positive factor.
     pub(crate) fn double_angle(&self, p: &Poly, c: usize, s: usize) -> Option<Poly> {
-        if p.degree(s) > 1
-            || p.terms()
-                .any(|(m, _)| (exponent(m, c) + exponent(m, s)) % 2 == 1)
-        {
+        let degrees = || p.terms().map(|(m, _)| exponent(m, c) + exponent(m, s));
+        if p.degree(s) > 1 || degrees().any(|d| d % 2 == 1) {
             return None;
         }
         let one_plus = Poly::one().add(&Poly::var(c));
-        let highest = p
-            .terms()
-            .map(|(m, _)| (exponent(m, c) + exponent(m, s)) / 2)
-            .max()?;
+        let highest = degrees().max()? / 2;
         let by_sine = p.by_power(s);
         let mut total = Poly::zero();
         for (j, part) in by_sine.iter().enumerate() {
-            for (i, q) in part
-                .by_power(c)
-                .iter()
-                .enumerate()
-                .filter(|(_, q)| !q.is_zero())
-            {
+            let parts = part.by_power(c);
+            for (i, q) in parts.iter().enumerate().filter(|(_, q)| !q.is_zero()) {
                 // c^(2k) = ((1+C)/2)^k and s c^(2k+1) = (S/2)((1+C)/2)^k.
                 let k = (i - j) as u32 / 2;
                 let mut term = q.mul(&one_plus.pow(k).ok()?).ok()?;
@@ -267,40 +257,30 @@ fn half_tangent(end: &(Rational, bool), up: bool) -> Option<Option<(Rational, bo
         return Some(Some((turns.signum(), *open)));
     }
     let value = (to_f64(turns) * std::f64::consts::FRAC_PI_2).tan();
-    let outside = if up {
-        value + 1e-9 * (1.0 + value.abs())
-    } else {
-        value - 1e-9 * (1.0 + value.abs())
+    let margin = 1e-9 * (1.0 + value.abs());
+    let size = f64::from(1u32 << 24);
+    let scaled = match up {
+        true => ((value + margin) * size).ceil(),
+        false => ((value - margin) * size).floor(),
     };
-    let scaled = outside * f64::from(1u32 << 24);
-    let scaled = if up { scaled.ceil() } else { scaled.floor() };
     let numerator = number::from_f64(scaled)?;
     Some(Some((numerator / ratio(1 << 24, 1), true)))
 }
 
 /// cos β = (1−t²)/(1+t²), sin β = 2t/(1+t²), times the power of 1+t² that is told; t takes the place of the cosine.
 fn half_angle(p: &Poly, c: usize, s: usize) -> Result<(Poly, u32), Stop> {
-    let d = p
-        .terms()
-        .map(|(m, _)| exponent(m, c) + exponent(m, s))
-        .max()
-        .unwrap_or(0);
+    let degrees = p.terms().map(|(m, _)| exponent(m, c) + exponent(m, s));
+    let d = degrees.max().unwrap_or(0);
     let square = Poly::term(&mono_of(c, 2), Int::one());
     let (plus, minus) = (Poly::one().add(&square), Poly::one().sub(&square));
     let twice = Poly::var(c).scale(&Int::from(2));
     let mut total = Poly::zero();
     for (j, part) in p.by_power(s).iter().enumerate() {
-        for (i, q) in part
-            .by_power(c)
-            .iter()
-            .enumerate()
-            .filter(|(_, q)| !q.is_zero())
-        {
+        let parts = part.by_power(c);
+        for (i, q) in parts.iter().enumerate().filter(|(_, q)| !q.is_zero()) {
             let (i, j) = (i as u32, j as u32);
-            let shape = minus
-                .pow(i)?
-                .mul(&twice.pow(j)?)?
-                .mul(&plus.pow(d - i - j)?)?;
+            let shape = minus.pow(i)?.mul(&twice.pow(j)?)?;
+            let shape = shape.mul(&plus.pow(d - i - j)?)?;
             total = total.add(&q.mul(&shape)?);
         }
     }

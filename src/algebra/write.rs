@@ -97,11 +97,7 @@ impl Field {
         let mut above = self.taken_apart(num);
         let mut below = Parts::monomial(x.den.int.clone(), &x.den.mono);
         for (f, k) in factors {
-            let parts = self.taken_apart(f);
-            below.content *= parts.content.pow(*k);
-            for (g, e) in parts.factors {
-                below.note(g, e * k);
-            }
+            below.take(self.taken_apart(f), *k);
         }
         strike(&mut above, &mut below, &self.fuel);
         above.join_conjugates();
@@ -119,10 +115,7 @@ impl Field {
         if den.is_empty() || !(3..=MOST_PARTED).contains(&x.num.len()) {
             return None;
         }
-        let mut whole = Poly::one();
-        for (f, k) in den {
-            whole = whole.mul(&f.pow(*k).ok()?).ok()?;
-        }
+        let whole = multiplied(Poly::one(), den)?;
         let (lead, first) = (whole.mono(0), whole.coeff(0));
         let (mut taken, mut rest) = (Poly::zero(), x.num.clone());
         for (mono, coeff) in x.num.terms() {
@@ -141,10 +134,7 @@ impl Field {
         }
         let over = |num: Poly, factors: Vec<(Poly, u32)>| {
             let (int, mono) = (x.den.int.clone(), x.den.mono.clone());
-            self.written(&Element {
-                num,
-                den: Den { int, mono, factors },
-            })
+            self.written(&Element::new(num, Den { int, mono, factors }))
         };
         let mut both = [over(taken, Vec::new()), over(rest, den.clone())];
         both.sort_by_key(Expr::is_negative);
@@ -167,30 +157,20 @@ impl Field {
             if !parts.content.is_one() {
                 return None;
             }
-            for (g, e) in parts.factors {
-                below.note(g, e * k);
-            }
+            below.take(parts, *k);
         }
         let degree = |parts: &Parts| -> u32 {
+            let own = |(m, _): (&[u64], &Int)| powers(m).map(|(_, e)| e).sum::<u32>();
             let each = parts.factors.iter();
-            each.map(|(f, k)| {
-                f.terms()
-                    .map(|(m, _)| powers(m).map(|(_, e)| e).sum::<u32>())
-                    .max()
-                    .unwrap_or(0)
-                    * k
-            })
-            .sum()
+            each.map(|(f, k)| f.terms().map(own).max().unwrap_or(0) * k)
+                .sum()
         };
         let before = degree(&below);
         strike(&mut above, &mut below, &self.fuel);
         if degree(&below) == before {
             return None;
         }
-        let mut num = Poly::term(&Mono::new(), above.content);
-        for (f, k) in &above.factors {
-            num = num.mul(&f.pow(*k).ok()?).ok()?;
-        }
+        let num = multiplied(Poly::constant(above.content), &above.factors)?;
         Some((num, below.factors))
     }
 
@@ -202,16 +182,16 @@ impl Field {
             Kind::Cos(base) => (self.angle(*base).cos(), one),
             Kind::Sin(base) => (self.angle(*base).sin(), one),
             Kind::Root => match &self.gens[v].relation {
-                Some((n, value)) => (
-                    self.kept(&Element::from_poly(value.clone())),
-                    ratio(1, i64::from(*n)),
-                ),
+                Some((n, value)) => {
+                    let value = self.kept(&Element::from_poly(value.clone()));
+                    (value, ratio(1, i64::from(*n)))
+                }
                 None => (Expr::zero(), one),
             },
-            Kind::Abs(p) => (
-                Expr::call(Function::Abs, self.written(&Element::from_poly(p.clone()))),
-                one,
-            ),
+            Kind::Abs(p) => {
+                let inside = self.written(&Element::from_poly(p.clone()));
+                (Expr::call(Function::Abs, inside), one)
+            }
             Kind::Call(function, x) => (Expr::call(*function, self.written(x)), one),
             Kind::Power(base, exponent) => (self.written(base).power(self.written(exponent)), one),
         }
@@ -278,13 +258,11 @@ impl Field {
             let parts = Parts::monomial(term.coeff.clone(), &term.mono);
             let plain = self.assemble(&parts, &Parts::one());
             let degree = term.degree();
-            out.push((
-                (degree, at),
-                match term.gathered {
-                    Some(e) => plain * e,
-                    None => plain,
-                },
-            ));
+            let written = match term.gathered {
+                Some(e) => plain * e,
+                None => plain,
+            };
+            out.push(((degree, at), written));
             at += 1;
         }
         out
@@ -309,11 +287,7 @@ impl Field {
             }
             for (c, s) in [(c, s), (s, c)] {
                 join(&mut terms, &mono_of(c, 0), &mono_of(c, 2), |same| {
-                    if same {
-                        None
-                    } else {
-                        Some((mono_of(s, 2), None))
-                    }
+                    (!same).then(|| (mono_of(s, 2), None))
                 });
             }
         }
@@ -341,6 +315,12 @@ impl Field {
         }
         terms
     }
+}
+
+/// A polynomial times powers of others.
+fn multiplied(first: Poly, factors: &[(Poly, u32)]) -> Option<Poly> {
+    let mut all = factors.iter();
+    all.try_fold(first, |total, (f, k)| total.mul(&f.pow(*k).ok()?).ok())
 }
 
 /// Joins k·X·first and ±k·X·second to k·X·(what `joined` gives for equal or opposite coefficients).
@@ -423,18 +403,14 @@ fn best_group(terms: &[Term], proper: bool) -> Option<Vec<usize>> {
         for i in &group {
             common = super::mono::mono_min(&common, &terms[*i].mono);
         }
-        let inside: usize = group
-            .iter()
-            .map(|i| letters(&mono_div(&terms[*i].mono, &common)).max(2))
-            .sum();
+        let own = |i: &usize| letters(&mono_div(&terms[*i].mono, &common)).max(2);
+        let inside: usize = group.iter().map(own).sum();
         let outside = letters(&common) + 2;
         let before: usize = group.iter().map(|i| letters(&terms[*i].mono)).sum();
         if let Some(saving) = before.checked_sub(inside + outside).filter(|s| *s > 0) {
             let weight = letters(&common);
-            if best
-                .as_ref()
-                .is_none_or(|(s, w, _)| (saving, weight) > (*s, *w))
-            {
+            let known = best.as_ref().map(|(saving, weight, _)| (*saving, *weight));
+            if known.is_none_or(|known| (saving, weight) > known) {
                 best = Some((saving, weight, group));
             }
         }

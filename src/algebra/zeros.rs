@@ -102,19 +102,14 @@ impl Field {
         let [a, b] = parts.as_slice() else {
             return Ok(None);
         };
-        let square = self.mul_poly(&self.mul_poly(b, b)?, &value)?;
-        let norm = self.mul_poly(a, a)?.sub(&square);
-        Ok(Some(Element::from_poly(norm)))
+        Ok(Some(Element::from_poly(self.norm(a, b, &value)?)))
     }
 
     /// The signs of elements in one symbol all along its interval, in ascending order. `None` where another symbol, an angle,
     /// a root or a function takes part, or a limit is met.
     pub fn signs_along(&self, name: &Symbol, elements: &[Element]) -> Option<Vec<Cell>> {
         self.fuel.refill();
-        let v = self
-            .gens
-            .iter()
-            .position(|g| matches!(&g.kind, Kind::Symbol(s) if s == name))?;
+        let v = *self.names.get(name)?;
         let only = |p: &Poly| p.variables().iter().all(|w| *w == v) && p.degree(v) <= MOST_DEGREE;
         // Each element as a sign and parts with whole powers.
         let mut base: Vec<Poly> = Vec::new();
@@ -207,9 +202,8 @@ impl Field {
         let above = factor(&x.num, &self.fuel).factors.into_iter();
         let below = Parts::below(&x.den).factors.into_iter();
         let above = above.map(|(f, k)| (f, i64::from(k)));
-        above
-            .chain(below.map(|(f, k)| (f, -i64::from(k))))
-            .collect()
+        let below = below.map(|(f, k)| (f, -i64::from(k)));
+        above.chain(below).collect()
     }
 
     /// The product of different squarefree parts.
@@ -229,10 +223,9 @@ impl Field {
 impl Element {
     /// The sign of the number in front of the numerator's parts.
     fn num_content_sign(&self) -> Ordering {
-        if self.num.leading_is_negative() {
-            Ordering::Less
-        } else {
-            Ordering::Greater
+        match self.num.leading_is_negative() {
+            true => Ordering::Less,
+            false => Ordering::Greater,
         }
     }
 }
@@ -273,11 +266,13 @@ fn zeros_of(p: &Poly, v: usize, (low, high): (EndOf, EndOf)) -> Option<Vec<[Rati
     }
     let mut exact: Vec<Rational> = Vec::new();
     let inside = |x: &Rational| {
-        low.as_ref()
-            .is_none_or(|(l, open)| x > l || x == l && !open)
-            && high
-                .as_ref()
-                .is_none_or(|(h, open)| x < h || x == h && !open)
+        let keeps = |end: EndOf, side: Ordering| {
+            end.as_ref().is_none_or(|(end, open)| match x.cmp(end) {
+                Ordering::Equal => !open,
+                order => order == side,
+            })
+        };
+        keeps(low, Ordering::Greater) && keeps(high, Ordering::Less)
     };
     let mut left = MOST_HALVINGS;
     // Zeros that are fractions are taken out as they are met, the ends first.
@@ -291,12 +286,11 @@ fn zeros_of(p: &Poly, v: usize, (low, high): (EndOf, EndOf)) -> Option<Vec<[Rati
         return Some(sorted(exact, Vec::new(), inside));
     }
     let bound = bound(&p);
-    let from = low
+    let (mut from, mut to) = (-bound.clone(), bound);
+    from = low
         .as_ref()
-        .map_or(-bound.clone(), |(l, _)| l.clone().max(-bound.clone()));
-    let to = high
-        .as_ref()
-        .map_or(bound.clone(), |(h, _)| h.clone().min(bound.clone()));
+        .map_or(from.clone(), |(l, _)| l.clone().max(from));
+    to = high.as_ref().map_or(to.clone(), |(h, _)| h.clone().min(to));
     if from >= to {
         return Some(sorted(exact, Vec::new(), inside));
     }
@@ -400,11 +394,8 @@ fn changes(p: &[Int], a: &Rational, b: &Rational) -> usize {
             *t += q * &p[k];
         }
     }
-    let signs: Vec<bool> = total
-        .iter()
-        .filter(|k| !k.is_zero())
-        .map(Signed::is_negative)
-        .collect();
+    let signs = total.iter().filter(|k| !k.is_zero());
+    let signs: Vec<bool> = signs.map(Signed::is_negative).collect();
     signs.windows(2).filter(|w| w[0] != w[1]).count()
 }
 

@@ -141,13 +141,14 @@ pub(super) fn numbers(domain: &Domain, count: usize) -> Vec<Coordinate> {
         inside.extend(ends);
     }
     let mut out: Vec<Coordinate> = inside.into_iter().map(Coordinate::Number).collect();
-    if let (true, Some(low), Some(high)) = (out.is_empty(), &domain.low, &domain.high) {
-        if low == high && !low.open {
-            out.push(match low.of_pi {
-                true => Coordinate::Pi(low.value.clone()),
-                false => Coordinate::Number(low.value.clone()),
-            });
-        }
+    if let (true, Some(low), Some(high)) = (out.is_empty(), &domain.low, &domain.high)
+        && low == high
+        && !low.open
+    {
+        out.push(match low.of_pi {
+            true => Coordinate::Pi(low.value.clone()),
+            false => Coordinate::Number(low.value.clone()),
+        });
     }
     out
 }

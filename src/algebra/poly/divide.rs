@@ -66,15 +66,10 @@ impl Poly {
             return None;
         }
         if last == 0 {
-            if !self
-                .coeffs
-                .iter()
-                .all(|c| c.is_multiple_of(&divisor.coeffs[0]))
-                || !(0..self.len()).all(|i| mono_divides(divisor.mono(0), self.mono(i)))
-            {
-                return None;
-            }
-            return Some(self.div_mono(divisor.mono(0)).div_int(&divisor.coeffs[0]));
+            let (mono, coeff) = (divisor.mono(0), &divisor.coeffs[0]);
+            let divides = |(m, c): (&[u64], &Int)| c.is_multiple_of(coeff) && mono_divides(mono, m);
+            let all = self.terms().all(divides);
+            return all.then(|| self.div_mono(mono).div_int(coeff));
         }
         if !mono_divides(&divisor.degrees(), &self.degrees()) || image::refuses(divisor, self) {
             return None;
@@ -82,10 +77,7 @@ impl Poly {
         let stride = self.stride.max(divisor.stride);
         let (dividend, divisor) = (self.widened(stride), divisor.widened(stride));
         let smallest = dividend.mono(self.len() - 1);
-        let mut out = Poly {
-            stride,
-            ..Poly::default()
-        };
+        let mut out = Poly::blank(stride);
         // For each term of the divisor its next product with a term of the quotient, the highest on top (Johnson 1974);
         // `waiting` has come to the end of what is known of the quotient.
         let mut products: BinaryHeap<(Mono, usize, usize)> = BinaryHeap::with_capacity(last);

@@ -58,15 +58,7 @@ impl Poly {
     }
 
     pub fn constant(value: Int) -> Poly {
-        if value.is_zero() {
-            Poly::zero()
-        } else {
-            Poly {
-                stride: 0,
-                exps: Mono::new(),
-                coeffs: smallvec![value],
-            }
-        }
+        Poly::term(&[], value)
     }
 
     pub fn one() -> Poly {
@@ -132,10 +124,8 @@ impl Poly {
     }
 
     pub fn terms(&self) -> impl Iterator<Item = (&[u64], &Int)> {
-        self.coeffs
-            .iter()
-            .enumerate()
-            .map(|(i, c)| (self.mono(i), c))
+        let all = self.coeffs.iter().enumerate();
+        all.map(|(i, c)| (self.mono(i), c))
     }
 
     pub fn leading_is_negative(&self) -> bool {
@@ -163,10 +153,28 @@ impl Poly {
     }
 
     pub fn neg(&self) -> Poly {
+        self.each(|c| -c)
+    }
+
+    /// 1 − v².
+    pub fn rest_of_square(v: usize) -> Poly {
+        Poly::one().sub(&Poly::term(&mono_of(v, 2), Int::one()))
+    }
+
+    /// Without terms, whose monomials will have so many words.
+    fn blank(stride: usize) -> Poly {
+        Poly {
+            stride,
+            ..Poly::default()
+        }
+    }
+
+    /// With changed coefficients, none of them zero.
+    fn each(&self, f: impl Fn(&Int) -> Int) -> Poly {
         Poly {
             stride: self.stride,
             exps: self.exps.clone(),
-            coeffs: self.coeffs.iter().map(|c| -c).collect(),
+            coeffs: self.coeffs.iter().map(f).collect(),
         }
     }
 
@@ -216,14 +224,8 @@ impl Poly {
             };
             let (mono, coeff) = match order {
                 Ordering::Greater => (a.mono(i), a.coeffs[i].clone()),
-                Ordering::Less => (
-                    b.mono(j),
-                    if minus {
-                        -&b.coeffs[j]
-                    } else {
-                        b.coeffs[j].clone()
-                    },
-                ),
+                Ordering::Less if minus => (b.mono(j), -&b.coeffs[j]),
+                Ordering::Less => (b.mono(j), b.coeffs[j].clone()),
                 Ordering::Equal if minus => (a.mono(i), &a.coeffs[i] - &b.coeffs[j]),
                 Ordering::Equal => (a.mono(i), &a.coeffs[i] + &b.coeffs[j]),
             };
@@ -244,11 +246,7 @@ impl Poly {
         if factor.is_one() {
             return self.clone();
         }
-        Poly {
-            stride: self.stride,
-            exps: self.exps.clone(),
-            coeffs: self.coeffs.iter().map(|c| c * factor).collect(),
-        }
+        self.each(|c| c * factor)
     }
 
     /// Division by an integer known to divide every coefficient.
@@ -256,19 +254,12 @@ impl Poly {
         if divisor.is_one() {
             return self.clone();
         }
-        Poly {
-            stride: self.stride,
-            exps: self.exps.clone(),
-            coeffs: self.coeffs.iter().map(|c| c / divisor).collect(),
-        }
+        self.each(|c| c / divisor)
     }
 
     /// The polynomial with changed coefficients; terms that become zero vanish.
     pub fn map_coefficients(&self, f: impl Fn(&Int) -> Int) -> Poly {
-        let mut out = Poly {
-            stride: self.stride,
-            ..Poly::default()
-        };
+        let mut out = Poly::blank(self.stride);
         for (mono, coeff) in self.terms() {
             let value = f(coeff);
             if !value.is_zero() {
@@ -317,10 +308,9 @@ impl Poly {
     }
 
     pub fn mul(&self, other: &Poly) -> Result<Poly, Stop> {
-        let (small, large) = if self.len() <= other.len() {
-            (self, other)
-        } else {
-            (other, self)
+        let (small, large) = match self.len() <= other.len() {
+            true => (self, other),
+            false => (other, self),
         };
         match small.len() {
             0 => return Ok(Poly::zero()),
@@ -349,17 +339,12 @@ impl Poly {
                 let mut rows = (0..a.len())
                     .map(|i| b.mul_term(a.mono(i), &a.coeffs[i]))
                     .collect::<Result<Vec<_>, _>>()?;
+                let sum = |rows: &[Poly]| match rows {
+                    [x, y] => x.add(y),
+                    rows => rows[0].clone(),
+                };
                 while rows.len() > 1 {
-                    rows = rows
-                        .chunks(2)
-                        .map(|c| {
-                            if let [x, y] = c {
-                                x.add(y)
-                            } else {
-                                c[0].clone()
-                            }
-                        })
-                        .collect();
+                    rows = rows.chunks(2).map(sum).collect();
                 }
                 rows.remove(0).checked()
             }
@@ -370,11 +355,8 @@ impl Poly {
         if self.len() > MOST_TERMS {
             return Err(Stop::TooLarge("terms"));
         }
-        if self
-            .coeffs
-            .iter()
-            .any(|c| c.as_i64().is_none() && c.bits() > MOST_BITS)
-        {
+        let long = |c: &Int| c.as_i64().is_none() && c.bits() > MOST_BITS;
+        if self.coeffs.iter().any(long) {
             return Err(Stop::TooLarge("digits"));
         }
         Ok(self)
@@ -454,11 +436,7 @@ fn mul_sorting<const S: usize>(a: &Poly, b: &Poly) -> Result<Poly, Stop> {
         }
     }
     products.sort_unstable_by_key(|product| std::cmp::Reverse(product.0));
-    let mut out = Poly {
-        stride: S,
-        exps: Mono::new(),
-        coeffs: Coeffs::new(),
-    };
+    let mut out = Poly::blank(S);
     let mut at = 0;
     while at < products.len() {
         let mono = products[at].0;

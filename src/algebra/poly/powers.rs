@@ -11,10 +11,8 @@ use crate::expr::Int;
 
 impl Poly {
     pub fn degree(&self, v: usize) -> u32 {
-        (0..self.len())
-            .map(|i| exponent(self.mono(i), v))
-            .max()
-            .unwrap_or(0)
+        let all = (0..self.len()).map(|i| exponent(self.mono(i), v));
+        all.max().unwrap_or(0)
     }
 
     /// Highest exponent of every variable, packed.
@@ -39,13 +37,7 @@ impl Poly {
 
     /// Coefficients of the powers of a variable, ascending, zeros included.
     pub fn by_power(&self, v: usize) -> Vec<Poly> {
-        let mut out = vec![
-            Poly {
-                stride: self.stride,
-                ..Poly::default()
-            };
-            self.degree(v) as usize + 1
-        ];
+        let mut out = vec![Poly::blank(self.stride); self.degree(v) as usize + 1];
         let (word, shift) = place(v);
         for (mono, coeff) in self.terms() {
             let target = &mut out[exponent(mono, v) as usize];
@@ -75,10 +67,7 @@ impl Poly {
             let outside = mono.iter().zip(&mask).map(|(w, m)| w & !m).collect();
             let at = *places.entry(outside).or_insert(out.len());
             if at == out.len() {
-                out.push(Poly {
-                    stride: self.stride,
-                    ..Poly::default()
-                });
+                out.push(Poly::blank(self.stride));
             }
             // Terms that agree in the others keep their order without them.
             let own = mono.iter().zip(&mask).map(|(w, m)| w & m);
@@ -93,11 +82,10 @@ impl Poly {
         let mut total = Poly::zero();
         for (k, part) in parts.iter().enumerate() {
             if !part.is_zero() {
-                let k = u32::try_from(k)
-                    .ok()
-                    .filter(|k| *k < 128)
-                    .ok_or(Stop::TooLarge("degree"))?;
-                total = total.add(&part.mul_term(&mono_of(v, k), &Int::one())?);
+                if k > 127 {
+                    return Err(Stop::TooLarge("degree"));
+                }
+                total = total.add(&part.mul_term(&mono_of(v, k as u32), &Int::one())?);
             }
         }
         Ok(total)
@@ -131,10 +119,7 @@ impl Poly {
 
     pub fn derivative(&self, v: usize) -> Poly {
         let (word, shift) = place(v);
-        let mut out = Poly {
-            stride: self.stride,
-            ..Poly::default()
-        };
+        let mut out = Poly::blank(self.stride);
         for (mono, coeff) in self.terms() {
             let k = exponent(mono, v);
             if k > 0 {
