@@ -306,11 +306,13 @@ impl<'a> Desk<'a> {
                 symbols.declare_as(&*arrow, Some(&arrowed), None);
             }
         }
-        // `ω⁺` is what is asked of the moment just after, and a vector may wear its arrow.
+        // `ω⁺` and `ω'` are what is asked of the moment just after, and a vector may wear its arrow.
         let now = |name: &&Symbol| !name.contains('^') && !is_vector(name);
         for name in self.closed.keys().filter(now) {
-            let after = format!("{}^{{+}}", formula::latex_name(name));
-            symbols.declare_as(name.clone(), Some(&after), None);
+            for mark in ["^{+}", "'"] {
+                let after = format!("{}{mark}", formula::latex_name(name));
+                symbols.declare_as(name.clone(), Some(&after), None);
+            }
         }
         let vectors = self.sheet.scene.questions.iter().map(|q| q.name.as_str());
         let vectors = vectors.filter(|name| self.components(name).is_some());
@@ -422,6 +424,7 @@ impl<'a> Desk<'a> {
     /// `ω = 3v/(4a) clockwise` with the sign the question counts by, on every side.
     fn with_sense(&self, text: &str) -> Option<String> {
         let (name, right) = names::named(text)?;
+        let name = name.trim_end_matches(['\'', '^', '+']);
         let spin = |q: &&Question| *q.name == *name && matches!(q.ask, Ask::Spin { .. });
         let ask = &self.sheet.scene.questions.iter().find(spin)?.ask;
         judge::in_words(ask, right)?;

@@ -463,6 +463,8 @@ impl Desk<'_> {
         let verdict = match self.all_zero(&ends.differences, &none) {
             Some(true) => Verdict::Equivalent,
             _ if self.is_rounded(end, &ends, &none) => Verdict::Equivalent,
+            // What it was worked out from may be rounded more coarsely.
+            _ if self.is_rounded(text, &ends, &none) => Verdict::Equivalent,
             // What holds where a condition does is a step on the way to what the condition is for.
             Some(false) if self.follows_condition(&ends) => return,
             Some(false) => Verdict::Different,

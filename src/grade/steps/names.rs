@@ -3,12 +3,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::relation::solve_for;
+use super::super::{Tolerance, believed, number};
 use super::cause::size_in;
 use super::link::Weighed;
 use super::{Desk, Diagnosis, Options, Status};
 use crate::domain::Domains;
 use crate::equality::{self};
-use crate::expr::{Expr, Function, Symbol, dot};
+use crate::expr::{Expr, Function, Symbol, dot, ratio};
 use crate::formula::{self, Content, Reading, Remark, Symbols};
 use crate::scene::{Ask, Body};
 
@@ -66,6 +67,14 @@ pub(super) fn is_quantity_first(unit: &str) -> bool {
         unit.trim(),
         "V" | "h" | "A" | "C" | "F" | "H" | "K" | "L" | "T" | "l" | "d" | "W"
     )
+}
+
+/// What stands below alone: I in `F R/I`.
+fn below_in(line: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
+    let inverse = Symbol::from(format!("1/{name}"));
+    let line = line.replace(&Expr::symbol(name).powi(-1), &Expr::symbol(&inverse));
+    let alone = !line.symbols().contains(name);
+    alone.then(|| Some(solve_for(&line, &inverse, domains)?.powi(-1)))?
 }
 
 /// The angle between 0 and 90° whose sine, cosine or tangent alone occurs.
@@ -221,6 +230,14 @@ impl Desk<'_> {
         let free = scene.bodies.iter().filter(|b| !b.is_fixed());
         let each: Vec<Expr> = free.map(about).take(MOST_BODIES).collect();
         let value = self.with_own(value);
+        if value.is_constant() {
+            // In numbers it may be rounded, and needs the values of the scene.
+            let values = believed::values(scene);
+            let room = Tolerance::Relative(ratio(1, 100));
+            let is = |e: &Expr| number::within(&value, &e.substitute(&values), &room);
+            let none = each.iter().all(|e| is(e) == Some(false));
+            return none.then(|| each.into_iter().next()).flatten();
+        }
         let others = (1..1usize << each.len()).all(|chosen| {
             let parts = each
                 .iter()
@@ -385,7 +402,8 @@ impl Desk<'_> {
         let (one, domains) = (self.with_own(one), &self.sheet.scene.domains);
         let value = solve_for(&one, name, domains)
             .or_else(|| size_in(&one, name, domains))
-            .or_else(|| angle_in(&one, name, domains))?;
+            .or_else(|| angle_in(&one, name, domains))
+            .or_else(|| below_in(&one, name, domains))?;
         self.own.insert(name.clone(), value);
         Some(Status::Defines)
     }

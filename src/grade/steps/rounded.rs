@@ -36,8 +36,13 @@ impl Desk<'_> {
                 // `5v/7 ≈ 0.714 v`: up to a rounded factor.
                 let [a, b] = [a, b].map(|e| self.put_in(e, instead));
                 let share = self.share(&a, &b).filter(|_| decimal);
-                return share
-                    .is_some_and(|k| number::within(&k, &Expr::one(), &room) == Some(true));
+                if share.is_some_and(|k| number::within(&k, &Expr::one(), &room) == Some(true)) {
+                    return true;
+                }
+                // `v = e · 4.95 m/s`: some of the values put in.
+                if !decimal {
+                    return false;
+                }
             }
             let (a, b) = (exact(a), exact(b));
             let constant = a.symbols().is_empty() && b.symbols().is_empty();
