@@ -151,17 +151,22 @@ fn made_name(scene: &Scene, unknown: Unknown) -> (String, String) {
     let body = |b: usize| identifier(&scene.bodies[b].name);
     let made = |letter: &str, latex_letter: &str, of: &str, axis: Option<usize>, after: bool| {
         let plus = if after { "^{+}" } else { "" };
+        // A letter is a point or a body, a word is upright.
+        let index = match of.len() == 1 && of.chars().all(|c| c.is_ascii_uppercase()) {
+            true => of.to_string(),
+            false => format!("\\mathrm{{{}}}", escape(of)),
+        };
         match axis {
             Some(axis) => {
                 let x = AXES[axis];
                 (
                     format!("{letter}_{of}_{x}"),
-                    format!("{latex_letter}_{{\\mathrm{{{}}},{x}}}{plus}", escape(of)),
+                    format!("{latex_letter}_{{{index},{x}}}{plus}"),
                 )
             }
             None => (
                 format!("{letter}_{of}"),
-                format!("{latex_letter}_{{\\mathrm{{{}}}}}{plus}", escape(of)),
+                format!("{latex_letter}_{{{index}}}{plus}"),
             ),
         }
     };

@@ -8,6 +8,7 @@ use super::{
     motion, picture, svg, values, words,
 };
 use crate::numeric::Motion;
+use crate::numeric::system::Unknown;
 use crate::scene::Scene;
 
 /// Least width of a picture, in pixels.
@@ -24,6 +25,11 @@ pub(super) struct Panel {
     notes: Vec<String>,
     caption: Vec<Piece>,
     alternative: String,
+}
+
+/// The spin of a pulley without mass: its strings turn it, and nobody misses it in a picture.
+fn is_idle(scene: &Scene, unknown: Unknown) -> bool {
+    matches!(unknown, Unknown::Spin(b) if scene.bodies[b].is_light_pulley())
 }
 
 pub(super) fn panel(stage: &Stage, motion: Option<&Motion<f64>>, which: Which) -> Panel {
@@ -83,7 +89,7 @@ pub(super) fn panel(stage: &Stage, motion: Option<&Motion<f64>>, which: Which) -
             let mut notes = Vec::new();
             let sheet = match motion {
                 Some(motion) => {
-                    if !motion.loose.is_empty() {
+                    if !motion.loose.iter().all(|u| is_idle(scene, *u)) {
                         notes.push(
                             "The equations leave part of the motion open; that part is not drawn."
                                 .to_string(),

@@ -448,7 +448,7 @@ fn said(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer) {
     }
     match text.len() {
         0 => {}
-        1 => solution.text(text.remove(0)),
+        1 => solution.conclude(text.remove(0)),
         _ => solution.push(Part::List(text)),
     }
 }

@@ -4,7 +4,7 @@ use super::words::{self, say};
 use super::{Claim, Detail, Inline, Line, Math, Part, Writer};
 use crate::derive::{Block, Equation};
 use crate::expr::{Expr, Symbol};
-use crate::laws::{Direction, Law, Unknown};
+use crate::laws::{Direction, Law, Place, Unknown};
 use crate::scene::{Ask, EnergyWhen, ImpulseAt, KnownQuantity, Question};
 
 /// Above this many equations in a block the balances are not written out in vectors.
@@ -188,7 +188,10 @@ impl Writer<'_> {
                 words::bodies(self.scene, system),
                 words::at(self.scene, *about)
             ),
-            Law::Restitution(c) => format!("restitution at {}", self.scene.contacts[*c].name),
+            Law::Restitution(c) => {
+                let at = words::at(self.scene, Place::Contact(*c));
+                format!("restitution at {at}")
+            }
             Law::Sticking(c, axis) => format!(
                 "sticking at {} along {}",
                 self.scene.contacts[*c].name, AXES[*axis]

@@ -40,6 +40,24 @@ impl Solution {
         self.push(Part::Text(text));
     }
 
+    /// A sentence; behind a condition that ends with a comma it goes on there.
+    pub(super) fn conclude(&mut self, mut text: Vec<Inline>) {
+        let before = self.sections.last_mut().and_then(|s| s.parts.last_mut());
+        let Some(Part::Text(condition)) = before else {
+            return self.text(text);
+        };
+        match (condition.last_mut(), text.first_mut()) {
+            (Some(Inline::Text(end)), Some(Inline::Text(first))) if end.ends_with(',') => {
+                end.push(' ');
+                let mut letters = first.chars();
+                let small = letters.next().into_iter().flat_map(char::to_lowercase);
+                *first = small.chain(letters.clone()).collect();
+                condition.extend(text);
+            }
+            _ => self.text(text),
+        }
+    }
+
     pub(super) fn say(&mut self, text: &str) {
         self.text(vec![say(text)]);
     }

@@ -185,6 +185,7 @@ impl Writer<'_> {
             }
         }
         self.motion_words(&links);
+        self.name_impulses(block);
         self.say(&format!("{}.", self.balance_words(&balances)));
         for e in &balances {
             self.short_balance(e);
@@ -246,6 +247,37 @@ impl Writer<'_> {
         true
     }
 
+    /// What the impulses along normals in a block are.
+    fn name_impulses(&mut self, block: &Block) {
+        let mut text = Vec::new();
+        for u in &block.unknowns {
+            let Unknown::Normal(c) = u else {
+                continue;
+            };
+            let contact = &self.scene.contacts[*c];
+            let lead = if text.is_empty() { "Let " } else { ", and " };
+            let be = if text.is_empty() { " be" } else { "" };
+            let line = match self.scene.figure.string(&contact.name) {
+                Some(_) => "the string",
+                None => "the normal",
+            };
+            let symbol = words::formula(&Expr::symbol(self.d.names.plain(*u)));
+            text.extend([
+                say(lead),
+                symbol,
+                say(format!(
+                    "{be} the impulse at {} on {}, along {line}",
+                    words::at(self.scene, Place::Contact(*c)),
+                    words::body(self.scene, contact.bodies[1])
+                )),
+            ]);
+        }
+        if !text.is_empty() {
+            text.push(say("."));
+            self.text(text);
+        }
+    }
+
     /// `Balance linear momentum of the disk and of the plate along x, and angular momentum of the plate about …`
     fn balance_words(&self, balances: &[&Equation]) -> String {
         let mut linear: Vec<(String, Vec<String>)> = Vec::new();
@@ -255,6 +287,10 @@ impl Writer<'_> {
             match &e.law {
                 Law::LinearMomentum { system, along } => {
                     let whom = words::bodies(self.scene, system);
+                    let whom = match system.len() {
+                        1 => whom,
+                        _ => whom + " together",
+                    };
                     let along = super::block::direction(along);
                     match linear.iter_mut().find(|(w, _)| *w == whom) {
                         Some((_, all)) => all.push(along),

@@ -332,7 +332,11 @@ fn counted(e: &Expr, [plus, minus]: [&'static str; 2]) -> (Expr, &'static str) {
 fn turning(stage: &Stage, told: &StageTold, turn: &Turn) -> Sentence {
     let domains = &stage.scene.domains;
     let name = |b: usize| format!("`{}`", stage.scene.bodies[b].name);
-    let names: Vec<String> = turn.bodies().into_iter().map(name).collect();
+    // A particle at the fixed point stays where it is.
+    let is_carried =
+        |b: &usize| !stage.scene.bodies[*b].is_particle() || told.before.center[*b] != turn.about;
+    let carried: Vec<usize> = turn.bodies().into_iter().filter(is_carried).collect();
+    let names: Vec<String> = carried.iter().map(|b| name(*b)).collect();
     let (before, after) = (&told.before.spin[turn.body], &told.after.spin[turn.body]);
     let sense = match super::motion::sense(stage, before, turn) {
         Ok((1, None)) => " counterclockwise",
@@ -342,7 +346,9 @@ fn turning(stage: &Stage, told: &StageTold, turn: &Turn) -> Sentence {
     let same = is_zero(&(before - after), domains) == Some(true);
     let from_rest = is_zero(before, domains) == Some(true);
     let gain = Expr::sum(told.work.iter().map(|(_, w)| w.clone()));
+    let hangs = carried.iter().all(|b| stage.scene.bodies[*b].is_particle());
     let [turns, and_grows, and_falls] = match names.len() {
+        1 if hangs && turn.gravity.is_some() => ["swings", ", and gains speed", ", and slows down"],
         1 => ["turns", ", and gains speed", ", and slows down"],
         _ => ["turn as one body", ", and gain speed", ", and slow down"],
     };

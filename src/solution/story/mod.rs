@@ -131,21 +131,22 @@ impl Page<'_> {
         if !self.told.readings.is_empty() {
             self.solution
                 .text(vec![say("The statement is read as follows:")]);
-            self.readings();
+            let readings = self.readings();
+            self.solution.push(Part::List(readings));
         }
         self.solution.say(&format!("{AXES} unless said otherwise."));
         opening::composites(&mut self.solution, self.scene);
     }
 
-    fn readings(&mut self) {
+    /// How the statement is read, a sentence each.
+    fn readings(&self) -> Vec<Vec<Inline>> {
         let each = self.told.readings.iter();
         let items = each.map(|r| {
-            let mut item = words::with_symbols(self.scene, r);
+            let mut item = words::with_symbols(self.scene, &words::capital(r));
             item.push(say("."));
             item
         });
-        let items = items.collect();
-        self.solution.push(Part::List(items));
+        items.collect()
     }
 
     fn stage(&mut self, i: usize) {
@@ -159,7 +160,14 @@ impl Page<'_> {
         self.solution
             .section(0, vec![say(format!("{number}{title}"))]);
         let brief = self.solution.detail == Detail::Brief;
-        if !brief {
+        let on_condition = |w: &&Sentence| w.to_string().starts_with("where ");
+        if brief {
+            // Of several cases each heading has the condition.
+            let mut all = told.words.iter().filter(|_| told.cases.len() == 1);
+            if let Some(words) = all.find(on_condition) {
+                self.solution.text(full_sentence(self.scene, words));
+            }
+        } else {
             self.from(i);
             match told.words.as_slice() {
                 [] => {}
@@ -383,7 +391,11 @@ impl Page<'_> {
 
     /// What is taken for granted, data that no answer needs, and how the results were checked.
     fn rests_on(&mut self) {
-        let mut items: Vec<Vec<Inline>> = Vec::new();
+        let brief = self.solution.detail == Detail::Brief;
+        let mut items: Vec<Vec<Inline>> = match brief {
+            true => self.readings(),
+            false => Vec::new(),
+        };
         for a in self.assumed() {
             items.push(full_sentence(self.scene, &a));
         }
@@ -435,11 +447,12 @@ impl Page<'_> {
     /// where the motion is told.
     fn assumed(&self) -> Vec<Sentence> {
         let all = self.told.assumed();
-        if self.solution.detail == Detail::Brief {
-            return all;
-        }
+        let brief = self.solution.detail == Detail::Brief;
         let motions = self.told.stages.iter().filter(|s| s.cases.is_empty());
-        let said: Vec<&Sentence> = motions.flat_map(|s| &s.assumptions).collect();
+        let said: Vec<&Sentence> = motions
+            .filter(|_| !brief)
+            .flat_map(|s| &s.assumptions)
+            .collect();
         // So are the conditions of the cases, each with what happens there.
         let listed = |s: &&StageTold| s.words.iter().any(|w| w.to_string().starts_with("where "));
         let cases = self
