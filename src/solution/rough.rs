@@ -57,8 +57,8 @@ impl Writer<'_> {
             }
             Mode::SticksInCompression => "it stops sliding during compression, and sticks",
             Mode::SticksInRestitution => "it stops sliding during restitution, and sticks",
-            Mode::ReversesInCompression => "it turns its slip round during compression",
-            Mode::ReversesInRestitution => "it turns its slip round during restitution",
+            Mode::ReversesInCompression => "its slip is reversed during compression",
+            Mode::ReversesInRestitution => "its slip is reversed during restitution",
         };
         let mut text = vec![say(format!("In the case worked out here {does}"))];
         let is_short = |(left, _, right): &&(Expr, _, Expr)| left.size() + right.size() <= LONG;
