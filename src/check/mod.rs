@@ -53,6 +53,16 @@ pub struct Failure {
     pub why: String,
 }
 
+impl Report {
+    fn fail(&mut self, step: &str, claim: &str, why: String) {
+        self.failed.push(Failure {
+            step: step.to_string(),
+            claim: claim.to_string(),
+            why,
+        });
+    }
+}
+
 /// Why a file cannot be checked at all.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unusable(pub String);
@@ -77,25 +87,22 @@ struct Claim {
 /// Replays every step of a solution file.
 pub fn check(text: &str) -> Result<Report, Unusable> {
     if text.len() > LONGEST {
-        return unusable(format!(
-            "{} bytes; a solution has at most {LONGEST}",
-            text.len()
-        ));
+        let bytes = text.len();
+        return unusable(format!("{bytes} bytes; a solution has at most {LONGEST}"));
     }
     let root: Value = serde_json::from_str(text).map_err(|e| Unusable(format!("not JSON: {e}")))?;
     if root["format"] != "carom solution" {
         return unusable("no solution: `format` is not \"carom solution\"");
     }
-    let scene_text = root["scene"]
-        .as_str()
-        .ok_or_else(|| Unusable(String::from("the text of its scene is missing")))?;
+    let Some(scene_text) = root["scene"].as_str() else {
+        return unusable("the text of its scene is missing");
+    };
     let mut scene =
         scene::read(scene_text).map_err(|faults| Unusable(faults.render("scene", scene_text)))?;
     for value in root["set"].as_array().into_iter().flatten() {
-        let (name, value) = value
-            .as_str()
-            .and_then(|v| v.split_once('='))
-            .ok_or_else(|| Unusable(String::from("`set` holds something other than NAME=VALUE")))?;
+        let Some((name, value)) = value.as_str().and_then(|v| v.split_once('=')) else {
+            return unusable("`set` holds something other than NAME=VALUE");
+        };
         scene::set(&mut scene, name.trim(), value.trim()).map_err(|f| Unusable(f.message))?;
     }
     scene::values_fit(&scene).map_err(|f| Unusable(f.message))?;
@@ -113,23 +120,18 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
     }
     let mut report = Report::default();
     let mut claims = Claims::default();
-    let steps = root["steps"]
-        .as_array()
-        .ok_or_else(|| Unusable(String::from("`steps` is missing")))?;
+    let Some(steps) = root["steps"].as_array() else {
+        return unusable("`steps` is missing");
+    };
     collect(steps, &symbols, None, &mut claims, &mut report, 0)?;
     let of = |name: Option<&String>| {
         let mine = claims.equal.iter().filter(|c| c.impact.as_ref() == name);
         mine.collect::<Vec<_>>()
     };
     for impact in &impacts {
-        let mine = of(Some(&impact.name));
-        replay::replay(
-            (&impact.name, &impact.scene),
-            &impact.meanings,
-            &mine,
-            (impact.mode.as_deref(), &impact.needs),
-            &mut report,
-        );
+        let (mine, own) = (of(Some(&impact.name)), (&*impact.name, &impact.scene));
+        let told = (impact.mode.as_deref(), &*impact.needs);
+        replay::replay(own, &impact.meanings, &mine, told, &mut report);
     }
     if scene.has_stages() {
         let needs = story::needs(&scene, &root["needs"])?;
@@ -175,11 +177,7 @@ fn meaning(scene: &Scene, value: &Value) -> Option<Meaning> {
         let name = v.as_str()?;
         scene.bodies.iter().position(|b| b.name == name)
     };
-    let axis = match value["axis"].as_str() {
-        Some("x") => Some(0),
-        Some("y") => Some(1),
-        _ => None,
-    };
+    let axis = ["x", "y"].iter().position(|a| value["axis"] == **a);
     if value["defined"] == true {
         return Some(Meaning::Defined);
     }
@@ -204,18 +202,12 @@ fn meaning(scene: &Scene, value: &Value) -> Option<Meaning> {
     }
     let place = value["impulse"].as_str()?;
     let on = body(&value["on"])?;
-    let contact = scene
-        .contacts
-        .iter()
-        .position(|c| c.name == place && c.bodies.contains(&on));
-    let hinge = scene
-        .hinges
-        .iter()
-        .position(|h| h.name == place && h.bodies.contains(&on));
-    let blow = scene
-        .blows
-        .iter()
-        .position(|b| b.name == place && b.body == on);
+    let here = |name: &str, bodies: &[usize]| name == place && bodies.contains(&on);
+    let (mut contacts, mut hinges) = (scene.contacts.iter(), scene.hinges.iter());
+    let mut blows = scene.blows.iter();
+    let contact = contacts.position(|c| here(&c.name, &c.bodies));
+    let hinge = hinges.position(|h| here(&h.name, &h.bodies));
+    let blow = blows.position(|b| here(&b.name, &[b.body]));
     let (from, direction) = match (contact, hinge, blow) {
         (Some(c), ..) => (ImpulseAt::Contact(c), scene.contacts[c].normal.clone()),
         (None, Some(h), _) => (ImpulseAt::Hinge(h), None),
@@ -250,30 +242,23 @@ fn collect(
         let Some(known) = symbols.get(&impact.map(String::from)) else {
             return unusable(format!("step {id} belongs to an impact that is not there"));
         };
+        let of = format!("step {id}");
         let defines = step["defines"].as_str().map(Symbol::from);
         for list in ["before", "after"] {
             for claim in step[list].as_array().into_iter().flatten() {
-                let side = |name: &str| read(&claim[name], &known.symbols, &id);
+                let side = |name: &str| read(&claim[name], &known.symbols, &of);
                 let (left, right) = (side("left")?, side("right")?);
                 let defines = match (&defines, list) {
                     (Some(name), "after") if left.as_symbol() == Some(name) => Some(name.clone()),
                     _ => None,
                 };
                 if let Some(why) = typeset::differs(claim, &left, &right, known) {
-                    report.failed.push(Failure {
-                        step: id.clone(),
-                        claim: claim["latex"].to_string(),
-                        why,
-                    });
+                    report.fail(&id, &claim["latex"].to_string(), why);
                 }
                 claims.equal.push(Claim {
                     step: id.clone(),
                     impact: impact.map(String::from),
-                    text: format!(
-                        "{} = {}",
-                        claim["left"].as_str().unwrap_or_default(),
-                        claim["right"].as_str().unwrap_or_default()
-                    ),
+                    text: written(claim, "="),
                     left,
                     right,
                     defines,
@@ -287,12 +272,8 @@ fn collect(
             if claims.near.len() >= MOST {
                 return unusable(format!("more than {MOST} claims"));
             }
-            let near = near::read(
-                claim,
-                defines.is_some().then_some(step),
-                &known.symbols,
-                &id,
-            )?;
+            let defining = defines.is_some().then_some(step);
+            let near = near::read(claim, defining, &known.symbols, &id)?;
             claims.near.push(near);
         }
         if let Some(inner) = step["substeps"].as_array() {
@@ -302,12 +283,15 @@ fn collect(
     Ok(())
 }
 
-fn read(text: &Value, symbols: &Symbols, id: &str) -> Result<Expr, Unusable> {
+/// A claim as the file has it, with a sign between its sides.
+fn written(claim: &Value, sign: &str) -> String {
+    let [left, right] = ["left", "right"].map(|side| claim[side].as_str().unwrap_or_default());
+    format!("{left} {sign} {right}")
+}
+
+/// A formula of a step or of an impact.
+fn read(text: &Value, symbols: &Symbols, of: &str) -> Result<Expr, Unusable> {
     let text = text.as_str().unwrap_or_default();
-    formula::read_expr(text, symbols).map_err(|fault| {
-        Unusable(format!(
-            "step {id}: `{text}` cannot be read: {}",
-            fault.message
-        ))
-    })
+    let read = formula::read_expr(text, symbols);
+    read.map_err(|fault| Unusable(format!("{of}: `{text}` cannot be read: {}", fault.message)))
 }

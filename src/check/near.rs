@@ -4,7 +4,7 @@
 
 use serde_json::Value;
 
-use super::{Failure, POINTS, Report, Unusable, read as formula, unusable};
+use super::{POINTS, Report, Unusable, read as formula, unusable, written};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Symbols;
 use crate::numeric;
@@ -34,19 +34,16 @@ pub(super) fn read(
     symbols: &Symbols,
     id: &str,
 ) -> Result<Near, Unusable> {
-    let side = |name: &str| formula(&claim[name], symbols, id);
+    let of = format!("step {id}");
+    let side = |name: &str| formula(&claim[name], symbols, &of);
     let order = claim["order"].as_u64().and_then(|n| u32::try_from(n).ok());
     let Some(order) = order.filter(|n| *n <= HIGHEST) else {
         return unusable(format!("step {id}: the order is no number up to {HIGHEST}"));
     };
-    let defined = defining.map(|step| formula(&step["after"][0]["right"], symbols, id));
+    let defined = defining.map(|step| formula(&step["after"][0]["right"], symbols, &of));
     Ok(Near {
         step: id.to_string(),
-        text: format!(
-            "{} ≈ {}",
-            claim["left"].as_str().unwrap_or_default(),
-            claim["right"].as_str().unwrap_or_default()
-        ),
+        text: written(claim, "≈"),
         left: side("left")?,
         right: side("right")?,
         parameter: Symbol::from(claim["parameter"].as_str().unwrap_or_default()),
@@ -66,15 +63,9 @@ pub(super) fn replay(scene: &Scene, near: &Near, report: &mut Report) {
     for e in [&near.left, &near.right].into_iter().chain(&near.to) {
         needed.add(e);
     }
-    let failed = |why: String| Failure {
-        step: near.step.clone(),
-        claim: near.text.clone(),
-        why,
-    };
     if near.defined.as_ref().is_some_and(|d| *d != near.right) {
         let why = "the step defines something else than what stands close by";
-        report.failed.push(failed(why.to_string()));
-        return;
+        return report.fail(&near.step, &near.text, why.to_string());
     }
     let mut tried = 0;
     for seed in 1..=POINTS {
@@ -105,11 +96,11 @@ pub(super) fn replay(scene: &Scene, near: &Near, report: &mut Report) {
         tried += 1;
         let least = 4.0 * 8f64.powi(near.order as i32);
         if close > 1e-13 * scale && close * least > far {
-            report.failed.push(failed(format!(
+            let why = format!(
                 "{closer} times closer the sides differ by {close:e} in place of {far:e}: too much for order {}",
                 near.order
-            )));
-            return;
+            );
+            return report.fail(&near.step, &near.text, why);
         }
     }
     if tried == 0 {

@@ -2,9 +2,9 @@
 //!
 //! In: a scene, what the symbols of its solution stand for, the claims. Out: which of them hold there, exactly or else in doubles.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
-use super::{Claim, Failure, Meaning, POINTS, Report};
+use super::{Claim, Meaning, POINTS, Report};
 use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::numeric::friction::happened;
 use crate::numeric::points::with_angles;
@@ -51,11 +51,9 @@ pub(super) fn replay(
             let all = own.into_iter().chain(seeds).filter(told).filter(fits);
             let all: Vec<_> = all.take(POINTS as usize).collect();
             if let (true, false, Some(found)) = (all.is_empty(), needs.is_empty(), instead) {
-                report.failed.push(Failure {
-                    step: name.to_owned(),
-                    claim: format!("the contact {}", mode.unwrap_or_default()),
-                    why: format!("wherever that was tried under its conditions, it {found}"),
-                });
+                let claim = format!("the contact {}", mode.unwrap_or_default());
+                let why = format!("wherever that was tried under its conditions, it {found}");
+                report.fail(name, &claim, why);
             }
             all
         }
@@ -112,12 +110,10 @@ pub(super) fn compare(
     claims: &[&Claim],
     report: &mut Report,
 ) {
-    let mut held: BTreeSet<usize> = BTreeSet::new();
-    let mut rounded: BTreeSet<usize> = BTreeSet::new();
-    let mut failed: BTreeMap<usize, String> = BTreeMap::new();
+    let mut told: Vec<Told> = claims.iter().map(|_| Told::default()).collect();
     for (mut point, doubles) in points {
         let mut doubles = with_angles(&doubles);
-        for (i, claim) in claims.iter().enumerate() {
+        for (claim, told) in claims.iter().zip(&mut told) {
             if let Some(name) = &claim.defines
                 && matches!(meanings.get(name), Some(Meaning::Defined))
                 && !doubles.values.contains_key(name)
@@ -129,85 +125,68 @@ pub(super) fn compare(
                     doubles.values.insert(name.clone(), value);
                 }
             }
-            match exact(claim, &point) {
-                Some(Ok(())) => {
-                    held.insert(i);
+            match compared(claim, &point, &doubles) {
+                Some(Ok(in_doubles)) => {
+                    told.held = true;
+                    told.in_doubles |= in_doubles;
                 }
-                Some(Err(why)) => {
-                    failed.entry(i).or_insert(why);
-                }
-                None => match close(claim, &doubles) {
-                    Some(Ok(())) => {
-                        held.insert(i);
-                        rounded.insert(i);
-                    }
-                    Some(Err(why)) => {
-                        failed.entry(i).or_insert(why);
-                    }
-                    None => {}
-                },
+                Some(Err(why)) => told.failed = told.failed.take().or(Some(why)),
+                None => {}
             }
         }
     }
-    for (i, claim) in claims.iter().enumerate() {
-        if let Some(why) = failed.get(&i) {
-            report.failed.push(Failure {
-                step: claim.step.clone(),
-                claim: claim.text.clone(),
-                why: why.clone(),
-            });
-        } else if held.contains(&i) {
-            report.held += 1;
-            report.in_doubles += usize::from(rounded.contains(&i));
-        } else {
-            report.open.push(claim.step.clone());
+    for (claim, told) in claims.iter().zip(told) {
+        match told.failed {
+            Some(why) => report.fail(&claim.step, &claim.text, why),
+            None if told.held => {
+                report.held += 1;
+                report.in_doubles += usize::from(told.in_doubles);
+            }
+            None => report.open.push(claim.step.clone()),
         }
     }
 }
 
-fn exact(claim: &Claim, point: &Point<Rational>) -> Option<Result<(), String>> {
-    let left = claim.left.evaluate(point)?;
-    let right = claim.right.evaluate(point)?;
-    Some(if left == right {
-        Ok(())
-    } else {
-        Err(format!(
-            "at an exact point the left side is {left}, the right side {right}"
-        ))
-    })
+/// What became of a claim at all points.
+#[derive(Default)]
+struct Told {
+    held: bool,
+    in_doubles: bool,
+    failed: Option<String>,
 }
 
-fn close(claim: &Claim, point: &Point<f64>) -> Option<Result<(), String>> {
-    let left = claim.left.evaluate(point)?;
-    let right = claim.right.evaluate(point)?;
+/// Both sides of a claim at a point.
+fn sides<T: Number>(claim: &Claim, point: &Point<T>) -> Option<[T; 2]> {
+    Some([claim.left.evaluate(point)?, claim.right.evaluate(point)?])
+}
+
+/// Whether a claim holds at a point and, where it does, whether doubles had to do; `None` where it has no value.
+fn compared(
+    claim: &Claim,
+    exact: &Point<Rational>,
+    doubles: &Point<f64>,
+) -> Option<Result<bool, String>> {
+    if let Some([left, right]) = sides(claim, exact) {
+        let why = format!("at an exact point the left side is {left}, the right side {right}");
+        return Some(if left == right { Ok(false) } else { Err(why) });
+    }
+    let [left, right] = sides(claim, doubles)?;
     let scale = left.abs().max(right.abs()).max(1.0);
     let apart = (left - right).abs();
-    Some(
-        if apart <= ROUNDING * scale || apart <= shaken(claim, point) {
-            Ok(())
-        } else {
-            Err(format!(
-                "in doubles the left side is {left}, the right side {right}"
-            ))
-        },
-    )
+    let is_close = apart <= ROUNDING * scale || apart <= shaken(claim, doubles);
+    let why = format!("in doubles the left side is {left}, the right side {right}");
+    Some(if is_close { Ok(true) } else { Err(why) })
 }
 
 /// By how much the sides of a claim come apart when a value changes by its rounding: large where a root is taken of what
 /// cancels.
 fn shaken(claim: &Claim, point: &Point<f64>) -> f64 {
     let apart = |point: &Point<f64>| {
-        let sides = [&claim.left, &claim.right].map(|e| e.evaluate(point));
-        let [Some(left), Some(right)] = sides else {
-            return None;
-        };
+        let [left, right] = sides(claim, point)?;
         Some((left - right).abs())
     };
-    let symbols = claim
-        .left
-        .symbols()
-        .into_iter()
-        .chain(claim.right.symbols());
+    let symbols = [&claim.left, &claim.right].map(Expr::symbols);
+    let symbols = symbols.into_iter().flatten();
     let both =
         symbols.flat_map(|name| [-4.0, 4.0].map(|ulps| (name.clone(), 1.0 + ulps * f64::EPSILON)));
     let all = both.filter_map(|(name, factor)| {
@@ -245,28 +224,21 @@ fn symbols_at<T: Number + PartialOrd>(
             continue;
         };
         // One component may be determined where the other is not.
-        let component = match (ask, axis) {
-            (
-                Ask::Impulse {
-                    from,
-                    on,
-                    along: None,
-                },
-                Some(axis),
-            ) => Some(Ask::Impulse {
-                from: *from,
-                on: *on,
-                along: Some([0, 1].map(|k| Expr::from(i64::from(k == *axis)))),
-            }),
-            _ => None,
-        };
-        let ask = component.as_ref().unwrap_or(ask);
-        let value = match (numeric::answer(ask, point, &given, &motion), axis) {
-            (Ok(Answer::Scalar(value)), _) => value,
-            (Ok(Answer::Vector([x, _])), Some(0)) => x,
-            (Ok(Answer::Vector([_, y])), Some(1)) => y,
-            _ => continue,
-        };
-        point.values.insert(name.clone(), value);
+        let mut ask = ask.clone();
+        if let (Ask::Impulse { along, .. }, Some(axis)) = (&mut ask, axis) {
+            along.get_or_insert_with(|| [0, 1].map(|k| Expr::from(i64::from(k == *axis))));
+        }
+        let answer = numeric::answer(&ask, point, &given, &motion).ok();
+        if let Some(value) = answer.and_then(|answer| component(answer, *axis)) {
+            point.values.insert(name.clone(), value);
+        }
+    }
+}
+
+/// A number, or the component of a vector along an axis.
+pub(super) fn component<T>(answer: Answer<T>, axis: Option<usize>) -> Option<T> {
+    match answer {
+        Answer::Scalar(value) => Some(value),
+        Answer::Vector(v) => v.into_iter().nth(axis?),
     }
 }

@@ -9,14 +9,14 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::replay::holds;
-use super::{Claim, Failure, Meaning, POINTS, Report, Unusable, meanings, unusable};
+use super::replay::{component, holds};
+use super::{Claim, Meaning, POINTS, Report, Unusable, meanings};
 use crate::dimension::Dimension;
 use crate::domain::Domain;
 use crate::expr::{Expr, Point, Symbol};
-use crate::formula::{self, Symbols};
+use crate::formula::Symbols;
+use crate::numeric;
 use crate::numeric::follow::{self, BodyState, Component, Followed, Passed, What};
-use crate::numeric::{self, Answer};
 use crate::scene::{Contact, ContactLaw, Mode, OneSided, Parameter, Scene, StageKind};
 
 /// Points looked at before a motion that does not get to its end is given up.
@@ -67,15 +67,9 @@ fn impact(scene: &Scene, value: &Value) -> Result<Impact, Unusable> {
     let StageKind::Impact { one_sided, .. } = &stage.kind else {
         return Err(wrong("that stage is a motion"));
     };
-    let read = |text: &Value, symbols: &Symbols| {
-        let text = text.as_str().unwrap_or_default();
-        formula::read_expr(text, symbols)
-            .map_err(|fault| wrong(&format!("`{text}` cannot be read: {}", fault.message)))
-    };
-    let mut symbols = Symbols::strict();
-    for parameter in &scene.parameters {
-        symbols.declare(&parameter.name);
-    }
+    let of = format!("impact `{name}`");
+    let read = |text: &Value, symbols: &Symbols| super::read(text, symbols, &of);
+    let mut symbols = parameters(scene);
     let open: Vec<Symbol> = (value["open"].as_array().into_iter().flatten())
         .filter_map(|v| v.as_str().map(Symbol::from))
         .collect();
@@ -83,7 +77,7 @@ fn impact(scene: &Scene, value: &Value) -> Result<Impact, Unusable> {
     let mut handed = BTreeMap::new();
     for (symbol, v) in value["handed"].as_object().into_iter().flatten() {
         if scene.parameters.iter().any(|p| *p.name == **symbol) {
-            return unusable(format!("impact `{name}`: {symbol} is a parameter"));
+            return Err(wrong(&format!("{symbol} is a parameter")));
         }
         handed.insert(Symbol::from(symbol.as_str()), read(v, &symbols)?);
     }
@@ -118,10 +112,8 @@ fn impact(scene: &Scene, value: &Value) -> Result<Impact, Unusable> {
     }
     for body in out.bodies.iter_mut().filter(|b| !b.is_fixed()) {
         let before = &value["before"][body.name.as_str()];
-        body.velocity = [
-            read(&before["velocity"][0], &symbols)?,
-            read(&before["velocity"][1], &symbols)?,
-        ];
+        let [x, y] = [0, 1].map(|k| read(&before["velocity"][k], &symbols));
+        body.velocity = [x?, y?];
         body.spin = read(&before["spin"], &symbols)?;
     }
     let active = names(&value["active"]);
@@ -152,9 +144,8 @@ fn side(scene: &Scene, value: &Expr) -> Domain {
     let mut needed = numeric::Needed::default();
     needed.add(value);
     let at = |seed| numeric::rounded(&numeric::random_point(&needed, &scene.domains, seed));
-    let seen: Vec<f64> = (1..=ORDINARY)
-        .filter_map(|seed| value.evaluate(&at(seed)))
-        .collect();
+    let seen = (1..=ORDINARY).filter_map(|seed| value.evaluate(&at(seed)));
+    let seen: Vec<f64> = seen.collect();
     if seen.iter().all(|v| *v > 0.0) {
         Domain::positive()
     } else if seen.iter().all(|v| *v < 0.0) {
@@ -166,18 +157,16 @@ fn side(scene: &Scene, value: &Expr) -> Domain {
 
 /// Reads what a solution supposes to be ≥ 0. Steps are held against points where it is.
 pub(super) fn needs(scene: &Scene, list: &Value) -> Result<Vec<Expr>, Unusable> {
-    let mut symbols = Symbols::strict();
-    for parameter in &scene.parameters {
-        symbols.declare(&parameter.name);
-    }
+    let symbols = parameters(scene);
     let all = list.as_array().into_iter().flatten();
-    let texts = all.map(|v| v.as_str().unwrap_or_default());
-    texts
-        .map(|text| {
-            formula::read_expr(text, &symbols)
-                .map_err(|fault| Unusable(format!("`needs`: `{text}`: {}", fault.message)))
-        })
-        .collect()
+    all.map(|v| super::read(v, &symbols, "`needs`")).collect()
+}
+
+fn parameters(scene: &Scene) -> Symbols {
+    let mut symbols = Symbols::strict();
+    let names = scene.parameters.iter().map(|p| &p.name);
+    names.for_each(|name| symbols.declare(name));
+    symbols
 }
 
 fn names(list: &Value) -> Vec<String> {
@@ -220,14 +209,10 @@ pub(super) fn replay(
     report: &mut Report,
 ) {
     let mut needed = numeric::needed(scene);
-    for symbol in follow::symbols(scene) {
+    let parameters = scene.parameters.iter().map(|p| p.name.clone());
+    for symbol in follow::symbols(scene).into_iter().chain(parameters) {
         if !needed.angles.contains_key(&symbol) {
             needed.add(&Expr::symbol(&symbol));
-        }
-    }
-    for parameter in &scene.parameters {
-        if !needed.angles.contains_key(&parameter.name) {
-            needed.add(&Expr::symbol(&parameter.name));
         }
     }
     let needed = super::replay::needed(needed, meanings, claims);
@@ -247,14 +232,14 @@ pub(super) fn replay(
         let Ok(followed) = follow::follow(scene, &doubles) else {
             continue;
         };
-        let stages: Vec<Option<&Passed>> =
-            followed.stages.iter().map(|s| s.as_ref().ok()).collect();
-        if stages.iter().any(Option::is_none) {
+        let stages = followed.stages.iter().map(|s| s.as_ref().ok());
+        let Some(stages) = stages.collect::<Option<Vec<&Passed>>>() else {
             continue;
-        }
+        };
         for (i, (impact, apart)) in impacts.iter().zip(&mut apart).enumerate() {
-            let found = stages[impact.stage]
-                .filter(|passed| goes_so(impact, passed) && holds(&impact.needs, &doubles));
+            let passed = stages[impact.stage];
+            let goes_so = goes_so(impact, passed) && holds(&impact.needs, &doubles);
+            let found = goes_so.then_some(passed);
             compared[i] |= found.is_some();
             if let (None, Some(found)) = (&apart, found) {
                 let here = |name: &Symbol| follow::named(scene, &followed, name, &doubles);
@@ -272,7 +257,7 @@ pub(super) fn replay(
         let mut each = stages.iter().enumerate();
         if points.len() as u64 >= POINTS
             || !holds(needs, &doubles)
-            || !each.all(|(i, passed)| passed.is_some_and(|passed| is_first(passed, i)))
+            || !each.all(|(i, passed)| is_first(passed, i))
         {
             continue;
         }
@@ -280,31 +265,25 @@ pub(super) fn replay(
             let Meaning::Staged(question, axis) = meaning else {
                 continue;
             };
-            let value = match (follow::answer(scene, &followed, question, &doubles), axis) {
-                (Ok(Answer::Scalar(value)), _) => Some(value),
-                (Ok(Answer::Vector(v)), Some(axis)) => Some(v[*axis]),
-                _ => None,
-            };
-            if let Some(value) = value {
+            let answer = follow::answer(scene, &followed, question, &doubles).ok();
+            if let Some(value) = answer.and_then(|a| component(a, *axis)) {
                 doubles.values.insert(name.clone(), value);
             }
         }
         points.push((point, doubles));
     }
     if points.is_empty() && !impacts.is_empty() {
-        report
-            .open
-            .push(String::from("the motion from stage to stage"));
+        let what = String::from("the motion from stage to stage");
+        report.open.push(what);
     }
     for ((impact, apart), compared) in impacts.iter().zip(apart).zip(compared) {
         match apart {
             // No point was found at which the scene goes this way.
             None if !compared => report.open.push(impact.name.clone()),
-            Some(why) => report.failed.push(Failure {
-                step: impact.name.clone(),
-                claim: String::from("where the bodies are and how they move into the impact"),
-                why,
-            }),
+            Some(why) => {
+                let claim = "where the bodies are and how they move into the impact";
+                report.fail(&impact.name, claim, why);
+            }
             None => report.held += 1,
         }
     }
@@ -399,9 +378,8 @@ fn differs(impact: &Impact, at: &Point<f64>, found: &[BodyState], sizes: &Sizes)
             };
             if (value - found).abs() > CLOSE * scale {
                 let name = &body.name;
-                return Some(format!(
-                    "`{name}` {words} {value} in the solution, {found} when followed"
-                ));
+                let found = format!("{value} in the solution, {found} when followed");
+                return Some(format!("`{name}` {words} {found}"));
             }
         }
     }

@@ -16,7 +16,7 @@ use crate::figure::escape;
 use crate::formula::{latex_name, write_plain};
 use crate::grade::believed::Believed;
 use crate::grade::sheet::{Entry, Sheet};
-use variant::Variant;
+use variant::{Exact, Variant};
 
 pub use moodle::moodle;
 pub use numbas::numbas;
@@ -80,7 +80,7 @@ pub fn exercise(sheet: &Sheet, solution: String) -> Result<Exercise, String> {
     let symbols = scene.parameters.iter().map(|p| Given {
         name: p.name.clone(),
         latex: p.latex.clone().unwrap_or_else(|| latex_name(&p.name)),
-        unit: p.unit.clone(),
+        unit: no_one(p.unit.clone()),
         meaning: p.meaning.clone(),
         is_positive: match scene.domains.symbols.get(&p.name) {
             Some(domain) => domain.low.as_ref().is_some_and(|l| l.approximate() >= 0.0),
@@ -97,9 +97,10 @@ pub fn exercise(sheet: &Sheet, solution: String) -> Result<Exercise, String> {
     };
     for answer in &sheet.derivation.answers {
         let item = match &answer.form {
-            Form::Value { .. } => sheet
-                .entry(&answer.name)
-                .and_then(|entry| item(sheet, &entry)),
+            Form::Value { .. } => {
+                let entry = sheet.entry(&answer.name);
+                entry.and_then(|entry| item(sheet, &entry))
+            }
             Form::Open(_) => Err(String::from("the laws do not determine it")),
             Form::Equation { .. } => Err(String::from("an equation has no one formula to type")),
             Form::Matrix(_) => Err(String::from("a matrix is no answer to type")),
@@ -108,7 +109,7 @@ pub fn exercise(sheet: &Sheet, solution: String) -> Result<Exercise, String> {
         match item {
             Ok(item) => exercise.items.push(Item {
                 latex: answer.latex.clone(),
-                unit: answer.dimension.si(),
+                unit: no_one(answer.dimension.si()),
                 ..item
             }),
             Err(why) => exercise.left_out.push(format!("{}: {why}", answer.name)),
@@ -135,11 +136,8 @@ fn item(sheet: &Sheet, entry: &Entry) -> Result<Item, String> {
     if answer.is_constant() {
         return Err(format!("it is {} whatever the values", write_plain(answer)));
     }
-    let wrong: Vec<Wrong> = sheet
-        .believed(entry)
-        .into_iter()
-        .filter_map(wrong)
-        .collect();
+    let believed = sheet.believed(entry).into_iter();
+    let wrong: Vec<Wrong> = believed.filter_map(wrong).collect();
     Ok(Item {
         name: entry.name.clone(),
         words: entry.words.clone(),
@@ -185,18 +183,34 @@ fn words(text: &str) -> String {
     quiet(&escape(text))
 }
 
+/// A unit as it is told: nothing for a pure number.
+fn no_one(unit: String) -> String {
+    if unit == "1" { String::new() } else { unit }
+}
+
 impl Exercise {
+    /// Symbols with a value each, the way `written` writes them.
+    fn valued(&self, variant: &Variant, written: impl Fn(&Symbol, &Exact) -> String) -> String {
+        let latex = |name: &Symbol| {
+            let given = self.symbols.iter().find(|g| g.name == *name);
+            given.map_or(name.to_string(), |g| g.latex.clone())
+        };
+        let values = variant.values.iter();
+        let values =
+            values.map(|(s, v)| format!("\\({} = {}\\)", escape(&latex(s)), written(s, v)));
+        values.collect::<Vec<_>>().join(", ")
+    }
+
     /// What is told and what the symbols mean, as HTML: `words` brings words of the scene into it, `written` spells the
     /// symbols as they are typed.
     fn told(&self, words: fn(&str) -> String, written: &dyn Fn(&Symbol) -> String) -> String {
         let rows = self.symbols.iter().map(|g| {
-            let unit = if g.unit == "1" { "" } else { &g.unit };
             format!(
                 "<tr><td>\\({}\\)</td><td><code>{}</code></td><td>{}</td><td>{}</td></tr>",
                 escape(&g.latex),
                 words(&written(&g.name)),
                 words(&g.meaning),
-                words(unit)
+                words(&g.unit)
             )
         });
         format!(

@@ -34,23 +34,14 @@ fn text(content: &str) -> String {
 
 fn question(out: &mut String, exercise: &Exercise, item: &Item, variant: &Variant, number: u32) {
     let name = format!("{} · {} · {number}", exercise.title, item.name);
-    let latex = |name: &str| {
-        let given = exercise.symbols.iter().find(|g| *g.name == *name);
-        given.map_or(name.to_string(), |g| g.latex.clone())
-    };
-    let values = variant.values.iter();
-    let values =
-        values.map(|(s, v)| format!("\\({} = {}\\)", escape(&latex(s)), escape(&v.latex())));
-    let values: Vec<String> = values.collect();
-    let unit = if item.unit == "1" {
-        String::new()
-    } else {
-        format!(", in {}", item.unit)
+    let unit = match item.unit.as_str() {
+        "" => String::new(),
+        unit => format!(", in {unit}"),
     };
     let asked = format!(
         "{}<p>In SI units {}. What is \\({}\\), {}{}?</p>",
         exercise.told(words, &|s| s.to_string()),
-        values.join(", "),
+        exercise.valued(variant, |_, v| escape(&v.latex())),
         escape(&item.latex),
         words(&item.words),
         words(&unit)
@@ -66,13 +57,10 @@ fn question(out: &mut String, exercise: &Exercise, item: &Item, variant: &Varian
     );
     answer(out, variant.right, 100, None);
     for (wrong, value) in item.wrong.iter().zip(&variant.wrong) {
-        if let Some(value) = value {
-            answer(out, *value, 0, Some(wrong));
-        }
+        value.inspect(|value| answer(out, *value, 0, Some(wrong)));
     }
-    out.push_str(
-        "<unitgradingtype>0</unitgradingtype>\n<unitpenalty>0.1</unitpenalty>\n<showunits>3</showunits>\n<unitsleft>0</unitsleft>\n</question>\n",
-    );
+    let end = "<unitgradingtype>0</unitgradingtype>\n<unitpenalty>0.1</unitpenalty>\n<showunits>3</showunits>\n<unitsleft>0</unitsleft>\n</question>\n";
+    out.push_str(end);
 }
 
 fn answer(out: &mut String, value: f64, fraction: u32, wrong: Option<&Wrong>) {

@@ -4,7 +4,9 @@
 use serde_json::{Map, Value, json};
 
 use super::names::Names;
+use super::variant::Exact;
 use super::{Exercise, Item, quiet};
+use crate::expr::Symbol;
 use crate::figure::escape;
 use crate::render::pretty;
 
@@ -22,11 +24,8 @@ const TOLERANCE: f64 = 0.01;
 
 /// The exam, as the editor of Numbas takes it in.
 pub fn numbas(exercise: &Exercise) -> String {
-    let questions: Vec<Value> = exercise
-        .items
-        .iter()
-        .map(|i| question(exercise, i))
-        .collect();
+    let questions = exercise.items.iter().map(|i| question(exercise, i));
+    let questions: Vec<Value> = questions.collect();
     let exam = json!({
         "name": exercise.title,
         "metadata": {"description": exercise.statement, "licence": "None specified"},
@@ -42,18 +41,15 @@ pub fn numbas(exercise: &Exercise) -> String {
             "questions": questions,
         }],
     });
-    format!(
-        "// Numbas version: exam_results_page_options\n{}\n",
-        pretty(&exam)
-    )
+    let exam = pretty(&exam);
+    format!("// Numbas version: exam_results_page_options\n{exam}\n")
 }
 
 /// HTML in which nothing is a variable or a formula of Numbas. Braces are escaped there by a backslash; dollars and
 /// backslashes have no escape and stand as their wide forms.
 fn plain(html: &str) -> String {
-    let wide = quiet(html)
-        .replace('\\', "\u{ff3c}")
-        .replace('$', "\u{ff04}");
+    let wide = quiet(html).replace('\\', "\u{ff3c}");
+    let wide = wide.replace('$', "\u{ff04}");
     wide.replace('{', "\\{").replace('}', "\\}")
 }
 
@@ -61,7 +57,6 @@ fn question(exercise: &Exercise, item: &Item) -> Value {
     let all = exercise.symbols.iter().map(|g| &g.name);
     // Names differ there in more than capitals.
     let names = Names::new(all, TAKEN, str::to_lowercase, WORDS);
-    let unit = if item.unit == "1" { "" } else { &item.unit };
     let mut parts = vec![formula(item, &names)];
     let mut variables = Map::new();
     // The symbols themselves stay free in formulas.
@@ -77,24 +72,19 @@ fn question(exercise: &Exercise, item: &Item) -> Value {
         };
         define("pick", format!("random(0..{last})"));
         for (i, (symbol, _)) in item.variants[0].values.iter().enumerate() {
-            let values = item
-                .variants
-                .iter()
-                .map(|v| v.values[i].1.written("arccos"));
-            let values: Vec<String> = values.collect();
-            define(
-                &names.name(symbol),
-                format!("[{}][pick]", values.join(", ")),
-            );
+            let values = item.variants.iter();
+            let values = values.map(|v| v.values[i].1.written("arccos"));
+            let values = values.collect::<Vec<_>>().join(", ");
+            define(&names.name(symbol), format!("[{values}][pick]"));
         }
         define("number", held.written(&item.answer));
-        parts.push(number(exercise, item, unit, &held));
+        parts.push(number(exercise, item, &held));
     }
     json!({
         "name": format!("{}: {}", exercise.title, item.words),
         "tags": [],
         "metadata": {"description": item.words, "licence": "None specified"},
-        "statement": statement(exercise, &names),
+        "statement": exercise.told(|text| plain(&escape(text)), &|s| names.name(s)),
         "advice": plain(&exercise.solution),
         "rulesets": {},
         "builtin_constants": {"e": false, "pi,\u{3c0}": true, "i": false},
@@ -108,10 +98,6 @@ fn question(exercise: &Exercise, item: &Item) -> Value {
         "parts": parts,
         "partsMode": "all",
     })
-}
-
-fn statement(exercise: &Exercise, names: &Names) -> String {
-    exercise.told(|text| plain(&escape(text)), &|s| names.name(s))
 }
 
 /// What parts have in common.
@@ -157,26 +143,22 @@ fn formula(item: &Item, names: &Names) -> Value {
 }
 
 /// The number at the values that were picked.
-fn number(exercise: &Exercise, item: &Item, unit: &str, names: &Names) -> Value {
-    let latex = |name: &str| {
-        let given = exercise.symbols.iter().find(|g| *g.name == *name);
-        given.map_or(name.to_string(), |g| g.latex.clone())
+fn number(exercise: &Exercise, item: &Item, names: &Names) -> Value {
+    let picked = |s: &Symbol, _: &Exact| format!("\\var{{{}}}", names.name(s));
+    let values = exercise.valued(&item.variants[0], picked);
+    let unit = if item.unit.is_empty() {
+        "one"
+    } else {
+        &item.unit
     };
-    let values = item.variants[0].values.iter();
-    let values =
-        values.map(|(s, _)| format!("\\({} = \\var{{{}}}\\)", escape(&latex(s)), names.name(s)));
-    let values: Vec<String> = values.collect();
-    part(
-        "numberentry",
-        1,
-        json!({
-            "prompt": format!("<p>In SI units {}. Its value, in {}:</p>", values.join(", "), if unit.is_empty() { "one" } else { unit }),
-            "minValue": format!("number - {TOLERANCE}*abs(number)"),
-            "maxValue": format!("number + {TOLERANCE}*abs(number)"),
-            "correctAnswerFraction": false,
-            "allowFractions": true,
-            "notationStyles": ["plain", "en", "si-en"],
-            "correctAnswerStyle": "plain",
-        }),
-    )
+    let own = json!({
+        "prompt": format!("<p>In SI units {values}. Its value, in {unit}:</p>"),
+        "minValue": format!("number - {TOLERANCE}*abs(number)"),
+        "maxValue": format!("number + {TOLERANCE}*abs(number)"),
+        "correctAnswerFraction": false,
+        "allowFractions": true,
+        "notationStyles": ["plain", "en", "si-en"],
+        "correctAnswerStyle": "plain",
+    });
+    part("numberentry", 1, own)
 }

@@ -22,6 +22,10 @@ const WORDS: &[(&str, &str)] = &[("ln", "log"), ("pi", "%pi")];
 /// How far a number may be off.
 const TOLERANCE: &str = "0.01";
 
+/// How a question is typeset.
+const SETTINGS: &str = "decimals=. scientificnotation=*10 multiplicationsign=dot sqrtsign=1 complexno=i inversetrig=arccos \
+     logicsymbol=lang matrixparens=[ variantsselectionseed=";
+
 /// The quiz.
 pub fn stack(exercise: &Exercise) -> String {
     let all = exercise.symbols.iter().map(|g| &g.name);
@@ -37,10 +41,9 @@ pub fn stack(exercise: &Exercise) -> String {
 /// A field with a text inside.
 fn text(out: &mut String, field: &str, content: &str) {
     let content = xml(content);
-    let _ = writeln!(
-        out,
-        "<{field} format=\"html\"><text>{content}</text></{field}>"
-    );
+    out.push_str(&format!(
+        "<{field} format=\"html\"><text>{content}</text></{field}>\n"
+    ));
 }
 
 /// An element whose text is no HTML.
@@ -58,13 +61,10 @@ fn fields(out: &mut String, all: &str) {
 fn question(out: &mut String, exercise: &Exercise, item: &Item, names: &Names) {
     let with_numbers = !item.variants.is_empty();
     let spelled = |s: &Symbol| names.name(s);
-    let name = format!("{} · {}", exercise.title, item.name);
-    let _ = writeln!(
-        out,
-        "<question type=\"stack\">\n<name><text>{}</text></name>",
-        xml(&name)
-    );
-    let unit = if item.unit == "1" { "" } else { &item.unit };
+    let name = xml(&format!("{} · {}", exercise.title, item.name));
+    out.push_str(&format!(
+        "<question type=\"stack\">\n<name><text>{name}</text></name>\n"
+    ));
     let mut asked = exercise.told(words, &spelled);
     let _ = write!(
         asked,
@@ -76,7 +76,7 @@ fn question(out: &mut String, exercise: &Exercise, item: &Item, names: &Names) {
         let _ = write!(
             asked,
             "<p>And where {{@vals@}}, all in SI units: [[input:ans2]] {} [[validation:ans2]]</p>",
-            escape(unit)
+            escape(&item.unit)
         );
     }
     text(out, "questiontext", &asked);
@@ -87,45 +87,29 @@ fn question(out: &mut String, exercise: &Exercise, item: &Item, names: &Names) {
         "<stackversion><text></text></stackversion>\n<questionvariables><text>{}</text></questionvariables>",
         xml(&variables(item, names))
     );
-    let second = if with_numbers {
-        "<p>[[feedback:prt2]]</p>"
-    } else {
-        ""
+    let (feedback, note) = match with_numbers {
+        true => (
+            "<p>[[feedback:prt1]]</p><p>[[feedback:prt2]]</p>",
+            "{@vals@}",
+        ),
+        false => ("<p>[[feedback:prt1]]</p>", ""),
     };
-    text(
-        out,
-        "specificfeedback",
-        &format!("<p>[[feedback:prt1]]</p>{second}"),
-    );
-    text(
-        out,
-        "questionnote",
-        if with_numbers { "{@vals@}" } else { "" },
-    );
+    text(out, "specificfeedback", feedback);
+    text(out, "questionnote", note);
     text(out, "questiondescription", "");
-    let positive = exercise.symbols.iter().all(|g| g.is_positive);
-    fields(
-        out,
-        match positive {
-            true => "questionsimplify=1 assumepositive=1 assumereal=0",
-            false => "questionsimplify=1 assumepositive=0 assumereal=1",
-        },
-    );
+    let assumed = match exercise.symbols.iter().all(|g| g.is_positive) {
+        true => "questionsimplify=1 assumepositive=1 assumereal=0",
+        false => "questionsimplify=1 assumepositive=0 assumereal=1",
+    };
+    fields(out, assumed);
     text(out, "prtcorrect", "<p>Right.</p>");
     text(out, "prtpartiallycorrect", "<p>Right in part.</p>");
     text(out, "prtincorrect", "<p>Not right.</p>");
-    fields(
-        out,
-        "decimals=. scientificnotation=*10 multiplicationsign=dot sqrtsign=1 complexno=i inversetrig=arccos \
-         logicsymbol=lang matrixparens=[ variantsselectionseed=",
-    );
+    fields(out, SETTINGS);
     input(out, "name=ans1 type=algebraic tans=ta1 boxsize=30", "1");
     if with_numbers {
-        input(
-            out,
-            "name=ans2 type=numerical tans=float(tn) boxsize=12",
-            "0",
-        );
+        let own = "name=ans2 type=numerical tans=float(tn) boxsize=12";
+        input(out, own, "0");
     }
     tree(out, item, &FORMULA);
     if with_numbers {
@@ -238,11 +222,8 @@ fn tree(out: &mut String, item: &Item, tree: &Tree) {
             true => format!("falsenextnode={}", k + 1),
             false => String::from("falsenextnode=-1"),
         };
-        let belief: String = wrong
-            .map_or("the right answer", |w| &w.belief)
-            .chars()
-            .take(250)
-            .collect();
+        let belief = wrong.map_or("the right answer", |w| &w.belief).chars();
+        let belief: String = belief.take(250).collect();
         let score = if k == 0 { "1" } else { "0" };
         out.push_str("<node>\n");
         field(out, "name", &k.to_string());
@@ -270,8 +251,10 @@ fn tree(out: &mut String, item: &Item, tree: &Tree) {
 /// STACK's own tests of the question: the right answer, and each belief's.
 fn tests(out: &mut String, item: &Item, with_numbers: bool) {
     for k in 0..=item.wrong.len() {
-        let score = if k == 0 { "1" } else { "0" };
-        let penalty = if k == 0 { "0" } else { "0.1" };
+        let (score, penalty, what) = match k {
+            0 => ("1", "0", "the right answer"),
+            k => ("0", "0.1", item.wrong[k - 1].code),
+        };
         let mut trees = vec![&FORMULA];
         // Two numbers may be near each other at some values: then the branch before is as good.
         let is_told = k == 0 || item.variants.iter().all(|v| v.wrong[k - 1].is_some());
@@ -279,20 +262,13 @@ fn tests(out: &mut String, item: &Item, with_numbers: bool) {
             trees.push(&NUMBER);
         }
         out.push_str("<qtest>\n");
-        let what = if k == 0 {
-            "the right answer"
-        } else {
-            item.wrong[k - 1].code
-        };
         field(out, "testcase", &(k + 1).to_string());
         field(out, "description", what);
         for tree in &trees {
-            let value = tree.against(k);
-            let _ = writeln!(
-                out,
-                "<testinput><name>{}</name><value>{value}</value></testinput>",
-                tree.input
-            );
+            let (name, value) = (tree.input, tree.against(k));
+            let line =
+                format!("<testinput><name>{name}</name><value>{value}</value></testinput>\n");
+            out.push_str(&line);
         }
         for tree in &trees {
             out.push_str("<expected>\n");

@@ -251,11 +251,12 @@ pub fn measure(
     }
     let runs = effort.runs.min(if interrupted { 5 } else { usize::MAX });
     let seconds = |route| time(&prepared, route, &place, runs, effort.repeat);
-    let summaries = routes
-        .iter()
-        .map(|r| bench.summary(*r, &swept, seconds(*r)));
-    let summaries = summaries.collect();
+    let summary = |r: &Route| bench.summary(*r, &swept, seconds(*r));
+    let summaries = routes.iter().map(summary).collect();
     let functions = derivation.map_or_else(Vec::new, |d| emit::functions(scene, d).0);
+    let formulas = functions
+        .iter()
+        .map(|f| [f.name.clone(), f.formula.clone()]);
     let heading = Heading {
         title: scene.title.clone(),
         source: scene.source.clone(),
@@ -271,10 +272,7 @@ pub fn measure(
         routes: summaries,
         families: swept,
         verdict: String::new(),
-        formulas: functions
-            .iter()
-            .map(|f| [f.name.clone(), f.formula.clone()])
-            .collect(),
+        formulas: formulas.collect(),
         scene: scene.clone(),
         code: match functions.is_empty() {
             true => String::new(),
@@ -341,10 +339,8 @@ impl Bench<'_> {
         let mut special: Vec<&'static str> = Vec::new();
         let mut points = 0;
         for point in &level.points {
-            let Some(place) = self.prepared.place(point) else {
-                continue;
-            };
-            let Some(truth) = self.prepared.truth(point) else {
+            let place = self.prepared.place(point);
+            let Some((place, truth)) = place.zip(self.prepared.truth(point)) else {
                 continue;
             };
             points += 1;
@@ -424,13 +420,12 @@ fn time(prepared: &Prepared, route: Route, place: &Place, runs: usize, repeat: u
 /// Quartiles of the time of `work` \[s\] over `runs` runs, after one that does not count.
 fn quartiles(runs: usize, mut work: impl FnMut()) -> [f64; 3] {
     work();
-    let mut times: Vec<f64> = (0..runs.max(1))
-        .map(|_| {
-            let start = Instant::now();
-            work();
-            start.elapsed().as_secs_f64()
-        })
-        .collect();
+    let time = |_| {
+        let start = Instant::now();
+        work();
+        start.elapsed().as_secs_f64()
+    };
+    let mut times: Vec<f64> = (0..runs.max(1)).map(time).collect();
     times.sort_by(f64::total_cmp);
     [1, 2, 3].map(|q| times[(times.len() - 1) * q / 4])
 }

@@ -149,25 +149,19 @@ pub fn about_joints(given: &Given<f64>, system: &System<f64>) -> Option<Vec<f64>
     let momenta = parts.right.rows(0, v);
     let mut small = DMatrix::zeros(q + l, q + l);
     let turned = basis.transpose();
-    small
-        .view_mut((0, 0), (q, q))
-        .copy_from(&(&turned * weighted));
-    small
-        .view_mut((0, q), (q, l))
-        .copy_from(&(&turned * &acting));
-    small
-        .view_mut((q, 0), (l, q))
-        .copy_from(&(&conditions * &basis));
-    small
-        .view_mut((q, q), (l, l))
-        .copy_from(&parts.picked(&other_rows, &others));
+    for (at, block) in [
+        ((0, 0), &turned * weighted),
+        ((0, q), &turned * &acting),
+        ((q, 0), &conditions * &basis),
+        ((q, q), parts.picked(&other_rows, &others)),
+    ] {
+        small.view_mut(at, block.shape()).copy_from(&block);
+    }
     let mut known = DVector::zeros(q + l);
-    known
-        .rows_mut(0, q)
-        .copy_from(&(&turned * (momenta - mass.component_mul(&start))));
-    known
-        .rows_mut(q, l)
-        .copy_from(&(parts.right.select_rows(&other_rows) - &conditions * &start));
+    let lacking = &turned * (momenta - mass.component_mul(&start));
+    known.rows_mut(0, q).copy_from(&lacking);
+    let lacking = parts.right.select_rows(&other_rows) - &conditions * &start;
+    known.rows_mut(q, l).copy_from(&lacking);
     if q + l > 0 {
         known = small.lu().solve(&known)?;
     }

@@ -56,54 +56,37 @@ impl Route {
 
     /// In words.
     pub fn words(self) -> &'static str {
-        match self {
-            Route::ClosedForm => "closed form",
-            Route::Arranged => "closed form, arranged",
-            Route::AboutJoints => "about the joints",
-            Route::EffectiveMass => "effective mass",
-            Route::LuRaw => "full system, LU",
-            Route::LuScaled => "full system, LU scaled",
-            Route::LuRefined => "full system, LU refined",
-            Route::Exact => "exact fractions",
-        }
-    }
-
-    /// How it gets its numbers.
-    pub fn how(self) -> &'static str {
-        match self {
-            Route::ClosedForm => "the formulas above, every operation in doubles as it stands",
-            Route::Arranged => {
-                "the same formulas with sums that cancel in double-doubles: the code above, which carom emit writes in every language"
-            }
-            Route::AboutJoints => {
-                "angular momentum about every joint: a small system for the spins alone, solved at every point"
-            }
-            Route::EffectiveMass => {
-                "impulses from the effective masses at joints and contacts, then velocities"
-            }
-            Route::LuRaw => {
-                "all laws of all bodies as one linear system, solved by LU at every point"
-            }
-            Route::LuScaled => "the same, rows and columns scaled by powers of two first",
-            Route::LuRefined => "the same with three steps of refinement, residuals in doubles",
-            Route::Exact => "the same system in fractions, rounded once: carom solve --exact",
-        }
+        self.row()[0]
     }
 
     /// In one or two words, for legends.
     pub fn short(self) -> &'static str {
-        match self {
-            Route::ClosedForm => "closed form",
-            Route::Arranged => "arranged",
-            Route::AboutJoints => "joints",
-            Route::EffectiveMass => "eff. mass",
-            Route::LuRaw => "LU",
-            Route::LuScaled => "LU scaled",
-            Route::LuRefined => "LU refined",
-            Route::Exact => "exact",
-        }
+        self.row()[1]
+    }
+
+    /// How it gets its numbers.
+    pub fn how(self) -> &'static str {
+        self.row()[2]
+    }
+
+    fn row(self) -> [&'static str; 3] {
+        let mut parts = ROWS[self as usize].splitn(3, " | ");
+        [(); 3].map(|()| parts.next().unwrap_or_default())
     }
 }
+
+/// Each route in words, in one or two for legends, and how it gets its numbers.
+const ROWS: [&str; 8] = [
+    "closed form | closed form | the formulas above, every operation in doubles as it stands",
+    "closed form, arranged | arranged | the same formulas with sums that cancel in double-doubles: the code above, which \
+     carom emit writes in every language",
+    "about the joints | joints | angular momentum about every joint: a small system for the spins alone, solved at every point",
+    "effective mass | eff. mass | impulses from the effective masses at joints and contacts, then velocities",
+    "full system, LU | LU | all laws of all bodies as one linear system, solved by LU at every point",
+    "full system, LU scaled | LU scaled | the same, rows and columns scaled by powers of two first",
+    "full system, LU refined | LU refined | the same with three steps of refinement, residuals in doubles",
+    "exact fractions | exact | the same system in fractions, rounded once: carom solve --exact",
+];
 
 /// One number asked for.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -181,23 +164,18 @@ impl<'a> Prepared<'a> {
     pub fn place(&self, exact: &Point<Rational>) -> Option<Place> {
         let near = rounded(exact);
         let numbers = given(self.scene, &near).ok()?;
-        let inputs = match &self.forms {
-            Some(forms) => forms
-                .inputs
-                .iter()
-                .map(|name| match forms.atoms.iter().find(|(n, _)| n == name) {
-                    Some((_, of)) => of.evaluate(exact).map(|v| to_f64(&v)),
-                    None => near.values.get(name).copied(),
-                })
-                .collect::<Option<Vec<f64>>>()
-                .unwrap_or_default(),
-            None => Vec::new(),
-        };
+        let inputs = self.forms.as_ref().and_then(|forms| {
+            let input = |name: &Symbol| match forms.atoms.iter().find(|(n, _)| n == name) {
+                Some((_, of)) => of.evaluate(exact).map(|v| to_f64(&v)),
+                None => near.values.get(name).copied(),
+            };
+            forms.inputs.iter().map(input).collect()
+        });
         Some(Place {
             exact: exact.clone(),
             near,
             given: numbers,
-            inputs,
+            inputs: inputs.unwrap_or_default(),
         })
     }
 
@@ -250,10 +228,8 @@ impl<'a> Prepared<'a> {
 
     /// The routes that have an answer at a place.
     pub fn routes(&self, at: &Place) -> Vec<Route> {
-        Route::ALL
-            .into_iter()
-            .filter(|r| self.follow(*r, at).is_some())
-            .collect()
+        let has = |r: &Route| self.follow(*r, at).is_some();
+        Route::ALL.into_iter().filter(has).collect()
     }
 
     /// The answers by a route, NaN where one has none; `None` where the scene does not have the route.
@@ -326,11 +302,9 @@ impl<'a> Prepared<'a> {
         motion: &Motion<T>,
     ) -> Option<Vec<T>> {
         let mut out = Vec::with_capacity(self.quantities.len());
-        for q in self
-            .scene
-            .asked_of_impact()
-            .filter(|q| !matches!(q.ask, Ask::Balance { .. } | Ask::Matrix { .. }))
-        {
+        let is_number = |a: &Ask| !matches!(a, Ask::Balance { .. } | Ask::Matrix { .. });
+        let asked = self.scene.asked_of_impact();
+        for q in asked.filter(|q| is_number(&q.ask)) {
             match answer(&q.ask, at, numbers, motion).ok()? {
                 Answer::Scalar(v) => out.push(v),
                 Answer::Vector([x, y]) => out.extend([x, y]),
@@ -367,10 +341,8 @@ fn forms(scene: &Scene, derivation: &Derivation, quantities: &[Quantity]) -> Opt
     let mut atoms = Atoms::new();
     let mut closed: Vec<Expr> = Vec::new();
     for quantity in quantities {
-        let answer = derivation
-            .answers
-            .iter()
-            .find(|a| a.name == quantity.name)?;
+        let mut answers = derivation.answers.iter();
+        let answer = answers.find(|a| a.name == quantity.name)?;
         let Form::Value { closed: form, .. } = &answer.form else {
             return None;
         };
@@ -380,18 +352,12 @@ fn forms(scene: &Scene, derivation: &Derivation, quantities: &[Quantity]) -> Opt
     inputs.sort();
     inputs.dedup();
     let signs = signs(&scene.domains, &atoms);
-    let derived = closed
-        .iter()
-        .map(|e| as_derived(e, &inputs))
-        .collect::<Option<_>>()?;
-    let arranged = closed
-        .iter()
-        .map(|e| arranged(e, &inputs, &signs))
-        .collect::<Option<_>>()?;
+    let derived = closed.iter().map(|e| as_derived(e, &inputs));
+    let arranged = closed.iter().map(|e| arranged(e, &inputs, &signs));
     Some(Forms {
+        derived: derived.collect::<Option<_>>()?,
+        arranged: arranged.collect::<Option<_>>()?,
         inputs,
         atoms,
-        derived,
-        arranged,
     })
 }

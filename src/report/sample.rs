@@ -62,9 +62,8 @@ impl<'a> Sampler<'a> {
 
     /// Usual values: the scene's own where they are exact, then `count` points of size one.
     pub fn usual(&self, count: usize) -> Family {
-        let mut points: Vec<Point<Rational>> = (0..count)
-            .map(|k| self.exact(&self.draft("usual", k)))
-            .collect();
+        let points = (0..count).map(|k| self.exact(&self.draft("usual", k)));
+        let mut points: Vec<Point<Rational>> = points.collect();
         if let Ok(own) = exact_values(self.scene) {
             points.insert(0, own);
         }
@@ -77,21 +76,13 @@ impl<'a> Sampler<'a> {
     }
 
     fn domain(&self, name: &Symbol) -> Domain {
-        self.scene
-            .domains
-            .symbols
-            .get(name)
-            .cloned()
-            .unwrap_or_else(Domain::positive)
+        let domain = self.scene.domains.symbols.get(name);
+        domain.cloned().unwrap_or_else(Domain::positive)
     }
 
     fn is_unit_vector(&self, name: &Symbol) -> bool {
-        self.scene
-            .domains
-            .unit_vectors
-            .iter()
-            .flatten()
-            .any(|n| n == name)
+        let vectors = &self.scene.domains.unit_vectors;
+        vectors.iter().flatten().any(|n| n == name)
     }
 
     /// Usual values in doubles, tried until the bodies approach each other at every contact.
@@ -113,15 +104,10 @@ impl<'a> Sampler<'a> {
 
     fn any(&self, rng: &mut Rng) -> Draft {
         let mut draft = Draft::new();
-        let plain = self
-            .needed
-            .plain
-            .iter()
-            .filter(|n| !self.needed.angles.contains_key(*n));
-        for (name, angle) in plain
-            .map(|n| (n, false))
-            .chain(self.needed.angles.keys().map(|n| (n, true)))
-        {
+        let Needed { plain, angles, .. } = &self.needed;
+        let plain = plain.iter().filter(|n| !angles.contains_key(*n));
+        let angles = angles.keys().map(|n| (n, true));
+        for (name, angle) in plain.map(|n| (n, false)).chain(angles) {
             let share = 0.03 + 0.94 * rng.unit();
             let size = 2f64.powf(4.0 * share - 2.0);
             let sign = if rng.unit() < 0.5 { -1.0 } else { 1.0 };
@@ -133,16 +119,14 @@ impl<'a> Sampler<'a> {
                 _ => self.domain(name),
             };
             let ends = [&domain.low, &domain.high].map(|l| l.as_ref().map(Limit::approximate));
-            draft.push((
-                name.clone(),
-                match ends {
-                    [Some(low), Some(high)] => low + (high - low) * share,
-                    [Some(low), None] => low + size,
-                    [None, Some(high)] => high - size,
-                    [None, None] if angle => std::f64::consts::PI * (2.0 * share - 1.0),
-                    [None, None] => sign * size,
-                },
-            ));
+            let value = match ends {
+                [Some(low), Some(high)] => low + (high - low) * share,
+                [Some(low), None] => low + size,
+                [None, Some(high)] => high - size,
+                [None, None] if angle => std::f64::consts::PI * (2.0 * share - 1.0),
+                [None, None] => sign * size,
+            };
+            draft.push((name.clone(), value));
         }
         for pair in &self.scene.domains.unit_vectors {
             let t = 3.0 * (2.0 * rng.unit() - 1.0);
@@ -162,21 +146,15 @@ impl<'a> Sampler<'a> {
         };
         for (name, value) in draft {
             if let Some(n) = self.needed.angles.get(name) {
-                point
-                    .directions
-                    .insert(name.clone(), (*n, circle(value / f64::from(*n) / 2.0)));
+                let direction = (*n, circle(value / f64::from(*n) / 2.0));
+                point.directions.insert(name.clone(), direction);
             } else if !self.is_unit_vector(name) {
-                point
-                    .values
-                    .insert(name.clone(), from_f64(*value).unwrap_or_default());
+                let value = from_f64(*value).unwrap_or_default();
+                point.values.insert(name.clone(), value);
             }
         }
-        let of = |name: &Symbol| {
-            draft
-                .iter()
-                .find(|(n, _)| n == name)
-                .map_or(0.0, |(_, v)| *v)
-        };
+        let entry = |name: &Symbol| draft.iter().find(|(n, _)| n == name);
+        let of = |name: &Symbol| entry(name).map_or(0.0, |(_, v)| *v);
         for [a, b] in &self.scene.domains.unit_vectors {
             let [c, s] = circle(of(b).atan2(of(a)) / 2.0);
             point.values.insert(a.clone(), c);
@@ -210,11 +188,8 @@ impl<'a> Sampler<'a> {
     fn of_dimension(&self, mass: i64, length: i64, time: i64) -> Vec<Symbol> {
         let wanted = crate::dimension::Dimension::new(mass, length, time);
         let fits = |name: &Symbol| self.needed.plain.contains(name);
-        let all = self
-            .scene
-            .parameters
-            .iter()
-            .filter(|p| p.dimension == wanted && fits(&p.name));
+        let all = self.scene.parameters.iter();
+        let all = all.filter(|p| p.dimension == wanted && fits(&p.name));
         all.map(|p| p.name.clone()).collect()
     }
 

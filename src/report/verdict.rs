@@ -17,20 +17,16 @@ pub fn judge(report: &mut Report) {
     for route in &mut report.routes {
         let [time, usual, worst] = figures(route);
         // One that is better at usual values is not beaten by one that is no worse where both fail.
-        route.dominated = all
-            .iter()
-            .any(|[t, u, w]| *t < time && *u <= usual && *w <= worst);
+        let beats = |[t, u, w]: &[f64; 3]| *t < time && *u <= usual && *w <= worst;
+        route.dominated = all.iter().any(beats);
     }
     report.verdict = verdict(report);
 }
 
 fn verdict(report: &Report) -> String {
     let fastest = |of: &dyn Fn(&RouteSummary) -> bool| {
-        report
-            .routes
-            .iter()
-            .filter(|r| of(r))
-            .min_by(|a, b| a.seconds[1].total_cmp(&b.seconds[1]))
+        let routes = report.routes.iter().filter(|r| of(r));
+        routes.min_by(|a, b| a.seconds[1].total_cmp(&b.seconds[1]))
     };
     let Some(quick) = fastest(&|_| true) else {
         return "no route has an answer".into();

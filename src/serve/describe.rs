@@ -116,15 +116,10 @@ fn parameter(scene: &Scene, names: &Solution, p: &Parameter, shown: &Point<f64>)
     let latex = p.latex.clone().unwrap_or_else(|| latex_name(&p.name));
     let domain = domain.filter(|d| **d != Domain::real());
     let domain = domain.map(|d| d.words(&p.name));
-    let about = [
-        Some(p.meaning.clone()),
-        domain.as_ref().map(|d| d.replace("pi", "π")),
-    ];
-    let about: Vec<String> = about
-        .into_iter()
-        .flatten()
-        .filter(|w| !w.is_empty())
-        .collect();
+    let mut about: Vec<String> = domain.iter().map(|d| d.replace("pi", "π")).collect();
+    if !p.meaning.is_empty() {
+        about.insert(0, p.meaning.clone());
+    }
     json!({
         "name": *p.name,
         "mathml": math(&mathml::from_latex(&latex)),
@@ -206,10 +201,8 @@ fn content(names: &Solution, content: &Content) -> String {
             values.join("<mtext> or </mtext>")
         }
         Content::Joined(join, parts) => {
-            let parts: Vec<String> = parts
-                .iter()
-                .map(|part| self::content(names, part))
-                .collect();
+            let parts = parts.iter().map(|part| self::content(names, part));
+            let parts: Vec<String> = parts.collect();
             parts.join(&format!("<mtext>{}</mtext>", join.word()))
         }
         Content::Vector([x, y, z]) => {

@@ -9,10 +9,8 @@ use super::request::MANY;
 pub(super) fn document() -> Value {
     let mut paths = Map::new();
     for command in COMMANDS.iter() {
-        paths.insert(
-            format!("/v1/{}", command.name),
-            json!({"post": post(command)}),
-        );
+        let address = format!("/v1/{}", command.name);
+        paths.insert(address, json!({"post": post(command)}));
     }
     paths.insert("/v1/scenes".into(), json!({"get": {
         "operationId": "scenes",
@@ -71,11 +69,12 @@ fn post(command: &Command) -> Value {
 
 fn scene_fields() -> Vec<(&'static str, Value)> {
     let [(scene, of_scene), (name, of_name)] = SCENE;
+    let scene = (
+        scene,
+        json!({"description": of_scene, "type": ["object", "string"]}),
+    );
     vec![
-        (
-            scene,
-            json!({"description": of_scene, "type": ["object", "string"]}),
-        ),
+        scene,
         (name, json!({"description": of_name, "type": "string"})),
     ]
 }
@@ -99,17 +98,15 @@ fn schema(field: &Field) -> Value {
 
 /// A request: its fields, and a scene or the name of one unless it can do without.
 fn object(fields: &[(&str, Value)], sceneless: bool) -> Value {
-    let properties: Map<String, Value> = fields
+    let properties = fields
         .iter()
-        .map(|(name, schema)| (name.to_string(), schema.clone()))
-        .collect();
+        .map(|(name, schema)| (name.to_string(), schema.clone()));
+    let properties = Value::Object(properties.collect());
     let mut object =
         json!({"type": "object", "properties": properties, "additionalProperties": false});
     if !sceneless {
-        object["oneOf"] = SCENE
-            .iter()
-            .map(|(name, _)| json!({"required": [name]}))
-            .collect();
+        let one_of = SCENE.iter().map(|(name, _)| json!({"required": [name]}));
+        object["oneOf"] = one_of.collect();
     }
     object
 }

@@ -50,10 +50,10 @@ pub(super) fn fields(body: &[u8]) -> Result<Map<String, Value>, Bad> {
 pub(super) fn only(fields: &Map<String, Value>, known: &[&str]) -> Result<(), Bad> {
     match fields.keys().find(|name| !known.contains(&name.as_str())) {
         None => Ok(()),
-        Some(name) => Err(Bad::new(
-            below("", name),
-            format!("unknown field; known are {}", known.join(", ")),
-        )),
+        Some(name) => {
+            let message = format!("unknown field; known are {}", known.join(", "));
+            Err(Bad::new(below("", name), message))
+        }
     }
 }
 
@@ -65,13 +65,11 @@ pub(super) fn scene(fields: &Map<String, Value>, folder: &Folder) -> Result<Opti
         (Some(Value::String(text)), None) => Ok(Some(text.clone())),
         (Some(object @ Value::Object(_)), None) => Ok(Some(crate::render::pretty(object))),
         (Some(_), None) => Err(Bad::new("/scene", "expected an object or a text")),
-        (None, Some(Value::String(name))) => match folder.text(name) {
-            Some(text) => Ok(Some(text)),
-            None => Err(Bad::absent(
-                "/name",
-                "the folder has no such scene; GET /v1/scenes lists them",
-            )),
-        },
+        (None, Some(Value::String(name))) => {
+            let none = "the folder has no such scene; GET /v1/scenes lists them";
+            let text = folder.text(name);
+            text.map(Some).ok_or_else(|| Bad::absent("/name", none))
+        }
         (None, Some(_)) => Err(Bad::new("/name", "expected a text")),
         (Some(_), Some(_)) => Err(Bad::new("/name", "give a scene or a name, not both")),
     }
@@ -119,23 +117,26 @@ pub(super) fn job(
     Ok((job, gives))
 }
 
+impl Job {
+    /// Adds an option with its value.
+    fn give(&mut self, option: &str, value: &str) {
+        self.arguments.push(format!("{option}={value}"));
+    }
+}
+
 /// Adds a field to a command line.
 fn put(job: &mut Job, field: &Field, value: &Value) -> Result<(), Bad> {
     let pointer = below("", field.name);
     let expected = |what: &str| Bad::new(&pointer, format!("expected {what}"));
     match (&field.kind, value) {
         (Kind::Text(option), value) => {
-            let text = text(value, &pointer)?;
-            job.arguments.push(format!("{option}={text}"));
+            job.give(option, &text(value, &pointer)?);
         }
         (Kind::Flag(option), Value::Bool(wanted)) => {
             job.arguments.extend(wanted.then(|| option.to_string()));
         }
         (Kind::Word(option, words), Value::String(word)) if words.contains(word) => {
-            job.arguments.push(format!("{option}={word}"));
-        }
-        (Kind::Word(_, words), _) => {
-            return Err(expected(&format!("one of {}", words.join(", "))));
+            job.give(option, word);
         }
         (Kind::Values(option), Value::Object(values)) if values.len() <= MANY => {
             for (name, value) in values {
@@ -143,20 +144,19 @@ fn put(job: &mut Job, field: &Field, value: &Value) -> Result<(), Bad> {
                 if name.contains(['=', '\0']) || name.len() > TEXT {
                     return Err(Bad::new(pointer, "this is no name"));
                 }
-                let text = text(value, &pointer)?;
-                job.arguments.push(format!("{option}={name}={text}"));
+                job.give(option, &format!("{name}={}", text(value, &pointer)?));
             }
         }
         (Kind::Texts(option), Value::Array(texts)) if texts.len() <= MANY => {
             for (i, value) in texts.iter().enumerate() {
-                let text = text(value, &format!("{pointer}/{i}"))?;
-                job.arguments.push(format!("{option}={text}"));
+                job.give(option, &text(value, &format!("{pointer}/{i}"))?);
             }
         }
         (Kind::Lines(option), Value::String(lines)) => job.file = Some((option, lines.clone())),
         (Kind::List(option), list @ Value::Array(_)) => {
             job.file = Some((option, list.to_string()));
         }
+        (Kind::Word(_, words), _) => return Err(expected(&format!("one of {}", words.join(", ")))),
         (Kind::Flag(_), _) => return Err(expected("true or false")),
         (Kind::Values(_), _) => return Err(expected("an object of at most 256 names and values")),
         (Kind::Texts(_), _) => return Err(expected("a list of at most 256 texts")),

@@ -27,45 +27,21 @@ const BODY: usize = 1 << 20;
 /// How long a request may take from its head to its answer, waiting for a turn included, against how long a command may.
 const WAITING: u32 = 3;
 
-/// The files of the page: address, type, text.
-const FILES: &[(&str, &str, &str)] = &[
-    ("/", "text/html", include_str!("page/index.html")),
-    ("/style.css", "text/css", include_str!("page/style.css")),
-    ("/ask.js", "text/javascript", include_str!("page/ask.js")),
-    ("/list.js", "text/javascript", include_str!("page/list.js")),
-    ("/main.js", "text/javascript", include_str!("page/main.js")),
-    (
-        "/values.js",
-        "text/javascript",
-        include_str!("page/values.js"),
-    ),
-    (
-        "/figure.js",
-        "text/javascript",
-        include_str!("page/figure.js"),
-    ),
-    (
-        "/answers.js",
-        "text/javascript",
-        include_str!("page/answers.js"),
-    ),
-    ("/film.js", "text/javascript", include_str!("page/film.js")),
-    (
-        "/accuracy.js",
-        "text/javascript",
-        include_str!("page/accuracy.js"),
-    ),
-    ("/try.js", "text/javascript", include_str!("page/try.js")),
-    (
-        "/solution.js",
-        "text/javascript",
-        include_str!("page/solution.js"),
-    ),
-    (
-        "/editor.js",
-        "text/javascript",
-        include_str!("page/editor.js"),
-    ),
+/// The files of the page: address and text; the type follows from the name.
+const FILES: &[(&str, &str)] = &[
+    ("/", include_str!("page/index.html")),
+    ("/style.css", include_str!("page/style.css")),
+    ("/ask.js", include_str!("page/ask.js")),
+    ("/list.js", include_str!("page/list.js")),
+    ("/main.js", include_str!("page/main.js")),
+    ("/values.js", include_str!("page/values.js")),
+    ("/figure.js", include_str!("page/figure.js")),
+    ("/answers.js", include_str!("page/answers.js")),
+    ("/film.js", include_str!("page/film.js")),
+    ("/accuracy.js", include_str!("page/accuracy.js")),
+    ("/try.js", include_str!("page/try.js")),
+    ("/solution.js", include_str!("page/solution.js")),
+    ("/editor.js", include_str!("page/editor.js")),
 ];
 
 /// Nothing but what the server itself holds; styles may stand in pictures and worked solutions, scripts may not.
@@ -75,30 +51,26 @@ const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'u
 /// All addresses.
 pub(super) fn routes(shared: Arc<Shared>) -> Router {
     let mut router = Router::new();
-    for (address, media, text) in FILES {
-        let media = format!("{media}; charset=utf-8");
-        router = router.route(address, get(async move || typed(&media, *text)));
+    for (address, text) in FILES {
+        let media = match address.rsplit_once('.') {
+            Some((_, "css")) => "text/css; charset=utf-8",
+            Some(_) => "text/javascript; charset=utf-8",
+            None => "text/html; charset=utf-8",
+        };
+        router = router.route(address, get(async move || typed(media, *text)));
     }
+    let document = get(async || json_text(openapi::document()));
+    let font = get(async || typed("font/woff2", render::fonts::MATH));
+    let no_method = "this method is not for this address";
+    let no_method = async move || error(StatusCode::METHOD_NOT_ALLOWED, no_method);
     router
-        .route(
-            "/openapi.json",
-            get(async || json_text(openapi::document())),
-        )
-        .route(
-            "/carom-math.woff2",
-            get(async || typed("font/woff2", render::fonts::MATH)),
-        )
+        .route("/openapi.json", document)
+        .route("/carom-math.woff2", font)
         .route("/v1/scenes", get(scenes))
         .route("/v1/scenes/{*name}", get(scene_text))
         .route("/v1/{command}", post(command))
         .fallback(async || no_address())
-        .method_not_allowed_fallback(async || {
-            error(
-                StatusCode::METHOD_NOT_ALLOWED,
-                "this method is not for this address",
-                Map::new(),
-            )
-        })
+        .method_not_allowed_fallback(no_method)
         .layer(DefaultBodyLimit::max(BODY))
         .layer(middleware::from_fn_with_state(shared.clone(), guard))
         .with_state(shared)
@@ -107,26 +79,20 @@ pub(super) fn routes(shared: Arc<Shared>) -> Router {
 /// What holds for every request: whose name is asked for, how long it takes, and what a browser may do with the answer.
 async fn guard(State(shared): State<Arc<Shared>>, request: Request, next: Next) -> Response {
     let mut response = if shared.is_local && !names_this_machine(request.headers()) {
-        error(
-            StatusCode::MISDIRECTED_REQUEST,
-            "this server answers to localhost only",
-            Map::new(),
-        )
+        let message = "this server answers to localhost only";
+        error(StatusCode::MISDIRECTED_REQUEST, message)
     } else {
-        match time::timeout(WAITING * shared.workshop.longest, next.run(request)).await {
-            Ok(response) => response,
-            Err(_) => no_end(&NoEnd::Slow),
-        }
+        let answered = time::timeout(WAITING * shared.workshop.longest, next.run(request));
+        let answered = answered.await;
+        answered.unwrap_or_else(|_| no_end(&NoEnd::Slow))
     };
     let headers = response.headers_mut();
+    let origin = HeaderName::from_static("cross-origin-resource-policy");
     for (name, value) in [
         (header::CONTENT_SECURITY_POLICY, POLICY),
         (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
         (header::REFERRER_POLICY, "no-referrer"),
-        (
-            HeaderName::from_static("cross-origin-resource-policy"),
-            "same-origin",
-        ),
+        (origin, "same-origin"),
         (header::CACHE_CONTROL, "no-cache"),
     ] {
         headers.insert(name, HeaderValue::from_static(value));
@@ -166,11 +132,7 @@ async fn scenes(State(shared): State<Arc<Shared>>) -> Response {
 async fn scene_text(State(shared): State<Arc<Shared>>, Path(name): Path<String>) -> Response {
     match shared.folder.text(&name) {
         Some(text) => typed("text/plain; charset=utf-8", text),
-        None => error(
-            StatusCode::NOT_FOUND,
-            "the folder has no such scene",
-            Map::new(),
-        ),
+        None => error(StatusCode::NOT_FOUND, "the folder has no such scene"),
     }
 }
 
@@ -188,9 +150,9 @@ async fn command(
         Ok(body) => body,
         Err(e) if e.status() == StatusCode::PAYLOAD_TOO_LARGE => {
             let message = format!("a request has at most {BODY} bytes");
-            return error(StatusCode::PAYLOAD_TOO_LARGE, message, Map::new());
+            return error(StatusCode::PAYLOAD_TOO_LARGE, message);
         }
-        Err(e) => return error(e.status(), e.body_text(), Map::new()),
+        Err(e) => return error(e.status(), e.body_text()),
     };
     let media = headers
         .get(header::CONTENT_TYPE)
@@ -206,7 +168,7 @@ async fn command(
             true => StatusCode::NOT_FOUND,
             false => StatusCode::BAD_REQUEST,
         };
-        error(status, bad.message, pointer)
+        error_with(status, bad.message, pointer)
     })
 }
 
@@ -261,12 +223,10 @@ fn result(done: Done, gives: Gives) -> Response {
 
 /// Why a request could not be carried out; if that is its scene, what is wrong with it and where.
 async fn unusable(shared: &Shared, said: &str, scene: String) -> Response {
-    let (message, hint) = match said.trim_end().split_once("\nhint: ") {
-        Some((message, hint)) => (message, Some(hint)),
-        None => (said.trim_end(), None),
-    };
+    let mut message = said.trim_end();
     let mut more = Map::new();
-    if let Some(hint) = hint {
+    if let Some((first, hint)) = message.split_once("\nhint: ") {
+        message = first;
         more.insert("hint".into(), json!(hint));
     }
     let status = StatusCode::UNPROCESSABLE_ENTITY;
@@ -280,9 +240,9 @@ async fn unusable(shared: &Shared, said: &str, scene: String) -> Response {
         && done.status == Some(2)
         && let Ok(Value::Object(faults)) = serde_json::from_slice(&done.out)
     {
-        return error(status, "the scene cannot be read", faults);
+        return error_with(status, "the scene cannot be read", faults);
     }
-    error(status, without_place(message), more)
+    error_with(status, without_place(message), more)
 }
 
 /// A message without the name of standard input before it.
@@ -291,26 +251,22 @@ fn without_place(message: &str) -> &str {
 }
 
 fn no_end(why: &NoEnd) -> Response {
-    let (status, message) = match why {
-        NoEnd::Busy => (
-            StatusCode::SERVICE_UNAVAILABLE,
-            "too many requests at once; come again",
-        ),
-        NoEnd::Slow => (
-            StatusCode::SERVICE_UNAVAILABLE,
-            "this takes longer than a request may; `carom serve --seconds` sets the limit, and the command line has none",
-        ),
-        NoEnd::Large => (
-            StatusCode::UNPROCESSABLE_ENTITY,
-            "the result is too large to send",
-        ),
-        NoEnd::Hungry => (
-            StatusCode::UNPROCESSABLE_ENTITY,
-            "this takes more memory than a request may; the command line has no such limit",
-        ),
+    let message = match why {
+        NoEnd::Busy => "too many requests at once; come again",
+        NoEnd::Slow => {
+            "this takes longer than a request may; `carom serve --seconds` sets the limit, and the command line has none"
+        }
+        NoEnd::Large => "the result is too large to send",
+        NoEnd::Hungry => {
+            "this takes more memory than a request may; the command line has no such limit"
+        }
         NoEnd::Broken(why) => return fault_of_carom(why.clone()),
     };
-    let mut response = error(status, message, Map::new());
+    let status = match why {
+        NoEnd::Busy | NoEnd::Slow => StatusCode::SERVICE_UNAVAILABLE,
+        _ => StatusCode::UNPROCESSABLE_ENTITY,
+    };
+    let mut response = error(status, message);
     if matches!(why, NoEnd::Busy) {
         let headers = response.headers_mut();
         headers.insert(header::RETRY_AFTER, HeaderValue::from_static("1"));
@@ -324,21 +280,27 @@ fn fault_of_carom(said: String) -> Response {
     // That nobody may be there to read it changes nothing.
     let _ = writeln!(std::io::stderr(), "a command failed: {said}");
     let message = "a fault of carom; it told more where the server runs";
-    error(StatusCode::INTERNAL_SERVER_ERROR, message, Map::new())
+    error(StatusCode::INTERNAL_SERVER_ERROR, message)
 }
 
 fn no_address() -> Response {
     let message = "nothing stands here; GET /openapi.json tells what there is";
-    error(StatusCode::NOT_FOUND, message, Map::new())
+    error(StatusCode::NOT_FOUND, message)
+}
+
+fn error(status: StatusCode, message: impl Into<String>) -> Response {
+    error_with(status, message, Map::new())
 }
 
 /// An error as JSON: a message, and what else is known.
-fn error(status: StatusCode, message: impl Into<String>, more: Map<String, Value>) -> Response {
-    let mut error = Map::from_iter([("message".to_string(), json!(message.into()))]);
-    error.extend(more);
-    let mut response = json_text(json!({"version": VERSION, "error": error}));
-    *response.status_mut() = status;
-    response
+fn error_with(
+    status: StatusCode,
+    message: impl Into<String>,
+    mut more: Map<String, Value>,
+) -> Response {
+    more.insert("message".into(), json!(message.into()));
+    let body = json_text(json!({"version": VERSION, "error": more}));
+    (status, body).into_response()
 }
 
 const JSON: &str = "application/json";
