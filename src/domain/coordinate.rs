@@ -191,8 +191,9 @@ fn simplest(low: &Rational, high: &Rational, depth: u32) -> Option<Rational> {
 
 /// A number of the domain with two-digit parts.
 pub(super) fn random_number(domain: &Domain, random: &mut Lcg) -> Option<Rational> {
-    let step = ratio(1 + (random.next() % 96) as i64, 97);
-    let scale = ratio(1 + (random.next() % 12) as i64, 1);
+    let part = 1 + (random.next() % 96) as i64;
+    let scale = 1 + (random.next() % 12) as i64;
+    let step = || ratio(part * scale, 97);
     let end = |l: &Limit| match l.of_pi {
         true => from_f64(l.approximate()),
         false => Some(l.value.clone()),
@@ -204,11 +205,16 @@ pub(super) fn random_number(domain: &Domain, random: &mut Lcg) -> Option<Rationa
     Some(match (&domain.low, &domain.high) {
         (Some(l), Some(h)) => {
             let (l, h) = (end(l)?, end(h)?);
-            short(sum(&l, &product(&sum(&h, &l, true), &step), false))
+            short(sum(
+                &l,
+                &product(&sum(&h, &l, true), &ratio(part, 97)),
+                false,
+            ))
         }
-        (Some(l), None) => sum(&end(l)?, &product(&step, &scale), false),
-        (None, Some(h)) => sum(&end(h)?, &product(&step, &scale), true),
-        (None, None) => (step - ratio(1, 2)) * scale * ratio(2, 1),
+        (Some(l), None) if l.value.is_zero() => step(),
+        (Some(l), None) => sum(&end(l)?, &step(), false),
+        (None, Some(h)) => sum(&end(h)?, &step(), true),
+        (None, None) => ratio((2 * part - 97) * scale, 97),
     })
 }
 

@@ -64,25 +64,17 @@ impl Domains {
         all.filter_map(|(r, taken)| taken.then_some(r)).collect()
     }
 
+    /// The relations between symbols that all have a place.
+    pub(super) fn placed(&self, has_place: impl Fn(&Symbol) -> bool) -> Vec<&Relation> {
+        let placed = |name: &Symbol| &**name == "pi" || has_place(name);
+        let all = self.relations.iter();
+        all.filter(|r| r.excess.symbols().iter().all(placed))
+            .collect()
+    }
+
     /// Whether a point keeps for certain to every relation between symbols that it places.
     pub fn admits(&self, sample: &Sample) -> bool {
-        if self.relations.is_empty() {
-            return true;
-        }
-        // Angles known by direction get their value where a relation needs it.
-        let plain = sample.point::<Interval>(false);
-        let full = OnceCell::new();
-        let placed = |name: &Symbol| &**name == "pi" || sample.coordinates.contains_key(name);
-        let bearing = self.relations.iter();
-        bearing
-            .filter(|r| r.excess.symbols().iter().all(placed))
-            .all(|r| {
-                let bounds = match evaluate::<Interval>(&r.excess, &plain) {
-                    Outcome::Value(v) => Outcome::Value(v),
-                    _ => evaluate(&r.excess, full.get_or_init(|| sample.point(true))),
-                };
-                matches!(bounds, Outcome::Value(v) if r.admits(v.low, v.high) == Some(true))
-            })
+        sample.keeps_to(&self.placed(|name| sample.coordinates.contains_key(name)))
     }
 
     /// What is said of the symbols, one condition each: ends of intervals, unit vectors, relations.
@@ -95,6 +87,25 @@ impl Domains {
             .chain(pairs.map(|[a, b]| format!("{a}^2 + {b}^2 = 1")))
             .chain(self.relations.iter().map(|r| r.words.clone()))
             .collect()
+    }
+}
+
+impl Sample {
+    /// Whether the point keeps for certain to relations between symbols that it places.
+    pub(super) fn keeps_to(&self, relations: &[&Relation]) -> bool {
+        if relations.is_empty() {
+            return true;
+        }
+        // Angles known by direction get their value where a relation needs it.
+        let plain = self.point::<Interval>(false);
+        let full = OnceCell::new();
+        relations.iter().all(|r| {
+            let bounds = match evaluate::<Interval>(&r.excess, &plain) {
+                Outcome::Value(v) => Outcome::Value(v),
+                _ => evaluate(&r.excess, full.get_or_init(|| self.point(true))),
+            };
+            matches!(bounds, Outcome::Value(v) if r.admits(v.low, v.high) == Some(true))
+        })
     }
 }
 

@@ -64,10 +64,11 @@ fn related(
         .retain(|name, _| !some.symbols.contains_key(name));
     all.symbols.extend(some.symbols.clone());
     let (domains, _) = domains.completed(&all);
+    let placed = domains.placed(|name| all.symbols.contains_key(name));
     let mut out: Vec<Sample> = Vec::new();
     // Chains of relations leave few of the points drawn.
     drawn(&all, &domains, 200 + 60 * count, count, |point| {
-        if !domains.admits(point) {
+        if !point.keeps_to(&placed) {
             return Taken::No;
         }
         let mut own = point.clone();
@@ -125,26 +126,27 @@ fn drawn(
     }
     let units = units(roles, domains);
     let mut out: Vec<Sample> = Vec::new();
+    let mut picks: Vec<usize> = Vec::new();
     for k in 0..most {
         let mut random = Lcg(k as u64);
         let mut point = Sample::default();
-        for (i, (name, _, list)) in axes.iter().enumerate() {
-            let pick = match k {
-                0 => 0,
-                1..EARLY => i + k,
-                _ => random.next() as usize,
+        picks.clear();
+        picks.extend((0..axes.len()).map(|i| match k {
+            0 => 0,
+            1..EARLY => i + k,
+            _ => random.next() as usize,
+        }));
+        for ((name, domain, list), pick) in axes.iter().zip(&picks) {
+            let listed = &list[pick % list.len()];
+            let drawn = match k {
+                12.. => random_number(domain, &mut random).filter(|v| domain.contains(v)),
+                _ => None,
             };
-            let value = list[pick % list.len()].clone();
-            point.coordinates.insert((*name).clone(), value);
-        }
-        if k >= 12 {
-            for (name, domain, list) in &axes {
-                let drawn = random_number(domain, &mut random).filter(|v| domain.contains(v));
-                if let (Coordinate::Number(_), Some(value)) = (&list[0], drawn) {
-                    let value = Coordinate::Number(value);
-                    point.coordinates.insert((*name).clone(), value);
-                }
-            }
+            let coordinate = match (&list[0], drawn) {
+                (Coordinate::Number(_), Some(value)) => Coordinate::Number(value),
+                _ => listed.clone(),
+            };
+            point.coordinates.insert((*name).clone(), coordinate);
         }
         if !place_units(&mut point, &units, k) || out.contains(&point) {
             continue;
