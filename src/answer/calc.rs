@@ -98,12 +98,12 @@ pub fn is_zero(e: &Expr, domains: &Domains) -> Option<bool> {
     apart.then_some(false)
 }
 
-/// Expressions up to this size, in nodes, have their sign proved at once.
-const SHORT: usize = 8;
+/// One point is looked at before a proof is tried for so many nodes of an expression: a short one is proved sooner.
+const NODES: usize = 8;
 
 /// The sign on the domain.
 pub fn sign(e: &Expr, domains: &Domains) -> Seen {
-    if e.size() > SHORT && has_both_signs(e, domains) {
+    if soon_has_both_signs(e, domains) {
         return Seen::Mixed;
     }
     let mut field = Field::new(domains);
@@ -145,30 +145,41 @@ pub fn constant(e: &Expr) -> Option<Sign> {
 
 /// The sign at points of the domain, by enclosures.
 fn seen(e: &Expr, domains: &Domains) -> Seen {
-    match met(e, domains) {
+    match met(e, domains, POINTS) {
         (3.., 0) => Seen::Positive,
         (0, 3..) => Seen::Negative,
         _ => Seen::Mixed,
     }
 }
 
-/// Whether values above and below zero are found in the domain: then there is no sign to be proved, which takes longer to try.
+/// Whether values above and below zero are found in the domain.
 pub fn has_both_signs(e: &Expr, domains: &Domains) -> bool {
-    matches!(met(e, domains), (1.., 1..))
+    matches!(met(e, domains, POINTS), (1.., 1..))
 }
 
-/// At how many points of the domain a value is above zero and below, by enclosures, until both are met.
-fn met(e: &Expr, domains: &Domains) -> (usize, usize) {
+/// The same at so many points only as take less than a proof: where both signs are found there is none to be proved.
+pub fn soon_has_both_signs(e: &Expr, domains: &Domains) -> bool {
+    let most = match domains.relations.is_empty() {
+        true => POINTS.min(e.size() / NODES),
+        false if e.size() > NODES => POINTS,
+        false => 0,
+    };
+    most > 0 && matches!(met(e, domains, most), (1.., 1..))
+}
+
+/// At how many points of the domain, of the first ones, a value is above zero and below, by enclosures, until both are met.
+fn met(e: &Expr, domains: &Domains, most: usize) -> (usize, usize) {
     let roles = roles(&[e]);
     let (domains, _) = domains.completed(&roles);
-    let (mut above, mut below) = (0, 0);
+    let (mut above, mut below, mut tried) = (0, 0, 0);
     samples_until(&roles, &domains, POINTS, |sample| {
         match evaluate::<Interval>(e, &sample.point(roles.radians)) {
             Outcome::Value(v) if v.low > 0.0 => above += 1,
             Outcome::Value(v) if v.high < 0.0 => below += 1,
             _ => {}
         }
-        above > 0 && below > 0
+        tried += 1;
+        tried == most || above > 0 && below > 0
     });
     (above, below)
 }

@@ -7,7 +7,7 @@ use num_traits::Signed;
 
 use super::{Condition, Verdict};
 use crate::algebra::{Field, Sign};
-use crate::answer::calc::{constant, has_both_signs};
+use crate::answer::calc::{constant, has_both_signs, soon_has_both_signs};
 use crate::derive::Derivation;
 use crate::domain::{Domains, roles, samples_until};
 use crate::expr::{Expr, Node, Point, Rational, Scalar, Symbol};
@@ -52,7 +52,7 @@ pub(super) fn sign(e: &Expr, domains: &Domains) -> Option<Sign> {
             () => Sign::Zero,
         });
     }
-    let may_have_one = e.size() <= LARGEST && !has_both_signs(e, domains);
+    let may_have_one = e.size() <= LARGEST && !soon_has_both_signs(e, domains);
     may_have_one.then(|| proved(e, domains)).flatten()
 }
 
@@ -83,13 +83,14 @@ pub(super) fn as_like(e: &Expr, like: Option<&Decided>, domains: &Domains) -> De
     let sign = match e.as_number() {
         Some(_) => sign(e, domains),
         None if e.size() > LARGEST => None,
-        None if has_both_signs(e, domains) => return on_a_part(),
+        None if soon_has_both_signs(e, domains) => return on_a_part(),
         None => proved(e, domains),
     };
     match sign {
         Some(s) if s.is_not_negative() => plain(Verdict::Everywhere),
         Some(Sign::Negative) => plain(Verdict::Nowhere),
         Some(_) => on_a_part(),
+        None if e.size() <= LARGEST && has_both_signs(e, domains) => on_a_part(),
         None => UNDECIDED,
     }
 }
