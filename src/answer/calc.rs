@@ -645,3 +645,19 @@ fn take(
         }),
     }
 }
+
+/// What rounding may make of the value of a formula.
+pub fn rounding(e: &Expr, point: &Point<f64>) -> f64 {
+    let as_it_is = |(name, value): (&Symbol, &f64)| {
+        let [low, high] = [*value; 2];
+        (name.clone(), Outcome::Value(Interval { low, high }))
+    };
+    let exact = Point {
+        values: point.values.iter().map(as_it_is).collect(),
+        ..Point::default()
+    };
+    match evaluate(e, &exact) {
+        Outcome::Value(enclosed) => enclosed.high - enclosed.low,
+        Outcome::Undefined | Outcome::Unknown => 0.0,
+    }
+}

@@ -10,8 +10,9 @@ use std::collections::BTreeMap;
 use num_traits::Signed;
 
 use super::Check;
-use super::calc::{Seen, is_zero, sign, tidy, within};
+use super::calc::{Seen, is_zero, rounding, sign, tidy, within};
 use super::powers::{Found, Tends, by_powers, not_zero};
+use super::taylor::{Side, Taylor, rooted};
 use super::{Answer, Form, Near};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, roles, samples};
@@ -19,20 +20,8 @@ use crate::expr::{Expr, Node, Point, Symbol};
 use crate::formula::{Sentence, sentence};
 use crate::interval::{Interval, Outcome, evaluate};
 
-/// Highest power of the distance that is looked at.
-const POWERS: usize = 12;
 /// Highest power among which the leading one is looked for.
 const LEADING: usize = 6;
-/// Largest formula whose derivatives are followed, in nodes.
-const LONGEST: usize = 4_000;
-
-/// From which sides a parameter can come to a value.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Side {
-    Above,
-    Below,
-    Both,
-}
 
 /// A limit: value, none, or not found, with the reason.
 pub fn fill(out: &mut Answer, of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) {
@@ -99,7 +88,15 @@ pub(super) fn approximate(
     }
     let wanted = order.map_or(LEADING, |order| order as usize);
     // Two powers more tell what is left out.
-    let Some(series) = Series::of(of, parameter, to, wanted + 3, domains) else {
+    let last = wanted + 3;
+    let series = Series::of(of, parameter, to, last, domains).or_else(|| {
+        let side = side(parameter, to, domains);
+        let (of, given) = rooted(of, (parameter, to, side), last, domains);
+        let mut series = Series::of(&of, parameter, to, last, domains)?;
+        series.given.extend(given);
+        Some(series)
+    });
+    let Some(series) = series else {
         let none = " was found there";
         out.text
             .push(sentence!["no power series in ", parameter, none]);
@@ -290,59 +287,6 @@ impl Series {
     }
 }
 
-/// Derivatives at a value, one after the other.
-struct Taylor<'a> {
-    p: &'a Symbol,
-    to: &'a Expr,
-    domains: &'a Domains,
-    derivative: Expr,
-    coefficients: Vec<Expr>,
-}
-
-impl<'a> Taylor<'a> {
-    fn new(e: Expr, p: &'a Symbol, to: &'a Expr, domains: &'a Domains) -> Taylor<'a> {
-        Taylor {
-            p,
-            to,
-            domains,
-            derivative: e,
-            coefficients: Vec::new(),
-        }
-    }
-
-    /// The coefficient of a power; `None` where a derivative has no value.
-    fn coefficient(&mut self, n: usize) -> Option<Expr> {
-        while self.coefficients.len() <= n {
-            let done = self.coefficients.len();
-            if done > 2 * POWERS {
-                return None;
-            }
-            if done > 0 {
-                self.derivative = tidy(&self.derivative.derivative(self.p), self.domains).ok()?;
-            }
-            if self.derivative.size() > LONGEST {
-                return None;
-            }
-            let at = BTreeMap::from([(self.p.clone(), self.to.clone())]);
-            let value = tidy(&self.derivative.substitute(&at), self.domains).ok()?;
-            let factorial: i64 = (1..=done as i64).product();
-            let scaled = &value / &Expr::from(factorial);
-            self.coefficients.push(tidy(&scaled, self.domains).ok()?);
-        }
-        self.coefficients.get(n).cloned()
-    }
-
-    /// The lowest power whose coefficient is not zero.
-    fn lowest(&mut self) -> Option<usize> {
-        for n in 0..POWERS {
-            if !is_zero(&self.coefficient(n)?, self.domains)? {
-                return Some(n);
-            }
-        }
-        None
-    }
-}
-
 fn by_taylor(of: &Expr, p: &Symbol, to: &Expr, domains: &Domains) -> Option<Found> {
     let series = Series::of(of, p, to, 0, domains)?;
     let lead = series.coefficients.first()?;
@@ -448,6 +392,8 @@ fn tried(
         };
         if second <= 1e-13 * scale || second * power <= first {
             seen += 1;
+        } else if second <= rounding(&gap, &point) {
+            // What is left there is rounding.
         } else {
             return Some(Check::new(
                 "numbers",

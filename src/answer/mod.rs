@@ -12,6 +12,7 @@ pub mod limit;
 mod optimum;
 mod powers;
 mod roots;
+mod taylor;
 mod threshold;
 mod zeros;
 

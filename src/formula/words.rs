@@ -341,6 +341,13 @@ impl Lexer<'_> {
         self.refuse(&parts.key(), start, end)
     }
 
+    /// A declared component of what has no name as a whole.
+    fn part_of(&self, key: &str, axis: &str) -> Option<String> {
+        let name = format!("{key}_{axis}");
+        let mut declared = self.symbols.declared().iter();
+        declared.any(|d| *d.name == *name).then_some(name)
+    }
+
     /// Notes an undeclared name and goes on with it, so that all are reported together.
     pub(super) fn refuse(&mut self, key: &str, start: usize, end: usize) -> Faulty<Tok> {
         if self.symbols.is_brief() {
@@ -351,6 +358,8 @@ impl Lexer<'_> {
         let mut fault = Fault::new(format!("`{shown}` is not declared"), start, end);
         if shown.len() > 1 && small != shown && crate::dimension::unit(&small).is_ok() {
             fault = fault.hint(format!("the unit is {small}"));
+        } else if let [Some(x), Some(y)] = ["x", "y"].map(|axis| self.part_of(key, axis)) {
+            fault = fault.hint(format!("it is a vector: its components are {x} and {y}"));
         } else if let Some(nearest) = self.symbols.nearest(key) {
             fault = fault.hint(format!("did you mean {nearest}?"));
         } else {

@@ -13,9 +13,9 @@ use super::integrate::points_of;
 use super::worlds::{self, World};
 use super::{Answer, StageTold, State, Told};
 use crate::answer::Check;
+use crate::answer::calc::rounding;
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Point, Rational, Symbol};
-use crate::interval::{Interval, Outcome, evaluate};
 use crate::numeric::follow::{self, BodyState, Component, Followed, Loss, Lost, Passed, What};
 use crate::scene::Scene;
 
@@ -279,19 +279,7 @@ fn shaken(e: Option<&Expr>, point: &Point<f64>) -> f64 {
         *near.values.get_mut(name)? *= 1.0 + BACKWARD;
         Some((e.evaluate(&near)? - here).abs())
     });
-    let as_it_is = |(name, value): (&Symbol, &f64)| {
-        let [low, high] = [*value; 2];
-        (name.clone(), Outcome::Value(Interval { low, high }))
-    };
-    let exact = Point {
-        values: point.values.iter().map(as_it_is).collect(),
-        ..Point::default()
-    };
-    let rounding = match evaluate(e, &exact) {
-        Outcome::Value(enclosed) => enclosed.high - enclosed.low,
-        Outcome::Undefined | Outcome::Unknown => 0.0,
-    };
-    moves.sum::<f64>() + rounding
+    moves.sum::<f64>() + rounding(e, point)
 }
 
 impl Second<'_> {

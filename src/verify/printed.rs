@@ -208,6 +208,9 @@ impl<'a> Desk<'a> {
     fn unanswered(&self, item: &str) -> String {
         match self.open.get(item) {
             Some(why) => format!("{item} has no value: {why}"),
+            None if item.contains("_case") => format!(
+                "the scene answers no {item}; what is printed of any case goes by the plain name"
+            ),
             None => format!("the scene answers no {item}"),
         }
     }

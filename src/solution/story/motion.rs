@@ -71,8 +71,13 @@ impl Page<'_> {
         if let StageKind::Linkage(linkage) = &stage.kind {
             self.velocities(told, linkage);
         }
-        let rises =
-            matches!(&stage.kind, StageKind::Turn(turn) if matches!(turn.until, Until::Stops));
+        let rises = match &stage.kind {
+            StageKind::Turn(turn) => matches!(turn.until, Until::Stops),
+            StageKind::Slide(slide) => {
+                slide.spring.is_some() && matches!(slide.until, SlideEnd::Stops)
+            }
+            _ => false,
+        };
         self.energies(told, rises);
         let raw = self.energy_at(told, &told.before);
         let math = chain(t("-"), &raw, start);
@@ -153,7 +158,7 @@ impl Page<'_> {
         self.whirled(stage, told);
     }
 
-    /// What the letters of a balance of energy stand for; where a rotation comes to rest, only the first is needed.
+    /// What the letters of a balance of energy stand for; where it comes to rest, only the first is needed.
     fn energies(&mut self, told: &StageTold, to_rest: bool) {
         let mut letters = vec![(
             words::kinetic("", "-"),
@@ -165,6 +170,7 @@ impl Page<'_> {
                     (1, _) => (name("W", "", "", false), "the work done on the way"),
                     (_, "weight") => (name("W", what, "", false), "the work of the weight"),
                     (_, "friction") => (name("W", what, "", false), "the work of friction"),
+                    (_, "spring") => (name("W", what, "", false), "the work of the spring"),
                     (_, "moment") => (name("W", what, "", false), "the work of the moment"),
                     _ => (name("W", what, "", false), "the work of the force"),
                 });

@@ -332,10 +332,11 @@ impl<'a> Pair<'a> {
         Ok(())
     }
 
-    /// On a rough floor the lower body may stop, and stays then.
+    /// On a rough floor the lower body may stop, and stays then; from rest it only gets faster.
     fn goes_on(&mut self, end: &Expr) -> Result<(), Refused> {
         let domains = &self.stage.scene.domains;
-        if self.below.friction.is_none() || is_zero(&self.floor, domains) == Some(true) {
+        let from_rest = is_zero(&self.speeds[1], domains) == Some(true);
+        if from_rest || is_zero(&self.floor, domains) == Some(true) {
             return Ok(());
         }
         let against = proved(&self.floor, domains).unwrap_or(-1);
