@@ -191,11 +191,9 @@ pub fn at_ends(near: &[Sample], domains: &Domains) -> Vec<Sample> {
             for value in closed.chain(inside.then_some(Coordinate::Number(zero))) {
                 // What has been moved already does not come again.
                 let free = |p: &&Sample| p.coordinates.get(name) == Some(at);
-                let more: Vec<Sample> = moved.iter().filter(free).cloned().collect();
-                moved.extend(more.into_iter().map(|mut p| {
-                    p.coordinates.insert(name.clone(), value.clone());
-                    p
-                }));
+                let more = moved.iter().filter(free);
+                let more: Vec<Sample> = more.map(|p| p.moved(name, value.clone())).collect();
+                moved.extend(more);
             }
             moved.truncate(MOST_ENDS);
         }
@@ -267,6 +265,13 @@ impl Sample {
     pub fn words(&self) -> String {
         let words = self.coordinates.iter().map(|(name, c)| c.words(name));
         words.collect::<Vec<_>>().join(", ")
+    }
+
+    /// The point with another value of one symbol.
+    pub fn moved(&self, name: &Symbol, value: Coordinate) -> Sample {
+        let mut moved = self.clone();
+        moved.coordinates.insert(name.clone(), value);
+        moved
     }
 
     /// The point for evaluation in a certified number type. With `radians`, angles known by direction also get their value.

@@ -8,7 +8,7 @@
 use super::Ground;
 use super::proof::{Proof, compare};
 use crate::algebra::{Sign, sign};
-use crate::domain::{Domains, Limit};
+use crate::domain::Domains;
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Function, Node, Point, Rational};
 use crate::interval::{Interval, Outcome, evaluate};
@@ -47,11 +47,8 @@ fn one_logarithm(difference: &Expr, domains: &Domains) -> Option<Proof> {
     let logs: Vec<(Rational, Expr)> = terms.iter().map(log).collect::<Option<_>>()?;
     let common = Rational::from(common_denominator(&logs));
     let power = |(k, under): &(Rational, Expr)| {
-        let k = (k * &common)
-            .numer()
-            .as_i64()
-            .filter(|k| k.abs() <= HIGHEST)?;
-        Some(under.powi(k))
+        let k = (k * &common).numer().as_i64()?;
+        (k.abs() <= HIGHEST).then(|| under.powi(k))
     };
     let product = Expr::product(logs.iter().map(power).collect::<Option<Vec<_>>>()?);
     match compare(&product, &Expr::one(), domains) {
@@ -62,9 +59,8 @@ fn one_logarithm(difference: &Expr, domains: &Domains) -> Option<Proof> {
 
 /// The least common multiple of the denominators of factors.
 fn common_denominator(parts: &[(Rational, Expr)]) -> crate::expr::Int {
-    parts.iter().fold(crate::expr::Int::from(1), |n, (k, _)| {
-        num_integer::lcm(n, k.denom().clone())
-    })
+    let denominators = parts.iter().map(|(k, _)| k.denom().clone());
+    denominators.fold(1.into(), num_integer::lcm)
 }
 
 /// A sum without the factors that all its terms share: where the rest is zero the sum is.
@@ -125,17 +121,17 @@ fn whole_turns(difference: &Expr, domains: &Domains) -> Option<Proof> {
         return None;
     }
     let d = &Expr::from(common) * difference;
-    let Proof::Equal(mut assumed, _) = compare(&d.sin(), &Expr::zero(), domains) else {
-        return None;
-    };
-    let Proof::Equal(more, _) = compare(&d.cos(), &Expr::one(), domains) else {
-        return None;
-    };
-    assumed.extend(
-        more.into_iter()
-            .filter(|a| !assumed.contains(a))
-            .collect::<Vec<_>>(),
-    );
+    let mut assumed = Vec::new();
+    for (value, there) in [(d.sin(), Expr::zero()), (d.cos(), Expr::one())] {
+        let Proof::Equal(more, _) = compare(&value, &there, domains) else {
+            return None;
+        };
+        for assumption in more {
+            if !assumed.contains(&assumption) {
+                assumed.push(assumption);
+            }
+        }
+    }
     Some(Proof::Equal(assumed, Ground::Turns))
 }
 
@@ -159,10 +155,8 @@ fn range(atom: &Expr, domains: &Domains) -> Option<[f64; 2]> {
             let sign = sign(argument, domains);
             let positive = matches!(sign, Some(Sign::Positive | Sign::NotNegative | Sign::Zero));
             let negative = matches!(sign, Some(Sign::Negative | Sign::NotPositive | Sign::Zero));
-            let (low, high) = (
-                if positive { 0.0 } else { -FRAC_PI_2 },
-                if negative { 0.0 } else { FRAC_PI_2 },
-            );
+            let low = if positive { 0.0 } else { -FRAC_PI_2 };
+            let high = if negative { 0.0 } else { FRAC_PI_2 };
             match function {
                 Function::Asin | Function::Atan => Some([low, high]),
                 Function::Acos => Some([FRAC_PI_2 - high, FRAC_PI_2 - low]),
@@ -171,9 +165,8 @@ fn range(atom: &Expr, domains: &Domains) -> Option<[f64; 2]> {
         }
         Node::Symbol(name) if &**name == "pi" => Some([PI, PI]),
         Node::Symbol(name) => {
-            let domain = domains.symbols.get(name)?;
-            let end = |limit: &Option<Limit>| limit.as_ref().map(Limit::approximate);
-            Some([end(&domain.low)?, end(&domain.high)?])
+            let [low, high] = domains.symbols.get(name)?.bounds();
+            Some([low?, high?])
         }
         _ => None,
     }

@@ -133,11 +133,8 @@ fn folded(e: &Expr) -> Option<&Expr> {
         Node::Power(base, exponent) if exponent.as_number().is_some_and(|k| !k.is_integer()) => {
             match base.node() {
                 Node::Power(f, even) => {
-                    let even = even.as_number()?;
-                    (even.is_integer()
-                        && even.is_positive()
-                        && (even / crate::expr::ratio(2, 1)).is_integer())
-                    .then_some(f)
+                    let half = even.as_number()? / crate::expr::ratio(2, 1);
+                    (half.is_integer() && half.is_positive()).then_some(f)
                 }
                 _ => None,
             }

@@ -81,6 +81,12 @@ struct Bounds {
     below: f64,
 }
 
+impl Bounds {
+    fn new(above: f64, below: f64) -> Bounds {
+        Bounds { above, below }
+    }
+}
+
 /// The field a number lives in: its roots, their degrees together, and the common denominator of its turns.
 struct Extent {
     roots: BTreeSet<Expr>,
@@ -91,20 +97,18 @@ struct Extent {
 impl Extent {
     fn size(&mut self, e: &Expr) -> Option<Bounds> {
         match e.node() {
-            Node::Number(value) => Some(Bounds {
-                above: value.numer().bits() as f64,
-                below: (value.denom() - &Int::one()).bits() as f64,
-            }),
+            Node::Number(value) => {
+                let below = (value.denom() - &Int::one()).bits();
+                Some(Bounds::new(value.numer().bits() as f64, below as f64))
+            }
             Node::Symbol(_) => None,
             Node::Sum(terms) => {
                 let mut total = self.size(&terms[0])?;
                 for term in &terms[1..] {
                     let term = self.size(term)?;
                     let (x, y) = (total.above + term.below, term.above + total.below);
-                    total = Bounds {
-                        above: x.max(y) + (-(x - y).abs()).exp2().ln_1p() / std::f64::consts::LN_2,
-                        below: total.below + term.below,
-                    };
+                    let more = (-(x - y).abs()).exp2().ln_1p() / std::f64::consts::LN_2;
+                    total = Bounds::new(x.max(y) + more, total.below + term.below);
                 }
                 Some(total)
             }
@@ -112,8 +116,7 @@ impl Extent {
                 let mut total = self.size(&factors[0])?;
                 for factor in &factors[1..] {
                     let factor = self.size(factor)?;
-                    total.above += factor.above;
-                    total.below += factor.below;
+                    total = Bounds::new(total.above + factor.above, total.below + factor.below);
                 }
                 Some(total)
             }
@@ -137,11 +140,8 @@ impl Extent {
         let times = exponent.numer().abs().to_f64().filter(|k| *k < 1e6)?;
         let (above, below) = (size.above * times, size.below * times);
         Some(match exponent.is_negative() {
-            true => Bounds {
-                above: below,
-                below: above,
-            },
-            false => Bounds { above, below },
+            true => Bounds::new(below, above),
+            false => Bounds::new(above, below),
         })
     }
 
@@ -165,10 +165,7 @@ impl Extent {
             Function::Sin | Function::Tan => turn(&half - &angle.pi)?,
             _ => return None,
         }
-        Some(Bounds {
-            above: 1.0,
-            below: 1.0,
-        })
+        Some(Bounds::new(1.0, 1.0))
     }
 }
 

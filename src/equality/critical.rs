@@ -4,6 +4,8 @@
 //! points, each symbol is led to both sides of every place where an argument changes sign; one point is kept for each
 //! new pattern of signs. Also whether the arguments forbid a value on the whole domain, by enclosures over its parts.
 
+use std::collections::BTreeSet;
+
 use num_traits::{One, Zero};
 
 use super::Assumption;
@@ -75,12 +77,11 @@ fn squared(e: &Expr) -> impl Iterator<Item = Expr> {
         _ => std::slice::from_ref(e),
     };
     let even = |k: &Rational| k.is_integer() && k.numer().as_i64().is_some_and(|k| k % 2 == 0);
-    factors
-        .iter()
-        .filter_map(move |factor| match factor.node() {
-            Node::Power(base, k) => k.as_number().is_some_and(even).then(|| base.clone()),
-            _ => None,
-        })
+    let squared = move |factor: &Expr| match factor.node() {
+        Node::Power(base, k) => k.as_number().is_some_and(even).then(|| base.clone()),
+        _ => None,
+    };
+    factors.iter().filter_map(squared)
 }
 
 /// Points at which the signs of the arguments form patterns not seen at the given ones.
@@ -106,11 +107,9 @@ pub(super) fn points(
                 continue;
             };
             let from = doubles(&start);
-            let mut zeros: Vec<f64> = arguments
-                .iter()
-                .filter(|e| e.symbols().contains(&name))
-                .flat_map(|e| rough_zeros(e, &name, &from, domain))
-                .collect();
+            let own = arguments.iter().filter(|e| e.symbols().contains(&name));
+            let zeros = own.flat_map(|e| rough_zeros(e, &name, &from, domain));
+            let mut zeros: Vec<f64> = zeros.collect();
             zeros.sort_by(f64::total_cmp);
             zeros.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * a.abs().max(1e-9));
             for part in parts(domain, &zeros) {
@@ -118,8 +117,7 @@ pub(super) fn points(
                 let Some(value) = crate::domain::within(&part, domain, &role) else {
                     continue;
                 };
-                let mut moved = start.clone();
-                moved.coordinates.insert(name.clone(), value);
+                let moved = start.moved(&name, value);
                 let signs = pattern(&doubles(&moved));
                 if seen.contains(&signs) || !domains.admits(&moved) {
                     continue;
@@ -151,12 +149,9 @@ pub(super) fn points(
 }
 
 fn free_symbols(arguments: &[Expr], domains: &Domains, at: &Sample) -> Vec<Symbol> {
-    let mut names: Vec<Symbol> = arguments.iter().flat_map(|e| e.symbols()).collect();
-    names.sort();
-    names.dedup();
-    names.retain(|name| at.coordinates.contains_key(name) && !domains.is_component(name));
-    names.truncate(SYMBOLS);
-    names
+    let names: BTreeSet<Symbol> = arguments.iter().flat_map(|e| e.symbols()).collect();
+    let free = |name: &Symbol| at.coordinates.contains_key(name) && !domains.is_component(name);
+    names.into_iter().filter(free).take(SYMBOLS).collect()
 }
 
 /// The parts of a domain between numbers, which are rounded: they and their nearest neighbours belong to none.
@@ -180,23 +175,14 @@ type Part = Vec<(Symbol, [f64; 2])>;
 
 /// The whole domain of some symbols, widened by the rounding of its ends.
 fn whole(arguments: &[&Expr], domains: &Domains) -> Option<Part> {
-    let mut names: Vec<Symbol> = arguments.iter().flat_map(|e| e.symbols()).collect();
-    names.sort();
-    names.dedup();
-    names.retain(|name| &**name != "pi");
+    let names: BTreeSet<Symbol> = arguments.iter().flat_map(|e| e.symbols()).collect();
     if names.len() > SYMBOLS {
         return None;
     }
-    let end = |limit: &Option<Limit>, missing: f64, out: f64| {
-        limit.as_ref().map_or(missing, |l| {
-            let x = l.approximate();
-            x + out * x.abs() * 1e-15
-        })
-    };
     let interval = |name: Symbol| {
-        let domain = domains.symbols.get(&name)?;
-        let low = end(&domain.low, f64::NEG_INFINITY, -1.0);
-        let high = end(&domain.high, f64::INFINITY, 1.0);
+        let [low, high] = domains.symbols.get(&name)?.bounds();
+        let low = low.map_or(f64::NEG_INFINITY, |x| x - x.abs() * 1e-15);
+        let high = high.map_or(f64::INFINITY, |x| x + x.abs() * 1e-15);
         Some((name, [low, high]))
     };
     names.into_iter().map(interval).collect()
@@ -235,11 +221,8 @@ pub(super) fn no_value(e: &Expr, domains: &Domains) -> bool {
         }
         _ => false,
     });
-    let needed = arguments(&[e]).into_iter();
-    let needed: Vec<Expr> = needed
-        .filter(|(_, needed)| *needed)
-        .map(|(e, _)| e)
-        .collect();
+    let needed = arguments(&[e]).into_iter().filter(|(_, needed)| *needed);
+    let needed: Vec<Expr> = needed.map(|(e, _)| e).collect();
     never || needed.iter().any(|x| sign(x) == Some(Sign::Negative)) || nowhere(&needed, domains)
 }
 
@@ -302,28 +285,15 @@ pub(super) fn tested(
             continue;
         }
         let mut all = points(std::slice::from_ref(e), near, domains, roles);
-        all.extend(
-            near.iter()
-                .take(1)
-                .flat_map(|start| corners(e, start, domains)),
-        );
-        let starts = near.iter().take(DESCENTS);
-        all.extend(starts.map(|start| descended(e, start, domains, roles)));
-        all.extend(
-            near.iter()
-                .take(2)
-                .flat_map(|start| kinks(e, start, domains)),
-        );
+        let starts = |count| near.iter().take(count);
+        all.extend(starts(1).flat_map(|start| corners(e, start, domains)));
+        all.extend(starts(DESCENTS).map(|start| descended(e, start, domains, roles)));
+        all.extend(starts(2).flat_map(|start| kinks(e, start, domains)));
         for start in near {
             for name in free_symbols(std::slice::from_ref(e), domains, start) {
-                if let (Some(domain), Some(Coordinate::Number(_))) =
-                    (domains.symbols.get(&name), start.coordinates.get(&name))
-                {
-                    all.extend(far(domain).into_iter().map(|value| {
-                        let mut moved = start.clone();
-                        moved.coordinates.insert(name.clone(), value);
-                        moved
-                    }));
+                if let Some(domain) = along(&name, start, domains) {
+                    let far = far(domain).into_iter();
+                    all.extend(far.map(|value| start.moved(&name, value)));
                 }
             }
         }
@@ -355,8 +325,7 @@ fn descended(e: &Expr, start: &Sample, domains: &Domains, roles: &Roles) -> Samp
             crate::domain::within(&part, domain, &role)
         });
         let Some(value) = value else { continue };
-        let mut moved = at.clone();
-        moved.coordinates.insert(name.clone(), value);
+        let moved = at.moved(name, value);
         let [old, new] = [here, doubles(&moved)].map(|point| e.evaluate(&point));
         if new.is_some() && new < old {
             at = moved;
@@ -372,31 +341,20 @@ fn kinks(e: &Expr, start: &Sample, domains: &Domains) -> Vec<Sample> {
     for (inner, _) in arguments(&[e]).into_iter().take(2) {
         let inside = free_symbols(std::slice::from_ref(&inner), domains, start);
         for led in free_symbols(std::slice::from_ref(e), domains, start) {
-            let (Some(domain), Some(Coordinate::Number(_))) =
-                (domains.symbols.get(&led), start.coordinates.get(&led))
-            else {
+            let Some(domain) = along(&led, start, domains) else {
                 continue;
             };
-            for value in far(domain)
-                .into_iter()
-                .chain([start.coordinates[&led].clone()])
-            {
-                let mut moved = start.clone();
-                moved.coordinates.insert(led.clone(), value);
+            let values = far(domain).into_iter();
+            for value in values.chain([start.coordinates[&led].clone()]) {
+                let moved = start.moved(&led, value);
                 let here = doubles(&moved);
                 for follows in inside.iter().filter(|name| **name != led).take(2) {
                     let Some(domain) = domains.symbols.get(follows) else {
                         continue;
                     };
-                    for zero in rough_zeros(&inner, follows, &here, domain) {
-                        let Some(zero) = from_f64(zero).filter(|z| domain.contains(z)) else {
-                            continue;
-                        };
-                        let mut at = moved.clone();
-                        at.coordinates
-                            .insert(follows.clone(), Coordinate::Number(zero));
-                        out.push(at);
-                    }
+                    let zeros = rough_zeros(&inner, follows, &here, domain).into_iter();
+                    let zeros = zeros.filter_map(from_f64).filter(|z| domain.contains(z));
+                    out.extend(zeros.map(|z| moved.moved(follows, Coordinate::Number(z))));
                 }
             }
         }
@@ -404,27 +362,23 @@ fn kinks(e: &Expr, start: &Sample, domains: &Domains) -> Vec<Sample> {
     out
 }
 
+/// The domain of a symbol that has a number at a point.
+fn along<'d>(name: &Symbol, at: &Sample, domains: &'d Domains) -> Option<&'d Domain> {
+    let number = matches!(at.coordinates.get(name), Some(Coordinate::Number(_)));
+    domains.symbols.get(name).filter(|_| number)
+}
+
 /// A point with the numbers of an expression led towards the ends of their domains in every combination: what is linear in
 /// each of them changes sign at a corner if anywhere.
 fn corners(e: &Expr, start: &Sample, domains: &Domains) -> Vec<Sample> {
     let mut out = vec![start.clone()];
     for name in free_symbols(std::slice::from_ref(e), domains, start) {
-        let (Some(domain), Some(Coordinate::Number(_))) =
-            (domains.symbols.get(&name), start.coordinates.get(&name))
-        else {
+        let Some(domain) = along(&name, start, domains) else {
             continue;
         };
-        let [low, high] = near_ends(domain);
-        let led = |at: &Sample, to: &Rational| {
-            let mut moved = at.clone();
-            let to = Coordinate::Number(to.clone());
-            moved.coordinates.insert(name.clone(), to);
-            moved
-        };
-        out = out
-            .iter()
-            .flat_map(|at| [led(at, &low), led(at, &high)])
-            .collect();
+        let ends = near_ends(domain).map(Coordinate::Number);
+        let led = |at: &Sample| ends.each_ref().map(|end| at.moved(&name, end.clone()));
+        out = out.iter().flat_map(led).collect();
     }
     out
 }

@@ -23,12 +23,7 @@ pub(super) fn same(
         // A sign that was only seen has to be told first.
         Some((at, left, right)) if assumptions.iter().all(|a| !is_seen(a)) => How::OnBranch {
             condition: Condition::BothDefined,
-            elsewhere: Counterexample {
-                at: at.clone(),
-                left: left.clone(),
-                right: right.clone(),
-                confirmed: true,
-            },
+            elsewhere: Counterexample::confirmed(at, left.clone(), right.clone()),
         },
         _ => {
             let poles = poles(a, b, domains);
@@ -70,22 +65,17 @@ fn poles(a: &Expr, b: &Expr, domains: &Domains) -> Vec<Expr> {
     }
     let whole = |rest: &[Expr]| Expr::product(both.iter().chain(rest).cloned());
     let (left, right) = (whole(&left), whole(&right));
-    let mut field = Field::new(domains);
-    field.prepare([&left, &right]);
-    let split = |field: &mut Field| {
-        let (x, y) = (field.element(&left).ok()?, field.element(&right).ok()?);
-        field.split_zeros(&x, &y).ok()
+    let split = || {
+        let (field, x, y) = Field::pair(domains, &left, &right).ok()?;
+        let parts = field.split_zeros(&x, &y).ok()?;
+        Some((field, parts))
     };
-    let Some([only_left, _, only_right]) = split(&mut field) else {
+    let Some((field, [only_left, _, only_right])) = split() else {
         return Vec::new();
     };
-    let mut out: Vec<Expr> = Vec::new();
-    for x in only_left.iter().chain(&only_right) {
-        if !matches!(field.sign(x), Some(Sign::Positive | Sign::Negative)) {
-            out.push(field.expr(x));
-        }
-    }
-    out
+    let all = only_left.iter().chain(&only_right);
+    let weak = all.filter(|x| !field.sign(x).is_some_and(Sign::is_strict));
+    weak.map(|x| field.expr(x)).collect()
 }
 
 /// What a formula divides by, positive symbols left out.

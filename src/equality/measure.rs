@@ -14,7 +14,7 @@ const SERIES: usize = 200;
 const DEPTH: usize = 400;
 
 /// The size of a pair.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Size {
     /// Nodes, shared parts counted as often as they occur.
     pub nodes: usize,
@@ -32,18 +32,9 @@ pub(super) struct Size {
 
 /// The size, or `None` beyond the limits.
 pub(super) fn of(formulas: &[&Expr]) -> Option<Size> {
-    let mut size = Size {
-        nodes: 0,
-        series: 0,
-        turns: 0,
-        roots: 0,
-        partial: false,
-        branches: false,
-    };
-    formulas
-        .iter()
-        .all(|e| count(e, 0, &mut size))
-        .then_some(size)
+    let mut size = Size::default();
+    let all = formulas.iter().all(|e| count(e, 0, &mut size));
+    all.then_some(size)
 }
 
 fn count(e: &Expr, depth: usize, size: &mut Size) -> bool {
@@ -61,11 +52,9 @@ fn count(e: &Expr, depth: usize, size: &mut Size) -> bool {
                 _ => {
                     size.partial = true;
                     size.branches = true;
-                    let root = exponent.as_number().is_some_and(|k| (k + k).is_integer());
-                    if root {
-                        size.roots += 1
-                    } else {
-                        size.series += 1
+                    match exponent.as_number().is_some_and(|k| (k + k).is_integer()) {
+                        true => size.roots += 1,
+                        false => size.series += 1,
                     }
                 }
             }
@@ -113,11 +102,12 @@ fn cost(e: &Expr) -> (usize, usize) {
             for i in 1..base.min(6) {
                 terms = terms.saturating_mul(k.saturating_add(i)) / i;
             }
-            let squared = terms.saturating_mul(terms);
-            (
-                terms,
-                work.saturating_add(if base > 1 { squared } else { 0 }),
-            )
+            let squared = if base > 1 {
+                terms.saturating_mul(terms)
+            } else {
+                0
+            };
+            (terms, work.saturating_add(squared))
         }
         _ => (1, 0),
     }

@@ -420,11 +420,7 @@ impl Search<'_> {
             open => open,
         };
         let settled = matches!(open, Proof::Unequal { settled: true, .. });
-        let arcs = if settled {
-            None
-        } else {
-            arcs::prove(a, b, domains)
-        };
+        let arcs = (!settled).then(|| arcs::prove(a, b, domains)).flatten();
         arcs.or_else(|| constants::prove(a, b, domains))
             .or_else(|| self.other_proofs().next())
             .unwrap_or(open)
@@ -443,13 +439,7 @@ impl Search<'_> {
         let needed = self.needed();
         let where_defined = orders.into_iter().filter_map(move |(a, b)| {
             let (proof, used) = proof::compare_where_defined(a, b, self.domains, &needed)?;
-            match proof {
-                Proof::Equal(mut assumed, ground) => {
-                    assumed.extend(used.into_iter().map(Assumption::HasRoot));
-                    Some(Proof::Equal(assumed, ground))
-                }
-                _ => None,
-            }
+            proof.with_roots(used)
         });
         let pinned = (!self.pins.is_empty()).then_some(&self.pins).into_iter();
         let pinned = pinned.filter_map(|pins| self.proof_with(pins));
@@ -481,8 +471,13 @@ impl Search<'_> {
         match critical::tested(&assumptions, &near, self.domains, self.roles) {
             Ok(assumptions) => {
                 let pair = (self.a, self.b);
-                let known = gap::same(pair, self.domains, assumptions, ground, &self.tally);
-                Some(known)
+                Some(gap::same(
+                    pair,
+                    self.domains,
+                    assumptions,
+                    ground,
+                    &self.tally,
+                ))
             }
             Err(points) => {
                 let found = self.probe.points(&points, &mut self.tally)?;
@@ -554,12 +549,8 @@ impl Search<'_> {
             })
         };
         only(Side::Right)?;
-        only(Side::Left).map(|(at, left, right)| Counterexample {
-            at: at.clone(),
-            left: left.clone(),
-            right: right.clone(),
-            confirmed: true,
-        })
+        let (at, left, right) = only(Side::Left)?;
+        Some(Counterexample::confirmed(at, left.clone(), right.clone()))
     }
 
     fn different(&self, found: Counterexample) -> Equality {
@@ -597,6 +588,16 @@ impl Value {
 }
 
 impl Counterexample {
+    /// A point at which the values were told apart twice, or only one of them is.
+    fn confirmed(at: &Sample, left: Value, right: Value) -> Counterexample {
+        Counterexample {
+            at: at.clone(),
+            left,
+            right,
+            confirmed: true,
+        }
+    }
+
     /// Both values in words, with as many digits as it takes to see the difference.
     pub fn values(&self) -> [String; 2] {
         let shown = |digits| [self.left.words(digits), self.right.words(digits)];

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use num_traits::{Signed, Zero};
 
+use super::Search;
 use super::proof::{self, Proof};
-use super::{Assumption, Search};
 use crate::domain::{Coordinate, Domain, Domains, Sample, samples};
 use crate::expr::{Expr, Rational, Symbol};
 
@@ -46,8 +46,7 @@ pub(super) fn pins(needed: &[Expr], domains: &Domains) -> Vec<Pin> {
 /// The closed end of a symbol's domain at which k x + c is 0, where it is negative on the rest.
 fn only_value(e: &Expr, name: &Symbol, domain: &Domain) -> Option<Rational> {
     let slope = e.derivative(name).as_number().cloned()?;
-    let at_zero = BTreeMap::from([(name.clone(), Expr::zero())]);
-    let constant = e.substitute(&at_zero).as_number().cloned()?;
+    let constant = e.put(name, &Expr::zero()).as_number().cloned()?;
     if slope.is_zero() {
         return None;
     }
@@ -79,13 +78,7 @@ impl Search<'_> {
         let values = values.map(|pin| (pin.name.clone(), Expr::from(pin.value.clone())));
         let values: BTreeMap<Symbol, Expr> = values.collect();
         let (a, b) = (self.a.substitute(&values), self.b.substitute(&values));
-        match proof::compare(&a, &b, self.domains) {
-            Proof::Equal(mut assumed, ground) => {
-                let roots = pins.iter().map(|pin| pin.root_of.clone());
-                assumed.extend(roots.map(Assumption::HasRoot));
-                Some(Proof::Equal(assumed, ground))
-            }
-            _ => None,
-        }
+        let roots = pins.iter().map(|pin| pin.root_of.clone());
+        proof::compare(&a, &b, self.domains).with_roots(roots)
     }
 }

@@ -23,6 +23,17 @@ pub(super) enum Proof {
     Stopped(String),
 }
 
+impl Proof {
+    /// A proof of equality where besides these roots have values.
+    pub(super) fn with_roots(self, roots: impl IntoIterator<Item = Expr>) -> Option<Proof> {
+        let Proof::Equal(mut assumed, ground) = self else {
+            return None;
+        };
+        assumed.extend(roots.into_iter().map(Assumption::HasRoot));
+        Some(Proof::Equal(assumed, ground))
+    }
+}
+
 /// Compares the normal forms of two formulas whose symbols are all declared.
 pub(super) fn compare(a: &Expr, b: &Expr, domains: &Domains) -> Proof {
     let mut field = Field::new(domains);
@@ -40,11 +51,8 @@ pub(super) fn compare_where_defined(
 ) -> Option<(Proof, Vec<Expr>)> {
     let mut field = Field::new(domains);
     field.prepare([a, b]);
-    let used: Vec<Expr> = needed
-        .iter()
-        .filter(|e| field.suppose(e))
-        .cloned()
-        .collect();
+    let used = needed.iter().filter(|e| field.suppose(e));
+    let used: Vec<Expr> = used.cloned().collect();
     (!used.is_empty()).then(|| (compare_in(&mut field, a, b), used))
 }
 

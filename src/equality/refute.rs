@@ -22,10 +22,9 @@ pub(super) struct Probe<'a> {
 pub(super) struct Tally {
     pub exact_equal: usize,
     pub both_defined: usize,
-    left_defined: usize,
-    left_undefined: usize,
-    right_defined: usize,
-    right_undefined: usize,
+    /// Of either side.
+    defined: [usize; 2],
+    undefined: [usize; 2],
     /// Points where exactly one side has a value, with that side's value.
     pub apart: Vec<(Sample, Value, Value)>,
     /// Points where both are enclosed and overlap.
@@ -43,45 +42,31 @@ impl Tally {
     }
 
     pub fn defined(&self, side: Side) -> usize {
-        if side == Side::Left {
-            self.left_defined
-        } else {
-            self.right_defined
-        }
+        self.defined[side as usize]
     }
 
     pub fn undefined(&self, side: Side) -> usize {
-        if side == Side::Left {
-            self.left_undefined
-        } else {
-            self.right_undefined
-        }
+        self.undefined[side as usize]
     }
 
     fn note<T>(&mut self, left: &Outcome<T>, right: &Outcome<T>) {
-        let defined = |o: &Outcome<T>| matches!(o, Outcome::Value(_));
-        let undefined = |o: &Outcome<T>| matches!(o, Outcome::Undefined);
-        self.left_defined += usize::from(defined(left));
-        self.right_defined += usize::from(defined(right));
-        self.left_undefined += usize::from(undefined(left));
-        self.right_undefined += usize::from(undefined(right));
-        self.both_defined += usize::from(defined(left) && defined(right));
+        for (side, outcome) in [left, right].into_iter().enumerate() {
+            self.defined[side] += usize::from(matches!(outcome, Outcome::Value(_)));
+            self.undefined[side] += usize::from(matches!(outcome, Outcome::Undefined));
+        }
+        let both = matches!((left, right), (Outcome::Value(_), Outcome::Value(_)));
+        self.both_defined += usize::from(both);
     }
 }
 
 impl<'a> Probe<'a> {
     pub fn new(left: &'a Expr, right: &'a Expr, roles: &Roles) -> Probe<'a> {
-        let angles = roles
-            .symbols
-            .iter()
-            .filter(|(_, r)| r.turns && !r.bare)
-            .map(|(name, _)| name.clone())
-            .collect();
+        let angles = roles.symbols.iter().filter(|(_, r)| r.turns && !r.bare);
         Probe {
             left,
             right,
             radians: roles.radians,
-            angles,
+            angles: angles.map(|(name, _)| name.clone()).collect(),
             constant: roles.symbols.is_empty(),
         }
     }
@@ -172,12 +157,7 @@ impl<'a> Probe<'a> {
             _ => false,
         };
         // Two independent enclosures must agree that the values differ.
-        apart.then(|| Counterexample {
-            at: at.clone(),
-            left: l,
-            right: r,
-            confirmed: true,
-        })
+        apart.then(|| Counterexample::confirmed(at, l, r))
     }
 
     /// A counterexample in fractions, checked by interval arithmetic: doubles first, dyadic numbers where these overlap.
@@ -197,11 +177,10 @@ impl<'a> Probe<'a> {
                 _ => false,
             },
         };
+        let [left, right] = [left, right].map(Value::Exact);
         Counterexample {
-            at: at.clone(),
-            left: Value::Exact(left),
-            right: Value::Exact(right),
             confirmed,
+            ..Counterexample::confirmed(at, left, right)
         }
     }
 
@@ -231,17 +210,12 @@ impl<'a> Probe<'a> {
                 continue;
             };
             if l.is_disjoint(&r) {
-                return Some(Counterexample {
-                    at: at.clone(),
-                    left: Value::Within(l),
-                    right: Value::Within(r),
-                    confirmed: true,
-                });
+                let [left, right] = [l, r].map(Value::Within);
+                return Some(Counterexample::confirmed(at, left, right));
             }
             tally.both_defined += 1;
-            tally.digits = tally
-                .digits
-                .max(l.digits().min(r.digits()).min(BITS * 3 / 10));
+            let digits = l.digits().min(r.digits()).min(BITS * 3 / 10);
+            tally.digits = tally.digits.max(digits);
         }
         None
     }
@@ -250,10 +224,9 @@ impl<'a> Probe<'a> {
 fn agreement(l: &Interval, r: &Interval) -> u32 {
     let width = (l.high.max(r.high) - l.low.min(r.low)).abs();
     let size = l.high.abs().max(r.high.abs());
-    if size > 0.0 && width > 0.0 {
-        (size / width).log10().clamp(0.0, 15.0) as u32
-    } else {
-        0
+    match size > 0.0 && width > 0.0 {
+        true => (size / width).log10().clamp(0.0, 15.0) as u32,
+        false => 0,
     }
 }
 

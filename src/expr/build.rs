@@ -11,11 +11,9 @@ impl Expr {
     /// Sum of the terms; nested sums are opened, numbers added up at the place of the first, zeros dropped.
     pub fn sum(terms: impl IntoIterator<Item = Expr>) -> Expr {
         let mut out: Vec<Expr> = terms.into_iter().collect();
-        if out.iter().any(|term| matches!(term.node(), Node::Sum(_))) {
-            out = opened(out, |node| match node {
-                Node::Sum(inner) => Some(inner),
-                _ => None,
-            });
+        let nested = |term: &Expr| matches!(term.node(), Node::Sum(_));
+        if out.iter().any(nested) {
+            out = opened(out, nested);
         }
         let mut number: Option<(usize, Rational)> = None;
         let mut kept = 0;
@@ -46,14 +44,9 @@ impl Expr {
     /// A factor 0 makes the product 0 only where every other factor has a value everywhere.
     pub fn product(factors: impl IntoIterator<Item = Expr>) -> Expr {
         let mut out: Vec<Expr> = factors.into_iter().collect();
-        if out
-            .iter()
-            .any(|factor| matches!(factor.node(), Node::Product(_)))
-        {
-            out = opened(out, |node| match node {
-                Node::Product(inner) => Some(inner),
-                _ => None,
-            });
+        let nested = |factor: &Expr| matches!(factor.node(), Node::Product(_));
+        if out.iter().any(nested) {
+            out = opened(out, nested);
         }
         let mut number = Rational::one();
         out.retain(|factor| {
@@ -136,38 +129,33 @@ impl Expr {
 
     /// Sine; sin 0 is 0.
     pub fn sin(&self) -> Expr {
-        if self.is_zero() {
-            Expr::zero()
-        } else {
-            Expr::call(Function::Sin, self.clone())
-        }
+        self.turned(Function::Sin, 0)
     }
 
     /// Cosine; cos 0 is 1.
     pub fn cos(&self) -> Expr {
-        if self.is_zero() {
-            Expr::one()
-        } else {
-            Expr::call(Function::Cos, self.clone())
-        }
+        self.turned(Function::Cos, 1)
     }
 
     /// Tangent; tan 0 is 0.
     pub fn tan(&self) -> Expr {
-        if self.is_zero() {
-            Expr::zero()
-        } else {
-            Expr::call(Function::Tan, self.clone())
+        self.turned(Function::Tan, 0)
+    }
+
+    /// A function of an angle with its value at zero.
+    fn turned(&self, function: Function, at_zero: i64) -> Expr {
+        match self.is_zero() {
+            true => Expr::from(at_zero),
+            false => Expr::call(function, self.clone()),
         }
     }
 
     /// Whether the expression has a value at every real point of its symbols: no quotient, root, logarithm and the like.
     fn is_total(&self) -> bool {
         use Function::{Acos, Asin, Ln, Tan};
+        let whole = |k: &Rational| k.is_integer() && k.is_positive();
         self.parts().all(|e| match e.node() {
-            Node::Power(_, exponent) => exponent
-                .as_number()
-                .is_some_and(|k| k.is_integer() && k.is_positive()),
+            Node::Power(_, exponent) => exponent.as_number().is_some_and(whole),
             Node::Call(f, _) => !matches!(f, Tan | Asin | Acos | Ln),
             _ => true,
         })
@@ -175,12 +163,14 @@ impl Expr {
 }
 
 /// The parts of parts that are of one kind with the whole in their place.
-fn opened(parts: Vec<Expr>, inside: impl Fn(&Node) -> Option<&Vec<Expr>>) -> Vec<Expr> {
+fn opened(parts: Vec<Expr>, nested: impl Fn(&Expr) -> bool) -> Vec<Expr> {
     let mut out = Vec::with_capacity(2 * parts.len());
     for part in parts {
-        match inside(part.node()) {
-            Some(inner) => out.extend_from_slice(inner),
-            None => out.push(part),
+        match part.node() {
+            Node::Sum(inner) | Node::Product(inner) if nested(&part) => {
+                out.extend_from_slice(inner);
+            }
+            _ => out.push(part),
         }
     }
     out
@@ -197,9 +187,10 @@ thread_local! {
 /// A small whole number.
 fn small(value: &Rational) -> Option<Expr> {
     let at = value.numer().as_i64()?.checked_add(SMALL)?;
-    let at = usize::try_from(at)
-        .ok()
-        .filter(|_| number::is_whole(value))?;
+    let at = usize::try_from(at).ok()?;
+    if !number::is_whole(value) {
+        return None;
+    }
     NUMBERS.try_with(|known| known.get(at).cloned()).ok()?
 }
 

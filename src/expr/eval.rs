@@ -90,10 +90,9 @@ fn power<T: Scalar>(base: &T, exponent: &Expr, at: &Point<T>) -> Option<T> {
             let times = k.numer().as_i64()?;
             let root = if half { base.sqrt()? } else { base.clone() };
             let raised = integer_power(&root, times.unsigned_abs());
-            return if times < 0 {
-                raised.recip()
-            } else {
-                Some(raised)
+            return match times < 0 {
+                true => raised.recip(),
+                false => Some(raised),
             };
         }
         // A root of odd degree is real for every base.
@@ -148,10 +147,9 @@ fn call<T: Scalar>(function: Function, argument: &Expr, at: &Point<T>) -> Option
 /// (cos, sin) of an angle whose symbols all have directions that divide it.
 fn direction<T: Scalar>(angle: &Angle, at: &Point<T>) -> Option<[T; 2]> {
     // Nothing to turn yet where no multiple of π is added.
-    let mut total = if angle.pi.is_zero() {
-        None
-    } else {
-        Some(quarter_turns(&angle.pi)?)
+    let mut total = match angle.pi.is_zero() {
+        true => None,
+        false => Some(quarter_turns(&angle.pi)?),
     };
     for (name, factor) in &angle.symbols {
         let (divisor, unit) = at.directions.get(name)?;
@@ -178,16 +176,9 @@ fn quarter_turns<T: Scalar>(pi: &Rational) -> Option<[T; 2]> {
     if !quarters.is_integer() {
         return None;
     }
-    let (one, zero) = (Rational::one(), Rational::zero());
-    let k = quarters.numer().mod_floor(&Int::from(4)).as_i64()?;
-    let [c, s] = [
-        [&one, &zero],
-        [&zero, &one],
-        [&-&one, &zero],
-        [&zero, &-&one],
-    ][k as usize]
-        .map(T::from_rational);
-    Some([c, s])
+    let k = quarters.numer().mod_floor(&Int::from(4)).as_i64()? as usize;
+    let unit = [[1, 0], [0, 1], [-1, 0], [0, -1]][k];
+    Some(unit.map(|x| T::from_rational(&number::ratio(x, 1))))
 }
 
 fn turn<T: Scalar>(a: &[T; 2], b: &[T; 2]) -> [T; 2] {

@@ -10,7 +10,7 @@ use std::ops::{
     Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAssign, Sub, SubAssign,
 };
 
-use num_bigint::BigInt;
+use num_bigint::{BigInt, Sign};
 use num_integer::Integer;
 use num_traits::{Float, Num, One, Signed, ToPrimitive, Zero};
 
@@ -31,10 +31,8 @@ pub fn sum(a: &Rational, b: &Rational, minus: bool) -> Rational {
         return Rational::new_raw(Int::from(n), Int::from(wide(own, other)));
     }
     let shared = gcd(n, g.into());
-    Rational::new_raw(
-        Int::from(n / shared),
-        Int::from(i128::from(own) * (i128::from(db) / shared)),
-    )
+    let below = i128::from(own) * (i128::from(db) / shared);
+    Rational::new_raw(Int::from(n / shared), Int::from(below))
 }
 
 /// The same for numbers of any size.
@@ -54,16 +52,13 @@ fn sum_of_any(a: &Rational, b: &Rational, minus: bool) -> Rational {
 pub fn product(a: &Rational, b: &Rational) -> Rational {
     let Some(([na, da], [nb, db])) = words(a).zip(words(b)) else {
         let (g, h) = (a.numer().gcd(b.denom()), b.numer().gcd(a.denom()));
-        return Rational::new_raw(
-            (a.numer() / &g) * (b.numer() / &h),
-            (a.denom() / &h) * (b.denom() / &g),
-        );
+        let above = (a.numer() / &g) * (b.numer() / &h);
+        return Rational::new_raw(above, (a.denom() / &h) * (b.denom() / &g));
     };
     let (g, h) = (common(na, db), common(nb, da));
-    Rational::new_raw(
-        Int::from(wide(without(na, g), without(nb, h))),
-        Int::from(wide(without(da, h), without(db, g))),
-    )
+    let above = wide(without(na, g), without(nb, h));
+    let below = wide(without(da, h), without(db, g));
+    Rational::new_raw(Int::from(above), Int::from(below))
 }
 
 /// Greatest common divisor of a word and a positive one.
@@ -302,20 +297,8 @@ impl Ord for Int {
         match (&self.0, &other.0) {
             (Small(a), Small(b)) => a.cmp(b),
             // A big value lies outside the range of every small one, so its sign alone decides.
-            (Big(a), Small(_)) => {
-                if a.is_negative() {
-                    Ordering::Less
-                } else {
-                    Ordering::Greater
-                }
-            }
-            (Small(_), Big(b)) => {
-                if b.is_negative() {
-                    Ordering::Greater
-                } else {
-                    Ordering::Less
-                }
-            }
+            (Big(a), Small(_)) => a.sign().cmp(&Sign::NoSign),
+            (Small(_), Big(b)) => Sign::NoSign.cmp(&b.sign()),
             (Big(a), Big(b)) => a.cmp(b),
         }
     }
@@ -354,25 +337,16 @@ impl Num for Int {
 
 impl Signed for Int {
     fn abs(&self) -> Int {
-        if self.is_negative() {
-            -self
-        } else {
-            self.clone()
+        match self.is_negative() {
+            true => -self,
+            false => self.clone(),
         }
     }
     fn abs_sub(&self, other: &Int) -> Int {
-        if self <= other {
-            Int::zero()
-        } else {
-            self - other
-        }
+        (self - other).max(Int::zero())
     }
     fn signum(&self) -> Int {
-        Int(Small(match self.cmp(&Int::zero()) {
-            Ordering::Less => -1,
-            Ordering::Equal => 0,
-            Ordering::Greater => 1,
-        }))
+        Int(Small(self.cmp(&Int::zero()) as i64))
     }
     fn is_positive(&self) -> bool {
         *self > Int::zero()
@@ -429,10 +403,9 @@ impl Integer for Int {
         self.is_multiple_of(other)
     }
     fn is_multiple_of(&self, other: &Int) -> bool {
-        if other.is_zero() {
-            self.is_zero()
-        } else {
-            (self % other).is_zero()
+        match other.is_zero() {
+            true => self.is_zero(),
+            false => (self % other).is_zero(),
         }
     }
     fn is_even(&self) -> bool {
@@ -486,10 +459,8 @@ pub fn ratio(numerator: i64, denominator: i64) -> Rational {
         d if d > 0 => gcd(numerator.into(), d.into()) as i64,
         _ => return Rational::new(Int::from(numerator), Int::from(denominator)),
     };
-    Rational::new_raw(
-        Int::from(numerator / shared),
-        Int::from(denominator / shared),
-    )
+    let [above, below] = [numerator, denominator].map(|word| Int::from(word / shared));
+    Rational::new_raw(above, below)
 }
 
 /// The exact square root of a fraction, when it is a fraction too.

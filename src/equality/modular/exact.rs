@@ -16,7 +16,7 @@ use num_traits::{One, Signed};
 use super::Place;
 use super::value::Sign;
 use super::walk::{self, Builder, Turn};
-use crate::algebra::mono::{Mono, mono_add, mono_div, mono_max, mono_of, powers};
+use crate::algebra::mono::{Mono, mono_add, mono_div, mono_max, powers};
 use crate::algebra::poly::Poly;
 use crate::expr::{Expr, Function, Int};
 
@@ -168,7 +168,7 @@ impl Exact<'_> {
             Generator::Sine(index) => {
                 let cosine = Generator::Cosine(*index);
                 let cosine = self.generators.iter().position(|g| *g == cosine)?;
-                Some(Cow::Owned(one_less_square(cosine)))
+                Some(Cow::Owned(Poly::rest_of_square(cosine)))
             }
             _ => None,
         }
@@ -197,7 +197,7 @@ impl Exact<'_> {
             {
                 let sine = Generator::Sine(*index);
                 let sine = self.generators.iter().position(|g| *g == sine)?;
-                let other = replaced(&poly, at, &one_less_square(sine))?;
+                let other = replaced(&poly, at, &Poly::rest_of_square(sine))?;
                 if other.len() < poly.len() {
                     poly = other;
                 }
@@ -274,16 +274,14 @@ impl Exact<'_> {
         for (factor, power) in &a.factors {
             above = times(&above, &raised(factor, *power)?)?;
         }
-        let mut out = Quotient {
+        let number = number.abs();
+        let factors = (rest.len() > 1).then_some((rest, 1)).into_iter().collect();
+        Some(Quotient {
             above,
-            number: number.abs(),
+            number,
             monomial,
-            factors: Vec::new(),
-        };
-        if rest.len() > 1 {
-            out.factors.push((rest, 1));
-        }
-        Some(out)
+            factors,
+        })
     }
 }
 
@@ -298,11 +296,6 @@ fn raised(p: &Poly, k: u32) -> Option<Poly> {
         0 => Some(Poly::one()),
         _ => (1..k).try_fold(p.clone(), |power, _| times(&power, p)),
     }
-}
-
-/// 1 − x².
-fn one_less_square(x: usize) -> Poly {
-    Poly::one().sub(&Poly::term(&mono_of(x, 2), Int::one()))
 }
 
 /// A polynomial with the square of a generator replaced until it stands in no square.
@@ -335,8 +328,8 @@ impl Builder for Exact<'_> {
         if self.places[index].unit.is_some() {
             return None;
         }
-        self.generator(Generator::Symbol(index))
-            .map(Quotient::whole)
+        let generator = self.generator(Generator::Symbol(index))?;
+        Some(Quotient::whole(generator))
     }
 
     fn pi(&mut self) -> Option<Quotient> {
@@ -403,10 +396,9 @@ impl Builder for Exact<'_> {
             true => (a, size / 2),
             false => (self.root(&a)?, size),
         };
-        let base = if halves < 0 {
-            self.inverse(&base)?
-        } else {
-            base
+        let base = match halves < 0 {
+            true => self.inverse(&base)?,
+            false => base,
         };
         // The last factor is moved, the others are copies.
         let mut factors = std::iter::repeat_n(base, k as usize);
