@@ -84,6 +84,14 @@ pub struct Reading {
 }
 
 impl Reading {
+    /// The same text, read as something else.
+    pub(crate) fn with(&self, content: Content) -> Reading {
+        Reading {
+            content,
+            ..self.clone()
+        }
+    }
+
     /// The single expression, when it is one; of `ω = …` the right side.
     pub fn expr(&self) -> Option<&Expr> {
         self.content.answer().expr()

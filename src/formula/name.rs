@@ -183,35 +183,9 @@ pub(crate) fn tail(
                 (parts.index, at) = (found.text, found.end);
             }
             '_' if parts.index.is_empty() || parts.accent.is_empty() => {
-                let next = at + 1 + rest[1..].len() - rest[1..].trim_start_matches(' ').len();
-                if let Some((inside, end)) = braced(text, next) {
-                    let Some(index) = index_text(inside) else {
-                        return at;
-                    };
-                    put_index(parts, &index);
-                    at = end;
-                } else if let Some(word) = text[next..].strip_prefix('\\') {
-                    let length = letters_at(word);
-                    let font = matches!(&word[..length], "mathrm" | "text" | "textrm" | "rm");
-                    let (inside, end) = match braced(text, next + 1 + length) {
-                        Some((inside, end)) if font => (inside, end),
-                        _ => (&text[next..next + 1 + length], next + 1 + length),
-                    };
-                    let Some(index) = index_text(inside) else {
-                        return at;
-                    };
-                    put_index(parts, &index);
-                    at = end;
-                } else if let Some(found) = declared_index(text, next, true, parts, symbols, split)
-                {
-                    *took |= found.took_letter;
-                    put_index(parts, &found.text);
-                    at = found.end;
-                } else if let Some(name) = text[next..].chars().next().and_then(index_name) {
-                    put_index(parts, name);
-                    at = next + text[next..].chars().next().map_or(0, char::len_utf8);
-                } else {
-                    return at;
+                match lower(text, at + 1, parts, symbols, split, took) {
+                    Some(end) => at = end,
+                    None => return at,
                 }
             }
             '\'' | '′' | '’' | '‵' => {
@@ -257,6 +231,40 @@ pub(crate) fn tail(
             return at;
         }
     }
+}
+
+/// Reads an index behind its sign; gives the byte after it.
+fn lower(
+    text: &str,
+    at: usize,
+    parts: &mut Parts,
+    symbols: &Symbols,
+    split: bool,
+    took: &mut bool,
+) -> Option<usize> {
+    let next = text.len() - text[at..].trim_start_matches(' ').len();
+    if let Some((inside, end)) = braced(text, next) {
+        put_index(parts, &index_text(inside)?);
+        return Some(end);
+    }
+    if let Some(word) = text[next..].strip_prefix('\\') {
+        let end = next + 1 + letters_at(word);
+        let font = matches!(&text[next + 1..end], "mathrm" | "text" | "textrm" | "rm");
+        let (inside, end) = match braced(text, end) {
+            Some(inside) if font => inside,
+            _ => (&text[next..end], end),
+        };
+        put_index(parts, &index_text(inside)?);
+        return Some(end);
+    }
+    if let Some(found) = declared_index(text, next, true, parts, symbols, split) {
+        *took |= found.took_letter;
+        put_index(parts, &found.text);
+        return Some(found.end);
+    }
+    let c = text[next..].chars().next()?;
+    put_index(parts, index_name(c)?);
+    Some(next + c.len_utf8())
 }
 
 /// Primes stand before a raised mark, in whatever order they were written.

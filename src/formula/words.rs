@@ -5,7 +5,7 @@ use super::lexer::{Before, Lexer, Tok};
 use super::name;
 use super::note::Remark;
 use super::pair::Pair;
-use super::symbols::{Parts, is_greek};
+use super::symbols::{Parts, is_greek, letters_at};
 use crate::expr::{Function, Symbol};
 
 /// Most different names in one formula.
@@ -23,16 +23,8 @@ impl Lexer<'_> {
             return self.resolve(start, start + 1, parts);
         }
         // A longer run is read in pieces.
-        let run = rest
-            .bytes()
-            .take(64)
-            .take_while(u8::is_ascii_alphabetic)
-            .count();
-        let long = rest
-            .as_bytes()
-            .get(run)
-            .is_some_and(u8::is_ascii_alphabetic);
-        if long {
+        let run = letters_at(rest).min(64);
+        if letters_at(&rest[run..]) > 0 {
             let message = "a run of more than 64 letters is no name and no product";
             return Err(Fault::new(message, start, start + run));
         }
@@ -75,60 +67,8 @@ impl Lexer<'_> {
                 return named;
             }
         }
-        for length in (1..=run.min(self.symbols.longest_word())).rev() {
-            let word = &rest[..length];
-            let base = length == 1 || self.symbols.has_base(word) && !self.symbols.is_product(word);
-            if base && let Some(tok) = self.declared_name(start, start + length) {
-                return Ok(tok);
-            }
-            if length < 2 {
-                break;
-            }
-            let signum = matches!(word, "sgn" | "sign" | "signum");
-            if signum && rest[length..].starts_with('(') && self.symbols.find(word).is_none() {
-                self.pos = start + length;
-                return Ok(Tok::Signum);
-            }
-            let two = usize::from(rest[length..].starts_with("2("));
-            let pair = Pair::named(&rest[..length + two]);
-            let argued = rest[length + two..].starts_with('(');
-            if let Some(pair) = pair
-                && argued
-                && self.symbols.find(word).is_none()
-                && (pair == Pair::Root
-                    || self.outside(start + length + two + 1, b',', b"").is_some())
-            {
-                self.pos = start + length + two;
-                return Ok(Tok::Pair(pair));
-            }
-            if self.is_other_function(start, length) {
-                let two = rest[length..].starts_with("2(");
-                let end = start + length + usize::from(two);
-                let shown = &self.text[start..end];
-                let message = format!("`{shown}` is no function that is read here");
-                return Err(Fault::new(message, start, end));
-            }
-            if let Some(tok) = function(word) {
-                if !self.function_wanted(word, start) {
-                    continue;
-                }
-                self.pos = start + length;
-                return Ok(self.based(word, tok, start));
-            }
-            if word == "pi" {
-                self.pos = start + length;
-                return Ok(Tok::Name("pi".into()));
-            }
-            if is_greek(word) || word == "ell" {
-                if let Some(tok) = self.declared_name(start, start + length) {
-                    return Ok(tok);
-                }
-                // `mu` is m·u where m and u are names and μ is none.
-                let letters = || (0..length).all(|at| self.symbols.find(&word[at..=at]).is_some());
-                if self.symbols.is_open() && !letters() {
-                    return self.name(start, start + length);
-                }
-            }
+        if let Some(tok) = self.known_word(start, run)? {
+            return Ok(tok);
         }
         let indexed = rest[1..].starts_with(|c: char| c == '_' || c.is_ascii_digit());
         if !indexed && let Some(axis) = self.symbols.axis(&rest[..1]) {
@@ -145,6 +85,67 @@ impl Lexer<'_> {
             return self.name(start, start + 1);
         }
         self.unknown_word(start, run)
+    }
+
+    /// The longest beginning of a run of letters that is a name, a function or a Greek letter.
+    fn known_word(&mut self, start: usize, run: usize) -> Faulty<Option<Tok>> {
+        let rest = &self.text[start..];
+        for length in (1..=run.min(self.symbols.longest_word())).rev() {
+            let word = &rest[..length];
+            let base = length == 1 || self.symbols.has_base(word) && !self.symbols.is_product(word);
+            if base && let Some(tok) = self.declared_name(start, start + length) {
+                return Ok(Some(tok));
+            }
+            if length < 2 {
+                break;
+            }
+            let signum = matches!(word, "sgn" | "sign" | "signum");
+            if signum && rest[length..].starts_with('(') && self.symbols.find(word).is_none() {
+                self.pos = start + length;
+                return Ok(Some(Tok::Signum));
+            }
+            let two = usize::from(rest[length..].starts_with("2("));
+            let pair = Pair::named(&rest[..length + two]);
+            let argued = rest[length + two..].starts_with('(');
+            if let Some(pair) = pair
+                && argued
+                && self.symbols.find(word).is_none()
+                && (pair == Pair::Root
+                    || self.outside(start + length + two + 1, b',', b"").is_some())
+            {
+                self.pos = start + length + two;
+                return Ok(Some(Tok::Pair(pair)));
+            }
+            if self.is_other_function(start, length) {
+                let two = rest[length..].starts_with("2(");
+                let end = start + length + usize::from(two);
+                let shown = &self.text[start..end];
+                let message = format!("`{shown}` is no function that is read here");
+                return Err(Fault::new(message, start, end));
+            }
+            if let Some(tok) = function(word) {
+                if !self.function_wanted(word, start) {
+                    continue;
+                }
+                self.pos = start + length;
+                return Ok(Some(self.based(word, tok, start)));
+            }
+            if word == "pi" {
+                self.pos = start + length;
+                return Ok(Some(Tok::Name("pi".into())));
+            }
+            if is_greek(word) || word == "ell" {
+                if let Some(tok) = self.declared_name(start, start + length) {
+                    return Ok(Some(tok));
+                }
+                // `mu` is m·u where m and u are names and μ is none.
+                let letters = || (0..length).all(|at| self.symbols.find(&word[at..=at]).is_some());
+                if self.symbols.is_open() && !letters() {
+                    return self.name(start, start + length).map(Some);
+                }
+            }
+        }
+        Ok(None)
     }
 
     /// A name of one letter, or a letter with digits, with nothing behind it that could belong to the name, and the byte after

@@ -188,8 +188,6 @@ fn claim(content: &Content) -> Claim<'_> {
 }
 
 fn compare(ctx: &Context, answer: &Reading) -> Finding {
-    let asked = &ctx.key.question.asked;
-    let is_asked = |name: &Symbol| asked.iter().any(|g| g.name == *name);
     // `a = b = c` is a system, in whatever order, where b and c are not the same of themselves.
     if let (Content::Relations(a, s), Content::Relations(b, t)) =
         (&ctx.key.reading.content, &answer.content)
@@ -213,49 +211,8 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
         return relation::compare(ctx, (&spread(a), s), (&spread(b), t));
     }
     match (claim(&ctx.key.reading.content), claim(&answer.content)) {
-        (Claim::Value(expected_name, expected), Claim::Value(name, value)) => {
-            let mut finding = values(ctx, expected, value);
-            if finding.verdict == Verdict::Different
-                && let Content::Relations(sides, signs) = &answer.content
-                && let [.., exact, rounded] = sides.as_slice()
-                && signs.last() == Some(&Relation::Approximately)
-                && signs.len() > 1
-                && close(ctx, expected, rounded)
-            {
-                finding = values(ctx, expected, exact);
-            }
-            if let (Some(mine), Some(theirs)) = (expected_name, name) {
-                let declared = |n: &Symbol| ctx.key.question.symbols.iter().any(|g| g.name == *n);
-                if mine != theirs && !(is_asked(mine) && is_asked(theirs)) {
-                    let inside = |c: &Content, name: &Symbol| {
-                        c.expr().is_some_and(|e| e.symbols().contains(name))
-                    };
-                    finding = match (&ctx.key.reading.content, &answer.content) {
-                        // The same equation, solved for another of its symbols.
-                        (Content::Relations(a, s), Content::Relations(b, t))
-                            if inside(expected, theirs) && inside(value, mine) =>
-                        {
-                            return relation::compare(ctx, (a, s), (b, t));
-                        }
-                        _ => other_name(finding, mine, theirs),
-                    };
-                } else if !declared(theirs) {
-                    finding.assumed.retain(|a| !a.starts_with(&**theirs));
-                }
-            } else if let (None, Some(theirs)) = (expected_name, name) {
-                // A symbol of the expected formula cannot be the name of its value: `v = 3v/2` says something else.
-                let inside = expected
-                    .expr()
-                    .is_some_and(|e| e.symbols().contains(theirs));
-                if inside && !is_asked(theirs) {
-                    let words = "a value is expected, and the answer is an equation for";
-                    finding = Finding::different("DIFF_KIND", "kind", format!("{words} {theirs}"));
-                } else if !asked.is_empty() && !is_asked(theirs) && declared_symbol(ctx, theirs) {
-                    finding = other_name(finding, &asked[0].name.clone(), theirs);
-                }
-            }
-            chain(ctx, answer, &mut finding);
-            finding
+        (Claim::Value(mine, expected), Claim::Value(theirs, value)) => {
+            named_values(ctx, answer, (mine, expected), (theirs, value))
         }
         (Claim::Relations(sides, signs), Claim::Relations(mine, my_signs)) => {
             let finding = relation::compare(ctx, (sides, signs), (mine, my_signs));
@@ -295,27 +252,93 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
             }
         }
         (Claim::Value(name, expected), Claim::Relations(mine, my_signs)) => {
-            if let Some(finding) = nameless(ctx, expected, mine, my_signs) {
-                return finding;
+            solved(ctx, (name, expected), (mine, my_signs))
+        }
+    }
+}
+
+/// A value, possibly with the name it is given to.
+type Named<'a> = (Option<&'a Symbol>, &'a Content);
+
+/// Two values with their names.
+fn named_values(
+    ctx: &Context,
+    answer: &Reading,
+    (mine, expected): Named,
+    (theirs, value): Named,
+) -> Finding {
+    let asked = &ctx.key.question.asked;
+    let is_asked = |name: &Symbol| asked.iter().any(|g| g.name == *name);
+    let inside = |c: &Content, name: &Symbol| c.expr().is_some_and(|e| e.symbols().contains(name));
+    let mut finding = values(ctx, expected, value);
+    if finding.verdict == Verdict::Different
+        && let Content::Relations(sides, signs) = &answer.content
+        && let [.., exact, rounded] = sides.as_slice()
+        && signs.last() == Some(&Relation::Approximately)
+        && signs.len() > 1
+        && close(ctx, expected, rounded)
+    {
+        finding = values(ctx, expected, exact);
+    }
+    match (mine, theirs) {
+        (Some(mine), Some(theirs)) if mine != theirs && !(is_asked(mine) && is_asked(theirs)) => {
+            // The same equation, solved for another of its symbols.
+            if let (Content::Relations(a, s), Content::Relations(b, t)) =
+                (&ctx.key.reading.content, &answer.content)
+                && inside(expected, theirs)
+                && inside(value, mine)
+            {
+                return relation::compare(ctx, (a, s), (b, t));
             }
-            let solved = |name: &Symbol| {
-                let sides = [Content::Scalar(Expr::symbol(name)), expected.clone()];
-                relation::compare(ctx, (&sides, &[Relation::Equal]), (mine, my_signs))
-            };
-            if let Some(name) = name.or_else(|| asked.first().map(|g| &g.name)) {
-                return solved(name);
+            finding = other_name(finding, mine, theirs);
+        }
+        (Some(_), Some(theirs)) if !declared_symbol(ctx, theirs) => {
+            finding.assumed.retain(|a| !a.starts_with(&**theirs));
+        }
+        // A symbol of the expected formula cannot be the name of its value: `v = 3v/2` says something else.
+        (None, Some(theirs)) if inside(expected, theirs) && !is_asked(theirs) => {
+            let words = "a value is expected, and the answer is an equation for";
+            finding = Finding::different("DIFF_KIND", "kind", format!("{words} {theirs}"));
+        }
+        (None, Some(theirs)) if !is_asked(theirs) && declared_symbol(ctx, theirs) => {
+            if let Some(first) = asked.first() {
+                finding = other_name(finding, &first.name, theirs);
             }
-            match strangers(ctx, mine).as_slice() {
-                [name] => solved(name),
-                // `mgh = ½mv²` says what v is, whatever m is.
-                names => names
-                    .iter()
-                    .take(3)
-                    .filter(|name| may_hold(ctx, mine, name, expected))
-                    .map(solved)
-                    .find(Finding::is_equivalent)
-                    .unwrap_or_else(|| kind("a value is expected, and the answer is a relation")),
-            }
+        }
+        _ => {}
+    }
+    chain(ctx, answer, &mut finding);
+    finding
+}
+
+/// A relation where a value is expected: whether it says that the value is this.
+fn solved(
+    ctx: &Context,
+    (name, expected): Named,
+    (mine, signs): (&[Content], &[Relation]),
+) -> Finding {
+    if let Some(finding) = nameless(ctx, expected, mine, signs) {
+        return finding;
+    }
+    let solved = |name: &Symbol| {
+        let sides = [Content::Scalar(Expr::symbol(name)), expected.clone()];
+        relation::compare(ctx, (&sides, &[Relation::Equal]), (mine, signs))
+    };
+    let asked = ctx.key.question.asked.first().map(|g| &g.name);
+    if let Some(name) = name.or(asked) {
+        return solved(name);
+    }
+    match strangers(ctx, mine).as_slice() {
+        [name] => solved(name),
+        // `mgh = ½mv²` says what v is, whatever m is.
+        names => {
+            let names = names.iter().take(3);
+            let mut found = names
+                .filter(|name| may_hold(ctx, mine, name, expected))
+                .map(solved);
+            found
+                .find(Finding::is_equivalent)
+                .unwrap_or_else(|| kind("a value is expected, and the answer is a relation"))
         }
     }
 }

@@ -67,16 +67,10 @@ pub(super) fn euler(
         return;
     }
     let other = Key {
-        reading: Reading {
-            content: a,
-            ..key.reading.clone()
-        },
+        reading: key.reading.with(a),
         ..key.clone()
     };
-    let mine = Reading {
-        content: b,
-        ..reading.clone()
-    };
+    let mine = reading.with(b);
     let plain = Options {
         forms: Vec::new(),
         ..options.clone()
@@ -102,18 +96,23 @@ pub(super) fn euler(
     expected.each(&mut |e| e.parts().for_each(&mut note));
     if !counts {
         *finding = found;
-        finding
-            .assumed
-            .push("e is the base of the natural logarithm".into());
+        let given = "e is the base of the natural logarithm";
+        finding.assumed.push(given.into());
         return;
     }
     let words = "e is a symbol; as the base of the natural logarithm it would be right";
+    undecide(finding, words);
+    let hint = "write exp(x) for the exponential function";
+    finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
+}
+
+/// Nothing is decided, for a text has two meanings.
+fn undecide(finding: &mut compare::Finding, words: &str) {
     finding.verdict = Verdict::Undecided;
     finding.note = "UNDECIDED_AMBIGUOUS";
     finding.proof = Proof::of("none", words);
     finding.counterexample = None;
-    let hint = "write exp(x) for the exponential function";
-    finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
+    finding.diagnosis.clear();
 }
 
 /// Whether an exponent may count something: a whole number, a symbol, or a sum of such with positive factors.
@@ -144,17 +143,15 @@ pub(super) fn turned(
     finding: &mut compare::Finding,
 ) {
     let arc = |notes: &[Note], arc| {
-        notes
-            .iter()
-            .any(|n| n.remark == Remark::ArcOrFactor { arc })
+        let remark = Remark::ArcOrFactor { arc };
+        notes.iter().any(|n| n.remark == remark)
     };
     let arcs = arc(&reading.notes, true);
     if !(reading.slashes || arcs) || finding.verdict != Verdict::Different {
         return;
     }
-    let slashes = reading
-        .slashes
-        .then(|| formula::slashes_turned(answer, &key.readable));
+    let slashes = || formula::slashes_turned(answer, &key.readable);
+    let slashes = reading.slashes.then(slashes);
     let factors = || {
         let mut others = formula::other_readings(answer, &key.readable, false);
         others.retain(|other| arc(&other.notes, false));
@@ -169,20 +166,16 @@ pub(super) fn turned(
     let Some((turned, other)) = found else {
         return;
     };
-    let message = format!(
-        "right when it is read as {}; by the usual rule it is {}",
-        show(&other.content),
-        show(&reading.content)
-    );
+    let [theirs, mine] = [&other, &*reading].map(|reading| show(&reading.content));
+    let message = format!("right when it is read as {theirs}; by the usual rule it is {mine}");
     let hint = match arc(&other.notes, false) {
         true => "write a space before the function: acos is the arccosine",
         false => "the slash can be read in two ways; use brackets to say what stands below",
     };
     *finding = turned;
     finding.note = "EQUIV_READING";
-    finding
-        .diagnosis
-        .insert(0, Diagnosis::new("READING", message, hint));
+    let found = Diagnosis::new("READING", message, hint);
+    finding.diagnosis.insert(0, found);
     *reading = other;
 }
 
@@ -190,9 +183,8 @@ pub(super) fn turned(
 /// where a comma groups thousands or begins the decimals, and the mixed number `1 3/4`. Otherwise it stays unread.
 pub(super) fn number(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
     let comma = |rest: &str| {
-        let sign = ["{,}", ","]
-            .into_iter()
-            .find(|sign| rest.starts_with(sign))?;
+        let mut signs = ["{,}", ","].into_iter();
+        let sign = signs.find(|sign| rest.starts_with(sign))?;
         (digits(&rest[sign.len()..]) == 3).then_some(sign.len())
     };
     let hint = "write numbers without a comma: it parts thousands in some countries and decimals in others";
@@ -206,9 +198,8 @@ pub(super) fn number(key: &Key, answer: &str, options: &Options) -> Option<Grade
         (grade.verdict == Verdict::Equivalent).then(|| {
             let message = format!("right when it is read as {text}");
             grade.note = "EQUIV_READING";
-            grade
-                .diagnosis
-                .insert(0, Diagnosis::new("READING", message, hint));
+            let found = Diagnosis::new("READING", message, hint);
+            grade.diagnosis.insert(0, found);
             grade
         })
     })
@@ -376,38 +367,23 @@ pub(super) fn ambiguity(
     };
     let mut others = formula::other_readings(answer, &key.readable, false);
     if let Some(content) = power_of_function(&reading.content) {
-        others.push(Reading {
-            content,
-            ..reading.clone()
-        });
+        others.push(reading.with(content));
     }
     for other in others {
         let verdict = compare::verdict_of(key, &other, &plain);
         if verdict != finding.verdict && matches!(verdict, Verdict::Equivalent | Verdict::Different)
         {
-            let message = format!(
-                "read as {}; read as {} it would be {}",
-                show(&reading.content),
-                show(&other.content),
-                if verdict == Verdict::Equivalent {
-                    "right"
-                } else {
-                    "wrong"
-                },
-            );
+            let right = finding.is_equivalent();
+            let [mine, theirs] = [reading, &other].map(|reading| show(&reading.content));
+            let would = if right { "wrong" } else { "right" };
+            let message = format!("read as {mine}; read as {theirs} it would be {would}");
             let hint = "the formula can be read in two ways; use brackets to say which is meant";
-            let right = finding.verdict == Verdict::Equivalent;
             if tight_root(&other, answer, right) {
                 let words = "the root sign may reach over one letter or over all of them";
-                finding.verdict = Verdict::Undecided;
-                finding.note = "UNDECIDED_AMBIGUOUS";
-                finding.proof = Proof::of("none", words);
-                finding.counterexample = None;
-                finding.diagnosis.clear();
+                undecide(finding, words);
             }
-            finding
-                .diagnosis
-                .insert(0, Diagnosis::new("AMBIGUOUS", message, hint));
+            let found = Diagnosis::new("AMBIGUOUS", message, hint);
+            finding.diagnosis.insert(0, found);
             return;
         }
     }

@@ -119,10 +119,9 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
     }
     let mut usual = formula::read(text, &key.readable);
     // `(0, 1)` and `[0, 1]`, where bounds are asked.
-    if key.reading.content.is_bounded()
-        && !usual
-            .as_ref()
-            .is_ok_and(|reading| reading.content.is_bounded())
+    let bounded = |reading: &Reading| reading.content.is_bounded();
+    if bounded(&key.reading)
+        && !usual.as_ref().is_ok_and(bounded)
         && let Some(range) = formula::read_interval(text, &key.readable)
     {
         usual = Ok(range);
@@ -156,9 +155,8 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         // Where a vector is asked, `(2,3)` is one, and so is `2i + 3j`.
         let lists = key.readable.clone().with_lists();
         let axes = lists.clone().with_axes();
-        let mut read = [lists, axes]
-            .into_iter()
-            .map(|names| formula::read(text, &names));
+        let both = [lists, axes].into_iter();
+        let mut read = both.map(|names| formula::read(text, &names));
         if let Some(Ok(reading)) = read.find(|reading| reading.as_ref().is_ok_and(vector)) {
             return worded(key, text, reading);
         }
@@ -174,14 +172,17 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
             return worded(key, text, reading);
         }
     }
-    let fault = match usual {
-        Ok(reading) => return worded(key, text, reading),
-        Err(fault) => fault,
-    };
+    match usual {
+        Ok(reading) => worded(key, text, reading),
+        Err(fault) => mended(key, text, fault),
+    }
+}
+
+/// An answer that cannot be read with the names of its question alone: with a unit apart, or names of its own.
+fn mended(key: &Key, text: &str, fault: Fault) -> Result<Reading, Fault> {
     if quantitative(&key.reading) && dimension::unit(text.trim()).is_ok() {
-        return Err(
-            *Fault::new("a unit without a number", 0, text.len()).hint("the value is missing")
-        );
+        let fault = Fault::new("a unit without a number", 0, text.len());
+        return Err(*fault.hint("the value is missing"));
     }
     if !key.question.closed {
         return Err(fault);
@@ -210,13 +211,8 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
     let strange = |name: &Symbol| is_stranger(name) || left.as_ref() == Some(name);
     let split = reading.notes.iter().any(|n| n.remark == Remark::Letters);
     let named_quantity = measured && left.is_some();
-    if !split
-        && reading
-            .symbols()
-            .iter()
-            .all(|name| declared(key, name) || strange(name))
-        && !named_quantity
-    {
+    let known = |name: &Symbol| declared(key, name) || strange(name);
+    if !split && !named_quantity && reading.symbols().iter().all(known) {
         return Ok(reading);
     }
     // `v = \sqrt{2gh} = 14 m/s`: the number at the end is the answer.

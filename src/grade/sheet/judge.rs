@@ -63,9 +63,8 @@ impl Sheet {
         other.note = "EQUIV_READING";
         let message = format!("right when it is read as {apart}");
         let hint = "write a space between the factors of a product";
-        other
-            .diagnosis
-            .insert(0, Diagnosis::new("READING", message, hint));
+        let found = Diagnosis::new("READING", message, hint);
+        other.diagnosis.insert(0, found);
         other
     }
 
@@ -137,11 +136,10 @@ impl Sheet {
         let finite = |s: &&Symbol| matches!(&***s, "g" | "t" | "dt") && !given(s);
         if reading.symbols().iter().any(|s| finite(&s)) {
             grade.note = "DIFF_BELIEF";
-            grade.diagnosis.insert(0, Diagnosis::new(
-                "GRAVITY_KEPT",
-                "a finite force, or the time the collision takes, enters: in a collision neither has an impulse",
-                "which forces are large enough to matter in so short a time?",
-            ));
+            let message = "a finite force, or the time the collision takes, enters: in a collision neither has an impulse";
+            let hint = "which forces are large enough to matter in so short a time?";
+            let found = Diagnosis::new("GRAVITY_KEPT", message, hint);
+            grade.diagnosis.insert(0, found);
         }
         let values = match reading.content.answer() {
             Content::Scalar(e) => vec![e.clone()],
@@ -150,11 +148,8 @@ impl Sheet {
             Content::Vector([x, y, z]) if x.is_zero() && y.is_zero() => vec![z.clone()],
             _ => return grade,
         };
-        let known = |e: &Expr| {
-            e.symbols()
-                .iter()
-                .all(|s| self.scene.parameters.iter().any(|p| p.name == *s))
-        };
+        let given = |s: &Symbol| self.scene.parameters.iter().any(|p| p.name == *s);
+        let known = |e: &Expr| e.symbols().iter().all(given);
         if !values.iter().all(known) || values.iter().any(|e| e.size() > 2_000) {
             return grade;
         }
@@ -167,10 +162,9 @@ impl Sheet {
             values,
             rounding,
         };
-        let expected = if matches!(entry.key.reading.content, Content::Vector(_)) {
-            2
-        } else {
-            1
+        let expected = match entry.key.reading.content {
+            Content::Vector(_) => 2,
+            _ => 1,
         };
         let (mut found, mut others) = believed::explain(&written, written.values.len() == expected);
         if let (true, Some(story)) = (found.is_empty(), &self.story) {
@@ -209,11 +203,9 @@ impl Sheet {
             grade.verdict == Verdict::Equivalent
         };
         let other = entries.find(is_it)?;
-        Some(Diagnosis::new(
-            "OTHER_QUANTITY",
-            format!("this is {}, the {}", other.name, other.words),
-            "this is right for another quantity: what is asked for?",
-        ))
+        let message = format!("this is {}, the {}", other.name, other.words);
+        let hint = "this is right for another quantity: what is asked for?";
+        Some(Diagnosis::new("OTHER_QUANTITY", message, hint))
     }
 
     /// An answer in numbers, where the scene gives values: right when it is the exact value rounded to its own digits, three
@@ -227,12 +219,8 @@ impl Sheet {
     ) -> Option<(Grade, Option<f64>)> {
         let values = believed::values(&self.scene);
         let has_values = values.len() == self.scene.parameters.len() && !values.is_empty();
-        if !has_values
-            || !reading
-                .symbols()
-                .iter()
-                .all(|s| entry.key.question.asked.iter().any(|g| g.name == *s))
-        {
+        let asked = |s: &Symbol| entry.key.question.asked.iter().any(|g| g.name == *s);
+        if !has_values || !reading.symbols().iter().all(asked) {
             return None;
         }
         let closed = match &entry.key.reading.content {
@@ -246,13 +234,8 @@ impl Sheet {
         let exact = closed.substitute(&values);
         let mut question = entry.key.question.clone();
         question.dimension = None;
-        let content = match entry
-            .key
-            .question
-            .dimension
-            .as_ref()
-            .filter(|d| !d.is_none())
-        {
+        let dimension = entry.key.question.dimension.as_ref();
+        let content = match dimension.filter(|d| !d.is_none()) {
             Some(dimension) => Content::Quantity(Box::new(Quantity {
                 value: exact.clone(),
                 written: exact.clone(),
@@ -263,18 +246,12 @@ impl Sheet {
         };
         let key = key_of(content, &question);
         let digits = reading.literal.as_ref().map_or(40, |l| l.digits).min(40);
-        let tolerance = options
-            .tolerance
-            .clone()
-            .unwrap_or(Tolerance::Significant(digits.max(3)));
-        let mut grade = judge_against(
-            &key,
-            answer,
-            &Options {
-                tolerance: Some(tolerance),
-                ..options.clone()
-            },
-        );
+        let rounded = Tolerance::Significant(digits.max(3));
+        let within = Options {
+            tolerance: options.tolerance.clone().or(Some(rounded)),
+            ..options.clone()
+        };
+        let mut grade = judge_against(&key, answer, &within);
         if grade.note == "EQUIV_TOLERANCE" && options.tolerance.is_none() {
             grade.note = "EQUIV_ROUNDED";
             grade.proof.words = format!("the exact value rounded to {digits} significant digits");
@@ -309,19 +286,20 @@ fn components(entry: &Entry, exact: [Expr; 3], answer: &str, options: &Options) 
 
 /// `9.31 rad/s clockwise` with the sign the question counts by.
 pub(in crate::grade) fn in_words(ask: &Ask, answer: &str) -> Option<String> {
-    const SENSES: [(&str, bool); 5] = [
-        ("counterclockwise", false),
-        ("anticlockwise", false),
-        ("clockwise", true),
-        ("ccw", false),
-        ("cw", true),
+    const SENSES: [&str; 5] = [
+        "counterclockwise",
+        "anticlockwise",
+        "clockwise",
+        "ccw",
+        "cw",
     ];
     let Ask::Spin { clockwise, .. } = ask else {
         return None;
     };
     let text = answer.trim().trim_end_matches(['.', ')']).trim_end();
     let lower = text.to_ascii_lowercase();
-    let (word, sense) = SENSES.iter().find(|(word, _)| lower.ends_with(word))?;
+    let word = SENSES.into_iter().find(|word| lower.ends_with(word))?;
+    let sense = matches!(word, "clockwise" | "cw");
     let body = text[..text.len() - word.len()].trim_end_matches([' ', ',', '(', '~']);
     let (name, value) = match body.rfind('=') {
         Some(at) => body.split_at(at + 1),
@@ -329,10 +307,9 @@ pub(in crate::grade) fn in_words(ask: &Ask, answer: &str) -> Option<String> {
     };
     let value = value.trim();
     let positive = value.strip_prefix(['-', '−']);
-    let several = positive
-        .unwrap_or(value)
-        .contains(['+', '-', '−', '±', '∓']);
-    Some(match (sense == clockwise, positive) {
+    let size = positive.unwrap_or(value);
+    let several = size.contains(['+', '-', '−', '±', '∓']);
+    Some(match (sense == *clockwise, positive) {
         (true, _) => format!("{name}{value}"),
         (false, _) if several => format!("{name}-({value})"),
         (false, Some(positive)) => format!("{name}{positive}"),
@@ -349,14 +326,7 @@ fn about_z(ask: &Ask, reading: &Reading) -> Option<String> {
         return match &reading.content {
             // `\vec ω = … k̂` has a name in front that is no answer's.
             Content::Relations(sides, _) => match sides.last() {
-                Some(last @ Content::Vector(_)) => {
-                    let content = last.clone();
-                    let alone = Reading {
-                        content,
-                        ..reading.clone()
-                    };
-                    about_z(ask, &alone)
-                }
+                Some(last @ Content::Vector(_)) => about_z(ask, &reading.with(last.clone())),
                 _ => None,
             },
             _ => None,
