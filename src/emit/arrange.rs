@@ -66,35 +66,31 @@ pub fn signs(domains: &Domains, atoms: &Atoms) -> Signs {
         };
     }
     for (name, of) in atoms {
-        let Node::Call(f, argument) = of.node() else {
-            continue;
-        };
-        let Some(turn) = angle(argument).filter(|a| a.pi.is_zero()) else {
-            continue;
-        };
-        let [(symbol, factor)] = &turn.symbols.iter().collect::<Vec<_>>()[..] else {
-            continue;
-        };
-        let Some(domain) = domains.symbols.get(*symbol) else {
-            continue;
-        };
-        let (Some(low), Some(high)) = (side(&domain.low), side(&domain.high)) else {
-            continue;
-        };
-        let k = to_f64(factor);
-        let (low, high) = ((low * k).min(high * k), (low * k).max(high * k));
-        let quarter = std::f64::consts::FRAC_PI_2 * (1.0 + 1e-15);
-        let positive = match f {
-            Function::Sin => low >= 0.0 && high <= 2.0 * quarter,
-            _ => low >= -quarter && high <= quarter,
-        };
-        if positive {
-            out.insert(name.clone(), true);
-        } else if *f == Function::Sin && high <= 0.0 && low >= -2.0 * quarter {
-            out.insert(name.clone(), false);
+        if let Some(sign) = wave_sign(domains, of) {
+            out.insert(name.clone(), sign);
         }
     }
     out
+}
+
+/// The sign of a cosine or sine of a multiple of an angle.
+fn wave_sign(domains: &Domains, of: &Expr) -> Option<bool> {
+    let Node::Call(f, argument) = of.node() else {
+        return None;
+    };
+    let turn = angle(argument).filter(|a| a.pi.is_zero())?;
+    let [(symbol, factor)] = turn.symbols.iter().collect::<Vec<_>>().try_into().ok()?;
+    let domain = domains.symbols.get(symbol)?;
+    let side = |l: &Option<Limit>| Some(l.as_ref()?.approximate() * to_f64(factor));
+    let (one, other) = (side(&domain.low)?, side(&domain.high)?);
+    let (low, high) = (one.min(other), one.max(other));
+    let quarter = std::f64::consts::FRAC_PI_2 * (1.0 + 1e-15);
+    let positive = match f {
+        Function::Sin => low >= 0.0 && high <= 2.0 * quarter,
+        _ => low >= -quarter && high <= quarter,
+    };
+    let negative = *f == Function::Sin && high <= 0.0 && low >= -2.0 * quarter;
+    (positive || negative).then_some(positive)
 }
 
 /// The formula as derived: every operation plain, in the order of the expression.
@@ -215,16 +211,13 @@ impl<'a> Builder<'a> {
         }
         let mut total = self.value(&terms[0], false)?;
         for term in &terms[1..] {
-            total = match negated(term) {
-                Some(positive) => {
-                    let term = self.value(&positive, false)?;
-                    self.step(Op::Subtract(total, term), false)
-                }
-                None => {
-                    let term = self.value(term, false)?;
-                    self.step(Op::Add(total, term), false)
-                }
+            let positive = negated(term);
+            let value = self.value(positive.as_ref().unwrap_or(term), false)?;
+            let op = match positive {
+                Some(_) => Op::Subtract(total, value),
+                None => Op::Add(total, value),
             };
+            total = self.step(op, false);
         }
         Some(total)
     }
@@ -325,11 +318,8 @@ fn fraction(factors: &[Expr]) -> (Vec<Expr>, Vec<Expr>) {
 fn half_integer(exponent: &Expr) -> Option<(bool, i64)> {
     let twice = exponent.as_number()? * Rational::from(crate::expr::Int::from(2));
     let n = twice.is_integer().then(|| twice.numer().as_i64())??;
-    Some(if n % 2 == 0 {
-        (false, n / 2)
-    } else {
-        (true, n)
-    })
+    let root = n % 2 != 0;
+    Some((root, if root { n } else { n / 2 }))
 }
 
 /// a − b and a + b for a² − b² with symbols or numbers a and b.

@@ -34,7 +34,7 @@ pub struct Argument {
 }
 
 /// The cosine and the sine of an angle, as a program needs them.
-#[derive(Clone, Debug)]
+#[derive(Default, Clone, Debug)]
 pub struct Turn {
     /// The angle: coefficients of arguments, by number.
     pub terms: Vec<(f64, usize)>,
@@ -143,14 +143,11 @@ fn function(scene: &Scene, derivation: &Derivation, answer: &Answer) -> Option<F
     let Form::Value { closed, short } = &answer.form else {
         return None;
     };
-    let defined = derivation.definitions.iter().fold(
-        std::collections::BTreeMap::<Symbol, Expr>::new(),
-        |mut known, d| {
-            let value = d.value.substitute(&known);
-            known.insert(d.name.clone(), value);
-            known
-        },
-    );
+    let mut defined = std::collections::BTreeMap::<Symbol, Expr>::new();
+    for d in &derivation.definitions {
+        let value = d.value.substitute(&defined);
+        defined.insert(d.name.clone(), value);
+    }
     let forms = [closed, short].map(|form| form.substitute(&defined));
     // Plain steps alone are quicker and as good. Then a determinant should be a sum of terms of one sign, never a
     // difference of products; then the length counts.
@@ -224,11 +221,9 @@ fn draft(scene: &Scene, form: &Expr) -> Option<Draft> {
         is_argument,
         sign: signs.get(name).copied(),
     };
-    let known: Vec<Input> = arguments
-        .iter()
-        .map(|a| input(a, true))
-        .chain(atoms.iter().map(|(name, _)| input(name, false)))
-        .collect();
+    let waves = atoms.iter().map(|(name, _)| input(name, false));
+    let known = arguments.iter().map(|a| input(a, true)).chain(waves);
+    let known: Vec<Input> = known.collect();
     let names = atoms.iter().map(|(name, _)| name.clone());
     let inputs: Vec<Symbol> = arguments.iter().cloned().chain(names).collect();
     let program = arranged(&plain, &inputs, &signs)?;
@@ -260,48 +255,39 @@ fn turns(atoms: &Atoms, arguments: &[Symbol], program: &Program) -> Option<Vec<T
             }
             terms.push((k, arguments.iter().position(|a| a == symbol)?));
         }
-        let pi = if sum.pi.is_zero() {
-            Dd::default()
-        } else {
-            multiple_of_pi(&sum.pi)
-        };
-        let place = match turns.iter().position(|t| t.terms == terms && t.pi == pi) {
-            Some(place) => place,
-            None => {
-                turns.push(Turn {
-                    terms,
-                    pi,
-                    cos: None,
-                    sin: None,
-                    wide: false,
-                });
-                turns.len() - 1
-            }
-        };
+        let pi = multiple_of_pi(&sum.pi);
+        let same = turns.iter().position(|t| t.terms == terms && t.pi == pi);
+        let place = same.unwrap_or(turns.len());
+        if same.is_none() {
+            turns.push(Turn {
+                terms,
+                pi,
+                ..Turn::default()
+            });
+        }
         let turn = &mut turns[place];
         let input = arguments.len() + i;
         match call {
             Call::Sin => turn.sin = Some(input),
             _ => turn.cos = Some(input),
         }
-        turn.wide |= !turn.is_plain()
-            || program.steps.contains(&Step {
-                op: Op::Input(input),
-                wide: true,
-            });
+        let is_wide = |s: &Step| s.wide && s.op == Op::Input(input);
+        turn.wide |= !turn.is_plain() || program.steps.iter().any(is_wide);
     }
     Some(turns)
 }
 
 fn multiple_of_pi(factor: &Rational) -> Dd {
-    if factor.is_one() {
-        return super::dd::PI;
+    match factor {
+        none if none.is_zero() => Dd::default(),
+        one if one.is_one() => super::dd::PI,
+        _ => Dd::from_rational(factor) * super::dd::PI,
     }
-    Dd::from_rational(factor) * super::dd::PI
 }
 
 fn argument(scene: &Scene, symbol: &Symbol) -> Argument {
     let parameter = scene.parameters.iter().find(|p| p.name == *symbol);
+    let domain = scene.domains.symbols.get(symbol);
     Argument {
         symbol: symbol.clone(),
         dimension: parameter.map_or_else(Dimension::none, |p| p.dimension.clone()),
@@ -310,10 +296,6 @@ fn argument(scene: &Scene, symbol: &Symbol) -> Argument {
             false => p.dimension.spoken(),
         }),
         meaning: parameter.map_or_else(String::new, |p| p.meaning.clone()),
-        domain: scene
-            .domains
-            .symbols
-            .get(symbol)
-            .map_or_else(String::new, |d| d.words(symbol)),
+        domain: domain.map_or_else(String::new, |d| d.words(symbol)),
     }
 }

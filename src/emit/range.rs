@@ -17,10 +17,9 @@ pub struct Input {
 /// The largest k such that nothing over- or underflows while every argument is zero or within 10^−k … 10^k; what a cosine
 /// or sine of a double leaves is above 1e−20.
 pub fn reach(program: &Program, inputs: &[Input]) -> i32 {
-    (0..=300)
-        .rev()
-        .find(|k| fits(program, inputs, f64::from(*k)))
-        .unwrap_or(0)
+    let mut sizes = (0..=300).rev();
+    let largest = sizes.find(|k| fits(program, inputs, f64::from(*k)));
+    largest.unwrap_or(0)
 }
 
 /// Doubles, with what their products leave below them: 2⁻⁵³ and 2⁻¹⁰⁶ of the value.
@@ -34,12 +33,9 @@ fn fits(program: &Program, inputs: &[Input], k: f64) -> bool {
         let size = if v == 0.0 { 0.0 } else { v.abs().log10() };
         [size, size]
     };
-    let input = |i: usize| {
-        if inputs[i].is_argument {
-            [-k, k]
-        } else {
-            [-20.0, 0.0]
-        }
+    let input = |i: usize| match inputs[i].is_argument {
+        true => [-k, k],
+        false => [-20.0, 0.0],
     };
     for step in &program.steps {
         let of = |a: usize| sizes[a];

@@ -116,11 +116,8 @@ impl<'a> Writer<'a> {
         used: &'a mut BTreeSet<Helper>,
     ) -> Writer<'a> {
         let mut names = Names::default();
-        let arguments = function
-            .arguments
-            .iter()
-            .map(|a| names.fresh(&a.symbol))
-            .collect();
+        let arguments = function.arguments.iter();
+        let arguments = arguments.map(|a| names.fresh(&a.symbol)).collect();
         let waves = vec![Default::default(); function.program.inputs];
         Writer {
             language,
@@ -152,24 +149,18 @@ impl<'a> Writer<'a> {
         };
         let documented = comment(self.language, &documentation, false);
         let arguments = list("#");
-        let (head, end) = match self.language {
+        let end = if self.language.is_python() { "" } else { "}\n" };
+        let head = match self.language {
             Language::Rust | Language::NoStd => {
                 let mut marks = String::new();
-                if name
-                    .chars()
-                    .chain(arguments.chars())
-                    .any(char::is_uppercase)
-                {
+                if name.contains(char::is_uppercase) || arguments.contains(char::is_uppercase) {
                     marks.push_str("#[allow(non_snake_case)]\n");
                 }
                 if self.arguments.len() > 7 {
                     marks.push_str("#[allow(clippy::too_many_arguments)]\n");
                 }
                 let list = list("#: f64");
-                (
-                    format!("{documented}{marks}pub fn {name}({list}) -> f64 {{\n"),
-                    "}\n",
-                )
+                format!("{documented}{marks}pub fn {name}({list}) -> f64 {{\n")
             }
             Language::C => {
                 let list = match arguments.is_empty() {
@@ -177,20 +168,14 @@ impl<'a> Writer<'a> {
                     false => list("double #"),
                 };
                 let kind = if of_header { "static inline " } else { "" };
-                (
-                    format!("{documented}{kind}double {name}({list}) {{\n"),
-                    "}\n",
-                )
+                format!("{documented}{kind}double {name}({list}) {{\n")
             }
             Language::Python | Language::NumPy => {
-                (format!("\ndef {name}({arguments}):\n{documented}"), "")
+                format!("\ndef {name}({arguments}):\n{documented}")
             }
         };
-        let is_constant = function
-            .program
-            .steps
-            .iter()
-            .all(|s| !matches!(s.op, Op::Input(_)));
+        let mut steps = function.program.steps.iter();
+        let is_constant = steps.all(|s| !matches!(s.op, Op::Input(_)));
         if self.language == Language::NumPy && is_constant && !arguments.is_empty() {
             value = format!("np.full(np.broadcast({arguments}).shape, {value})");
         }
@@ -207,21 +192,18 @@ impl<'a> Writer<'a> {
     fn scale(&mut self, units: &Units) -> Vec<String> {
         let limit = format!("1e{}", self.function.reach);
         let powers = units.arguments.iter().zip(self.arguments.clone());
-        let changed: Vec<(&Vec<i64>, String)> = powers
-            .filter(|(powers, _)| powers.iter().any(|p| *p != 0))
-            .collect();
+        let changed = powers.filter(|(powers, _)| powers.iter().any(|p| *p != 0));
+        let changed: Vec<(&Vec<i64>, String)> = changed.collect();
         let dialect = self.dialect();
-        let tests = changed
-            .iter()
-            .map(|(_, a)| format!("unit_far({a}, {limit})"));
+        let tests = changed.iter();
+        let tests = tests.map(|(_, a)| format!("unit_far({a}, {limit})"));
         let tests = tests.collect::<Vec<_>>().join(dialect.or);
         let far = self.names.fresh("far");
         self.lines.push(filled(dialect.whole, &far, &tests));
         let mut scales = Vec::new();
         for class in &units.of {
-            let sizes = class
-                .iter()
-                .map(|a| self.library("abs", &self.arguments[*a], Holds::Atom));
+            let size = |a: &usize| self.library("abs", &self.arguments[*a], Holds::Atom);
+            let sizes = class.iter().map(size);
             let largest = sizes.reduce(|a, b| filled(dialect.larger, &a, &b));
             let largest = largest.unwrap_or_default();
             let name = format!("size_{}", self.arguments[class[0]]);
@@ -247,17 +229,16 @@ impl<'a> Writer<'a> {
             let in_turn = f.turns.iter().any(|t| t.terms.iter().any(|(_, i)| *i == a));
             in_turn || f.program.steps.iter().any(in_step)
         };
-        let free: Vec<String> = (0..self.arguments.len())
-            .filter(|a| !read(*a))
-            .map(|a| self.arguments[a].clone())
-            .collect();
+        let free = (0..self.arguments.len()).filter(|a| !read(*a));
+        let free: Vec<String> = free.map(|a| self.arguments[a].clone()).collect();
         match self.language {
             Language::Rust | Language::NoStd if !free.is_empty() => {
                 self.lines.push(format!("let _ = ({},);", free.join(", ")));
             }
-            Language::C => free
-                .iter()
-                .for_each(|name| self.lines.push(format!("(void){name};"))),
+            Language::C => {
+                let lines = free.iter().map(|name| format!("(void){name};"));
+                self.lines.extend(lines);
+            }
             _ => {}
         }
     }
@@ -321,10 +302,8 @@ impl<'a> Writer<'a> {
             });
         }
         let angle = angle.unwrap_or_else(|| self.widened("0.0"));
-        for (wave, name, helper) in [
-            (turn.cos, "cos", Helper::Cos),
-            (turn.sin, "sin", Helper::Sin),
-        ] {
+        let cos = (turn.cos, "cos", Helper::Cos);
+        for (wave, name, helper) in [cos, (turn.sin, "sin", Helper::Sin)] {
             if let Some(input) = wave {
                 let fresh = self.names.fresh(&format!("{name}_{suffix}"));
                 let value = self.call(helper, &[&angle]);
@@ -365,11 +344,8 @@ impl<'a> Writer<'a> {
         let steps = &self.function.program.steps;
         let mut uses = vec![0usize; steps.len()];
         for step in steps {
-            step.op
-                .operands()
-                .into_iter()
-                .flatten()
-                .for_each(|i| uses[i] += 1);
+            let operands = step.op.operands().into_iter().flatten();
+            operands.for_each(|i| uses[i] += 1);
         }
         let mut texts: Vec<(String, Holds)> = Vec::with_capacity(steps.len());
         for (i, step) in steps.iter().enumerate() {
@@ -422,10 +398,10 @@ impl<'a> Writer<'a> {
                 Op::Divide(a, b) => (Helper::Divide, vec![text(a), text(b)]),
                 Op::Root(a) => (Helper::Root, vec![text(a)]),
                 // No wide step subtracts, calls or takes powers.
-                op => (
-                    Helper::Negate,
-                    op.operands().into_iter().flatten().map(text).collect(),
-                ),
+                op => {
+                    let operands = op.operands().into_iter().flatten();
+                    (Helper::Negate, operands.map(text).collect())
+                }
             };
             return (self.call(helper, &operands), Holds::Atom);
         }

@@ -370,11 +370,10 @@ pub fn equation<T: Quantity, E>(
 ) -> Result<Linear<T>, E> {
     // Velocity just after at a point, of the second body relative to the first.
     let after = |[one, two]: [usize; 2], at: &[T; 2]| {
-        relative(
-            &motion.velocity_of(g, one, at),
-            &motion.velocity_of(g, two, at),
-        )
+        let [one, two] = [one, two].map(|b| motion.velocity_of(g, b, at));
+        relative(&one, &two)
     };
+    let nothing = || Affine::constant(T::zero()).equals_zero();
     Ok(match law {
         Law::LinearMomentum { system, along } => {
             let d = match along {
@@ -382,57 +381,15 @@ pub fn equation<T: Quantity, E>(
                 Direction::Y => Err(1),
                 Direction::Named(_, v) => Ok(direction(v)?),
             };
-            let component = |v: &[Affine<T>; 2]| match &d {
-                Ok(d) => along_direction(v, d),
-                Err(axis) => v[*axis].clone(),
-            };
-            let mut total = Affine::constant(T::zero());
-            for &b in system {
-                let (after, before, m) = (&motion.velocity[b], &g.velocity[b], &g.mass[b]);
-                let mut add = |axis: usize, m: &T| {
-                    total.add_times(&after[axis], m);
-                    total.add_known(&before[axis], &m.neg());
-                };
-                match &d {
-                    Ok(d) => [0, 1]
-                        .into_iter()
-                        .for_each(|axis| add(axis, &m.mul(&d[axis]))),
-                    Err(axis) => add(*axis, m),
-                }
-            }
-            for (_, impulse) in external(scene, g, system) {
-                total = total.minus(&component(&impulse));
-            }
-            total.equals_zero()
+            linear(scene, g, motion, system, d).equals_zero()
         }
         Law::AngularMomentum { system, about } => {
-            let o = g.place(*about);
-            let mut total = Affine::constant(T::zero());
-            for &b in system {
-                if !scene.bodies[b].is_particle() {
-                    total.add_times(&motion.spin[b], &g.inertia[b]);
-                    total.add_known(&g.spin[b], &g.inertia[b].neg());
-                }
-                // m r × (v⁺ − v⁻)
-                let r = minus(&g.center[b], o);
-                let (after, before) = (&motion.velocity[b], &g.velocity[b]);
-                let arms = [g.mass[b].mul(&r[1]).neg(), g.mass[b].mul(&r[0])];
-                for (axis, arm) in arms.iter().enumerate() {
-                    total.add_times(&after[axis], arm);
-                    total.add_known(&before[axis], &arm.neg());
-                }
-            }
-            for (at, impulse) in external(scene, g, system) {
-                let r = minus(&at, o);
-                total.add_times(&impulse[1], &r[0].neg());
-                total.add_times(&impulse[0], &r[1]);
-            }
-            total.equals_zero()
+            angular(scene, g, motion, system, g.place(*about)).equals_zero()
         }
         Law::Restitution(c) => {
             let contact = &scene.contacts[*c];
             let (Some(n), Some(e)) = (&g.normal[*c], &g.restitution[*c]) else {
-                return Ok(Affine::constant(T::zero()).equals_zero());
+                return Ok(nothing());
             };
             let at = &g.contact[*c];
             let [one, two] = contact.bodies;
@@ -453,7 +410,7 @@ pub fn equation<T: Quantity, E>(
         }
         Law::Condition(c, i) => {
             let Some(both) = &g.conditions[*c] else {
-                return Ok(Affine::constant(T::zero()).equals_zero());
+                return Ok(nothing());
             };
             let condition = &both[*i];
             let after = after(scene.contacts[*c].bodies, &g.contact[*c]);
@@ -480,6 +437,67 @@ pub fn equation<T: Quantity, E>(
             quantity.plus(&Affine::constant(value.neg())).equals_zero()
         }
     })
+}
+
+/// What bodies gain of momentum less the impulses on them, along a direction or along an axis.
+fn linear<T: Quantity>(
+    scene: &Scene,
+    g: &Geometry<T>,
+    motion: &Kinematics<T>,
+    system: &[usize],
+    along: Result<[T; 2], usize>,
+) -> Affine<T> {
+    let component = |v: &[Affine<T>; 2]| match &along {
+        Ok(d) => along_direction(v, d),
+        Err(axis) => v[*axis].clone(),
+    };
+    let mut total = Affine::constant(T::zero());
+    for &b in system {
+        let (after, before, m) = (&motion.velocity[b], &g.velocity[b], &g.mass[b]);
+        let mut add = |axis: usize, m: &T| {
+            total.add_times(&after[axis], m);
+            total.add_known(&before[axis], &m.neg());
+        };
+        match &along {
+            Ok(d) => (0..2).for_each(|axis| add(axis, &m.mul(&d[axis]))),
+            Err(axis) => add(*axis, m),
+        }
+    }
+    for (_, impulse) in external(scene, g, system) {
+        total = total.minus(&component(&impulse));
+    }
+    total
+}
+
+/// What bodies gain of angular momentum about a place less the impulses' moments on them.
+fn angular<T: Quantity>(
+    scene: &Scene,
+    g: &Geometry<T>,
+    motion: &Kinematics<T>,
+    system: &[usize],
+    o: &[T; 2],
+) -> Affine<T> {
+    let mut total = Affine::constant(T::zero());
+    for &b in system {
+        if !scene.bodies[b].is_particle() {
+            total.add_times(&motion.spin[b], &g.inertia[b]);
+            total.add_known(&g.spin[b], &g.inertia[b].neg());
+        }
+        // m r × (v⁺ − v⁻)
+        let r = minus(&g.center[b], o);
+        let (after, before) = (&motion.velocity[b], &g.velocity[b]);
+        let arms = [g.mass[b].mul(&r[1]).neg(), g.mass[b].mul(&r[0])];
+        for (axis, arm) in arms.iter().enumerate() {
+            total.add_times(&after[axis], arm);
+            total.add_known(&before[axis], &arm.neg());
+        }
+    }
+    for (at, impulse) in external(scene, g, system) {
+        let r = minus(&at, o);
+        total.add_times(&impulse[1], &r[0].neg());
+        total.add_times(&impulse[0], &r[1]);
+    }
+    total
 }
 
 /// The impulse on the second body of a contact or hinge, or of a blow, as an affine function of the unknowns.

@@ -79,38 +79,46 @@ struct Desk<'a> {
     open: BTreeMap<String, String>,
 }
 
+/// Places of centers, so that geometry can be checked too, and moments of inertia.
+fn geometry(
+    scene: &Scene,
+    closed: &mut BTreeMap<Symbol, Expr>,
+    dimensions: &mut BTreeMap<Symbol, Dimension>,
+) {
+    for body in &scene.bodies {
+        for (axis, value) in ["x", "y"].iter().zip(&body.center) {
+            let name = Symbol::from(format!("{axis}_{}", body.name));
+            dimensions.insert(name.clone(), Dimension::new(0, 1, 0));
+            closed.insert(name, value.clone());
+        }
+        let name = Symbol::from(format!("I_{}", body.name));
+        if !body.is_fixed() {
+            dimensions.insert(name.clone(), Dimension::new(1, 2, 0));
+            closed.insert(name, body.inertia.clone());
+        }
+    }
+    // The moment of inertia of the one body that can move about each point.
+    let mut free = scene.bodies.iter().filter(|b| !b.is_fixed());
+    if let (Some(body), None) = (free.next(), free.next()) {
+        for point in &scene.points {
+            let [x, y] = minus(&point.at, &body.center).map(|d| d.powi(2));
+            let name = Symbol::from(format!("I_{}", point.name));
+            dimensions.insert(name.clone(), Dimension::new(1, 2, 0));
+            let about = &body.inertia + &(&body.mass * &(x + y));
+            if scene.parameters.iter().all(|p| p.name != name) {
+                closed.entry(name).or_insert(about);
+            }
+        }
+    }
+}
+
 impl<'a> Desk<'a> {
     fn new(scene: &'a Scene, derivation: &Derivation, all: &[Answer]) -> Desk<'a> {
         let mut closed = BTreeMap::new();
         let given = scene.parameters.iter();
         let given = given.map(|p| (p.name.clone(), p.dimension.clone()));
         let mut dimensions: BTreeMap<Symbol, Dimension> = given.collect();
-        // Places of centers, so that geometry can be checked too.
-        for body in &scene.bodies {
-            for (axis, value) in ["x", "y"].iter().zip(&body.center) {
-                let name = Symbol::from(format!("{axis}_{}", body.name));
-                dimensions.insert(name.clone(), Dimension::new(0, 1, 0));
-                closed.insert(name, value.clone());
-            }
-            let name = Symbol::from(format!("I_{}", body.name));
-            if !body.is_fixed() {
-                dimensions.insert(name.clone(), Dimension::new(1, 2, 0));
-                closed.insert(name, body.inertia.clone());
-            }
-        }
-        // The moment of inertia of the one body that can move about each point.
-        let mut free = scene.bodies.iter().filter(|b| !b.is_fixed());
-        if let (Some(body), None) = (free.next(), free.next()) {
-            for point in &scene.points {
-                let [x, y] = minus(&point.at, &body.center).map(|d| d.powi(2));
-                let name = Symbol::from(format!("I_{}", point.name));
-                dimensions.insert(name.clone(), Dimension::new(1, 2, 0));
-                let about = &body.inertia + &(&body.mass * &(x + y));
-                if scene.parameters.iter().all(|p| p.name != name) {
-                    closed.entry(name).or_insert(about);
-                }
-            }
-        }
+        geometry(scene, &mut closed, &mut dimensions);
         let whole = |n: usize| Expr::from(n as i64);
         closed.insert("equations".into(), whole(derivation.counting.equations));
         closed.insert("unknowns".into(), whole(derivation.counting.unknowns));

@@ -137,16 +137,10 @@ pub fn answer(
                 return Err(Unanswered::NotANumber);
             };
             let along = pair(&course, &slide.along)?;
-            let gone = |body: usize| {
-                let [from, to] = [before, &passed.after].map(|s| s.bodies[body].center.clone());
-                let mut far = 0.0;
-                for ((from, to), way) in from.into_iter().zip(to).zip(along) {
-                    far += (to? - from?) * way;
-                }
-                Ok(far)
-            };
-            let below = slide.on.as_ref().map_or(Ok(0.0), |on| gone(on.body));
-            gone(slide.body).and_then(|far| Ok(Answer::Scalar(far - below?)))
+            let far = gone(passed, slide.body, along)?;
+            let below = slide.on.as_ref();
+            let below = below.map_or(Ok(0.0), |on| gone(passed, on.body, along))?;
+            Ok(Answer::Scalar(far - below))
         }
         Ask::Angle { body, clockwise } => {
             let turning = motion.ok().filter(|moved| moved.bodies.contains(body));
@@ -191,6 +185,16 @@ pub fn answer(
         }
         ask => about_end(&course, passed, ask),
     }
+}
+
+/// How far a body has come along a direction.
+fn gone(passed: &Passed, body: usize, along: [f64; 2]) -> Result<f64, Unanswered> {
+    let [from, to] = [&passed.before, &passed.after].map(|s| s.bodies[body].center.clone());
+    let mut far = 0.0;
+    for ((from, to), way) in from.into_iter().zip(to).zip(along) {
+        far += (to? - from?) * way;
+    }
+    Ok(far)
 }
 
 /// Velocity of the point of a body that the file has at a named point, where the body has carried it.

@@ -32,11 +32,10 @@ pub(in crate::story) fn turn(
     fits(stage, &before, turn, &spin)?;
     let (way, assumed) = sense(stage, &spin, turn)?;
     let [r, r_end] = arms(stage, turn, &spin);
-    let ends_where_it_begins = matches!(turn.until, Until::Above | Until::Below)
-        && minus(&r, &r_end)
-            .iter()
-            .all(|c| is_zero(c, domains) == Some(true));
-    if ends_where_it_begins {
+    let arms = [&r, &r_end];
+    let mut way_there = minus(&r, &r_end).into_iter();
+    let stays = way_there.all(|c| is_zero(&c, domains) == Some(true));
+    if stays && matches!(turn.until, Until::Above | Until::Below) {
         let why = format!("`{}` is there at the beginning already", body.name);
         let hint = "say with `by` through which angle it turns, such as 2*pi";
         return Err(Refused::new(&stage.name, why, hint));
@@ -44,23 +43,19 @@ pub(in crate::story) fn turn(
     let about = inertia_about(stage, turn);
     let inertia = tidied(stage, &about)?;
     if is_zero(&inertia, domains) == Some(true) {
-        let why = format!(
-            "`{}` has no moment of inertia about {}",
-            body.name, turn.about_name
-        );
+        let (name, about) = (&body.name, &turn.about_name);
+        let why = format!("`{name}` has no moment of inertia about {about}");
         return Err(Refused::new(&stage.name, why, "give it a mass"));
     }
     let start = tidied(stage, &half(&(&inertia * &spin.powi(2))))?;
     let kept_below = stops(stage, turn, &spin, &start, &r)?;
     let turned = turned(stage, turn, &spin, &r);
     let through = through(stage, turn, turned.as_ref(), way)?;
-    let parts = work(stage, turn, &lump, [&r, &r_end], through.as_ref())?;
+    let parts = work(stage, turn, &lump, arms, through.as_ref())?;
     let (work, end, reaches) = balance(stage, turn.body, &start, &parts)?;
     let (mut needs, mut assumptions) = (Vec::new(), Vec::new());
-    for (need, words) in hurdle(stage, turn, &r, &start, way)?
-        .into_iter()
-        .chain(kept_below)
-    {
+    let hurdle = hurdle(stage, turn, &r, &start, way)?;
+    for (need, words) in hurdle.into_iter().chain(kept_below) {
         needs.extend(need);
         assumptions.push(words);
     }
@@ -88,20 +83,11 @@ pub(in crate::story) fn turn(
     };
     let time = time.map(|t| tidied(stage, &t)).transpose()?;
     let mut after = before.clone();
-    carry(
-        stage,
-        turn,
-        &mut after,
-        [&r, &r_end],
-        &spin,
-        turned.as_ref(),
-    )?;
+    carry(stage, turn, &mut after, arms, &spin, turned.as_ref())?;
     for b in turn.bodies() {
-        let [x, y] = arm_at_end(stage, turn, b, [&r, &r_end], &spin);
-        after.velocity[b] = [
-            tidied(stage, &-(&spin_end * &y))?,
-            tidied(stage, &(&spin_end * &x))?,
-        ];
+        let [x, y] = arm_at_end(stage, turn, b, arms, &spin);
+        let [u, v] = [-(&spin_end * &y), &spin_end * &x].map(|c| tidied(stage, &c));
+        after.velocity[b] = [u?, v?];
         after.spin[b] = spin_end.clone();
     }
     assumptions.extend(meanwhile::others(stage, &before, &mut after, time.as_ref()));
@@ -143,10 +129,9 @@ fn work(
         let lone = turn.with.is_empty();
         work.push((
             "weight",
-            if lone {
-                weighed
-            } else {
-                tidied(stage, &weighed)?
+            match lone {
+                true => weighed,
+                false => tidied(stage, &weighed)?,
             },
         ));
     }

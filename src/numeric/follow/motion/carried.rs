@@ -153,9 +153,8 @@ pub(super) fn carried(
     let (mechanism, way) = pair.rough(course, &plain)?;
     let start = movers.start(&plain);
     let slip = pair.slip(&start);
-    let rates = mechanism.accelerations(&start).map(|(rates, _)| rates);
-    let rates =
-        rates.ok_or_else(|| course.out_of_reach("the equations of motion have no solution"))?;
+    let unsolved = || course.out_of_reach("the equations of motion have no solution");
+    let (rates, _) = mechanism.accelerations(&start).ok_or_else(unsolved)?;
     let grows = |i: usize| dot(&[rates[3 * i], rates[3 * i + 1]], &pair.along);
     let rate = grows(0) - grows(pair.company);
     let fastest = pair.speeds(&start).map(f64::abs).into_iter().sum::<f64>();
@@ -192,23 +191,21 @@ pub(super) fn carried(
                 dot(&[y[0] - y[i], y[1] - y[i + 1]], &pair.along)
             };
             let from = apart(&start);
-            mechanism.until(
-                &start,
-                &mut Goal {
-                    left: &|y| apart(y) - from - far,
-                    rate: &|y| pair.slip(y),
-                    never: &mut |y, _| pair.slip(y) <= 0.0,
-                },
-            )
+            let mut goal = Goal {
+                left: &|y| apart(y) - from - far,
+                rate: &|y| pair.slip(y),
+                never: &mut |y, _| pair.slip(y) <= 0.0,
+            };
+            mechanism.until(&start, &mut goal)
         }
-        _ => mechanism.until(
-            &start,
-            &mut Goal {
+        _ => {
+            let mut goal = Goal {
                 left: &|y| -pair.slip(y),
                 rate: &|_| 1.0,
                 never: &mut |_, _| false,
-            },
-        ),
+            };
+            mechanism.until(&start, &mut goal)
+        }
     };
     let run = run.map_err(|stop| stopped(course, stop, never))?;
     let tiny = ROUNDING * (fastest + largest * time) / units.speed();

@@ -137,29 +137,13 @@ pub(in crate::numeric::follow) fn linkage(
         };
         known.push(state);
     }
-    // Places are looked at thousands of times.
-    let places = linkage.places.iter().flat_map(|(_, place)| place);
-    let held: BTreeSet<Symbol> = places.flat_map(Expr::symbols).collect();
-    let mut values = Point::default();
-    for (name, value) in &course.values.values {
-        if held.contains(name) {
-            values.values.insert(name.clone(), Jet::constant(*value));
-        }
-    }
-    for (name, (divisor, unit)) in &course.values.directions {
-        if held.contains(name) && *name != linkage.coordinate {
-            let unit = unit.map(Jet::constant);
-            values.directions.insert(name.clone(), (*divisor, unit));
-        }
-    }
+    let ends = linkage.ends.each_ref();
+    let [from, to] = ends.map(|end| course.number(end, "coordinate"));
     let mut moving = Moving {
         course,
         linkage,
-        values,
-        ends: [
-            course.number(&linkage.ends[0], "coordinate")?,
-            course.number(&linkage.ends[1], "coordinate")?,
-        ],
+        values: jets(course, linkage),
+        ends: [from?, to?],
         gravity: course.optional(linkage.gravity.as_ref(), "gravity")?,
         time: 1.0,
         looks: Cell::new(0),
@@ -220,12 +204,8 @@ pub(in crate::numeric::follow) fn linkage(
             poses: moving.shape(y[0])?.places,
         })
     };
-    let samples = run
-        .samples
-        .iter()
-        .step_by(stride)
-        .filter_map(sample)
-        .collect();
+    let samples = run.samples.iter().step_by(stride);
+    let samples = samples.filter_map(sample).collect();
     others(course, &before, &mut after, &bodies, &time, has_forces);
     let moved = Moved {
         bodies,
@@ -234,6 +214,25 @@ pub(in crate::numeric::follow) fn linkage(
         ..Moved::default()
     };
     Ok(course.passed(time, before, after, What::Motion(moved)))
+}
+
+/// What the places hold besides the coordinate, and nothing else: they are looked at thousands of times.
+fn jets(course: &Course<'_>, linkage: &Linkage) -> Point<Jet> {
+    let places = linkage.places.iter().flat_map(|(_, place)| place);
+    let held: BTreeSet<Symbol> = places.flat_map(Expr::symbols).collect();
+    let mut values = Point::default();
+    for (name, value) in &course.values.values {
+        if held.contains(name) {
+            values.values.insert(name.clone(), Jet::constant(*value));
+        }
+    }
+    for (name, (divisor, unit)) in &course.values.directions {
+        if held.contains(name) && *name != linkage.coordinate {
+            let unit = unit.map(Jet::constant);
+            values.directions.insert(name.clone(), (*divisor, unit));
+        }
+    }
+    values
 }
 
 /// The rate of the coordinate at the beginning, in 1/s; every body is where it puts it and moves as it lets it.
@@ -271,9 +270,8 @@ fn begins(
             let off = (state[3 + k] - rates[k] * rate).abs();
             let largest = size[1].max(state[3 + k].abs());
             if off > 1e-8 * largest {
-                return Err(
-                    course.contradiction("a body does not begin to move as the linkage lets it")
-                );
+                let why = "a body does not begin to move as the linkage lets it";
+                return Err(course.contradiction(why));
             }
         }
     }
