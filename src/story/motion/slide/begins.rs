@@ -2,6 +2,7 @@
 
 use super::line::{Line, proved};
 use super::lumps;
+use crate::algebra::Sign;
 use crate::answer::calc::{Seen, at_least_zero, is_zero, sign, tidy};
 use crate::expr::{Expr, Vector, dot};
 use crate::formula::{Sentence, sentence, write_plain};
@@ -92,6 +93,24 @@ pub(super) fn directed(stage: &Stage, slide: &Slide) -> Result<i64, Refused> {
                 stage.scene.bodies[slide.body].name
             ),
             "say it by the domain of an angle, or by `relations`",
+        )),
+    }
+}
+
+/// Refuses a spring whose stiffness is not positive.
+pub(super) fn springy(stage: &Stage, slide: &Slide) -> Result<(), Refused> {
+    let Some(spring) = &slide.spring else {
+        return Ok(());
+    };
+    match sign(&spring.stiffness, &stage.scene.domains) {
+        Seen::Proved(Sign::Positive) => Ok(()),
+        _ => Err(Refused::new(
+            &stage.name,
+            format!(
+                "the stiffness of a spring is positive, and {} need not be",
+                write_plain(&spring.stiffness)
+            ),
+            "a parameter with a unit and no domain is positive",
         )),
     }
 }

@@ -34,6 +34,7 @@ pub(in crate::story) fn slide(
     let mut assumptions = Vec::new();
     let mut needs = Vec::new();
     begins::fits(stage, &before, slide)?;
+    begins::springy(stage, slide)?;
     let line = Line::of(stage, &before, slide, &mut needs)?;
     begins::not_negative(stage, slide, "speed", &line.speed, &mut assumptions)?;
     if let SlideEnd::Distance(distance) = &slide.until {
