@@ -350,6 +350,9 @@ fn turning(stage: &Stage, told: &StageTold, turn: &Turn) -> Sentence {
     let [turns, and_grows, and_falls] = match names.len() {
         1 if hangs && turn.gravity.is_some() => ["swings", ", and gains speed", ", and slows down"],
         1 => ["turns", ", and gains speed", ", and slows down"],
+        _ if hangs && turn.gravity.is_some() => {
+            ["swing together", ", and gain speed", ", and slow down"]
+        }
         _ => ["turn as one body", ", and gain speed", ", and slow down"],
     };
     let rate = match change::way(&gain, domains, &[]) {

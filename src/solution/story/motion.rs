@@ -372,6 +372,13 @@ impl Page<'_> {
         };
         let square = Expr::from(2) * end / &inertia;
         let speed = tidied(self.scene, &tidied(self.scene, &square).sqrt());
+        // A speed that is asked for stands in the box.
+        let asked = self.answered(told).find(|a| a.formula() == Some(&speed));
+        if let Some(answer) = asked.filter(|_| letter == "v") {
+            let energy = Expr::ratio(1, 2) * &inertia * Expr::symbol(&answer.name).powi(2);
+            let math = vec![Math::Expr(energy), Math::Op("="), words::kinetic("", "+")];
+            return Some(Line { math, step: None });
+        }
         // No name of a scene ends so.
         let symbol = Symbol::from(format!("{letter}⁺").as_str());
         let latex = format!("{}^{{+}}", crate::formula::latex_name(letter));
@@ -477,7 +484,21 @@ impl Page<'_> {
             plain.unwrap_or_else(|| self.named(e)).powi(2)
         };
         if let (Some([_, inertia]), StageKind::Turn(turn)) = (&told.inertia, &stage.kind) {
-            return &half * inertia * square(&state.spin[turn.body]);
+            let by_spin = &half * inertia * square(&state.spin[turn.body]);
+            // Particles that swing as one have a speed, which may stand by its name.
+            let bodies = turn.bodies();
+            let is_particle = |b: &usize| stage.scene.bodies[*b].is_particle();
+            let alike = |b: &usize| state.velocity[*b] == state.velocity[turn.body];
+            if !bodies.iter().all(|b| is_particle(b) && alike(b)) {
+                return by_spin;
+            }
+            let mass = Expr::sum(bodies.iter().map(|b| stage.scene.bodies[*b].mass.clone()));
+            let [x, y] = state.velocity[turn.body].each_ref().map(square);
+            let by_speed = &half * mass * (x + y);
+            return match by_speed.size() < by_spin.size() {
+                true => by_speed,
+                false => by_spin,
+            };
         }
         let moved = stage.kind.moved();
         Expr::sum(moved.into_iter().map(|body| {

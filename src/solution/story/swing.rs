@@ -1,6 +1,7 @@
 //! How high a body swings until weight has brought it to rest, and through which angle.
 
 use super::Page;
+use crate::answer::Answer;
 use crate::answer::calc::is_zero;
 use crate::expr::{Expr, Symbol, dot, minus};
 use crate::scene::{Ask, Stage, Turn};
@@ -72,20 +73,36 @@ impl Page<'_> {
         });
         let angle = angle.cloned();
         self.solution.push(Part::Display(lines));
-        if let Some(angle) = angle.filter(|_| from_below) {
+        // A body that began level with the fixed point rises by its distance times the sine, if the angle counts its way.
+        let counted = |angle: &Answer| match told.turned.as_ref() == angle.formula() {
+            true => arm[0].clone(),
+            false => -&arm[0],
+        };
+        let from_level = |angle: &Answer| {
+            let is_zero = |e: &Expr| is_zero(e, &self.scene.domains) == Some(true);
+            is_zero(&arm[1]) && is_zero(&(counted(angle) - &length))
+        };
+        let began = angle.and_then(|angle| match from_level(&angle) {
+            true => Some((angle, ["level with", "above"])),
+            false => from_below.then_some((angle, ["straight below", "below"])),
+        });
+        if let Some((angle, [first, last])) = began {
             let name = Symbol::from(angle.name.as_str());
-            let cosine = Expr::symbol(&name).cos();
+            let (turned, cosine) = (Expr::symbol(&name), Expr::symbol(&name).cos());
+            let (part, swung) = match last {
+                "above" => (turned.sin(), &length * turned.sin()),
+                _ => (cosine.clone(), &length * (Expr::one() - cosine)),
+            };
             self.solution.text(vec![
                 say(format!(
-                    "It began straight below {}, at the distance ",
+                    "It began {first} {}, at the distance ",
                     turn.about_name
                 )),
                 words::formula(&length),
                 say(" from it, and is in the end that distance times "),
-                words::formula(&cosine),
-                say(" below it:"),
+                words::formula(&part),
+                say(format!(" {last} it:")),
             ]);
-            let swung = &length * (Expr::one() - cosine);
             let math = words::related(&h, "=", &swung);
             self.solution
                 .push(Part::Display(vec![Line { math, step: None }]));

@@ -282,6 +282,7 @@ impl<'a> Line<'a> {
                 true,
                 "the string takes from one end what it gives to the other, and weight has a potential",
             ),
+            () if self.slide.gravity.is_none() => (true, "no force acts along the line"),
             () => (true, "the guide does no work, and weight has a potential"),
         };
         kept("energy", conserved, why)
