@@ -619,7 +619,7 @@ fn left_behind(scene: &Scene, stage: &Stage) -> Result<(), Refused> {
                     "`{other}` {how} `{body}` since `{}`, and is not said to move along",
                     before.name
                 );
-                let hint = format!("a turn takes it along with \"with\": [\"{other}\"]");
+                let hint = format!("the motion takes it along with \"with\": [\"{other}\"]");
                 return Err(Refused::new(&stage.name, why, hint));
             }
             return Ok(());

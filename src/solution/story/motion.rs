@@ -71,14 +71,15 @@ impl Page<'_> {
         if let StageKind::Linkage(linkage) = &stage.kind {
             self.velocities(told, linkage);
         }
-        let rises = match &stage.kind {
-            StageKind::Turn(turn) => matches!(turn.until, Until::Stops),
-            StageKind::Slide(slide) => {
-                slide.spring.is_some() && matches!(slide.until, SlideEnd::Stops)
+        let rises =
+            matches!(&stage.kind, StageKind::Turn(turn) if matches!(turn.until, Until::Stops));
+        let pressing = match &stage.kind {
+            StageKind::Slide(slide) if matches!(slide.until, SlideEnd::Stops) => {
+                slide.spring.as_ref()
             }
-            _ => false,
+            _ => None,
         };
-        self.energies(told, rises);
+        self.energies(told, rises || pressing.is_some());
         let raw = self.energy_at(told, &told.before);
         let math = chain(t("-"), &raw, start);
         let step = claim(
@@ -88,14 +89,10 @@ impl Page<'_> {
             "kinetic energy at the beginning",
         );
         lines.push(Line { math, step });
-        if let StageKind::Slide(Slide {
-            spring: Some(spring),
-            until: SlideEnd::Stops,
-            ..
-        }) = &stage.kind
-        {
+        if let Some(spring) = pressing {
             lines.extend(self.pressed(told, spring));
-            return self.solution.push(Part::Display(lines));
+            self.solution.push(Part::Display(lines));
+            return self.whirled(stage, told);
         }
         if let StageKind::Turn(turn) = &stage.kind
             && matches!(turn.until, Until::Stops)
@@ -272,7 +269,6 @@ impl Page<'_> {
         let asks = |is: fn(&Ask) -> bool| self.asked(told, is);
         let whirls = asks(|ask| matches!(ask, Ask::AngularAcceleration { .. }));
         let takes = asks(|ask| matches!(ask, Ask::Time));
-        let is_linkage = matches!(stage.kind, StageKind::Linkage(_));
         match &stage.kind {
             StageKind::Turn(turn) if whirls => self.moments(told, turn),
             _ if whirls => self.solution.say(
@@ -280,10 +276,17 @@ impl Page<'_> {
             ),
             _ => {}
         }
-        if takes && is_linkage {
-            self.solution.say(
-                "The acceleration is the same all the way, and the time is the change of the velocity over it.",
-            );
+        let time = match &stage.kind {
+            StageKind::Linkage(_) => {
+                "The acceleration is the same all the way, and the time is the change of the velocity over it."
+            }
+            StageKind::Slide(slide) if slide.spring.is_some() && told.time.is_some() => {
+                "The motion is a part of a harmonic oscillation about the place where the forces balance; the time to its turning point follows from the place and the velocity at the beginning."
+            }
+            _ => return,
+        };
+        if takes {
+            self.solution.say(time);
         }
     }
 

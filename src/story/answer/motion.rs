@@ -115,7 +115,13 @@ fn measured(
 pub(super) fn time(question: &Question, told: &StageTold) -> Answer {
     let words = format!("time that `{}` takes", told.name);
     let value = told.time.clone();
-    measured(question, told, words, value, "it has no closed form")
+    measured(
+        question,
+        told,
+        words,
+        value,
+        "no closed form was found for it",
+    )
 }
 
 /// How a body on a line gets faster.

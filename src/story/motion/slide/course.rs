@@ -4,7 +4,7 @@ use super::super::{arrival, arrives, half, never_arrives};
 use super::line::{Line, proved, spring_work};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, above_zero, at_least_zero, essential, is_zero, sign};
-use crate::expr::Expr;
+use crate::expr::{Expr, Function};
 use crate::formula::{Sentence, sentence};
 use crate::scene::SlideEnd;
 use crate::story::{Refused, Step};
@@ -63,8 +63,8 @@ impl Line<'_> {
                 (Some(t.clone()), self.tidied(&self.way(t))?, speed)
             }
             SlideEnd::Stops if self.slide.spring.is_some() => {
-                let (time, distance) = self.to_greatest(assumptions)?;
-                (time, distance, Expr::zero())
+                let [time, distance] = self.to_greatest(steps, assumptions)?;
+                (Some(time), distance, Expr::zero())
             }
             SlideEnd::Stops => {
                 let [time, distance] = self.to_rest(steps, assumptions)?;
@@ -156,11 +156,12 @@ impl Line<'_> {
         Ok([time, self.tidied(&way)?])
     }
 
-    /// Time and distance until a spring stops it: the time where nothing else acts and the spring is relaxed at the beginning.
+    /// Time and distance until a spring stops it.
     fn to_greatest(
         &self,
+        steps: &mut Vec<Step>,
         assumptions: &mut Vec<Sentence>,
-    ) -> Result<(Option<Expr>, Expr), Refused> {
+    ) -> Result<[Expr; 2], Refused> {
         let Some(spring) = &self.slide.spring else {
             return Err(self.refused("no spring stops it", ""));
         };
@@ -189,14 +190,23 @@ impl Line<'_> {
             (_, true) => &self.speed * &(&self.mass / k).sqrt(),
             _ => &(&force + &root.sqrt()) / k,
         };
-        let quarter = half(&Expr::pi()) * (&self.mass / k).sqrt();
-        let time = match (from_rest, is_free) {
-            (true, _) => Some(&Expr::from(2) * &quarter),
-            (_, true) => Some(quarter),
-            _ => None,
+        // x = (1 − cos ωt) f/k + (v₀/ω) sin ωt with ω² = k/m is greatest where tan ωt = −v₀ √(km)/f, ωt between 0 and π.
+        let phase = match (from_rest, is_free) {
+            (true, _) => Expr::pi(),
+            (_, true) => half(&Expr::pi()),
+            _ => match sign(&force, self.domains()) {
+                Seen::Proved(Sign::Negative) => {
+                    let swing = &self.speed * &(k * &self.mass).sqrt();
+                    Expr::call(Function::Atan, self.tidied(&-(&swing / &force))?)
+                }
+                _ => Expr::call(Function::Acos, self.tidied(&-(&force / &root.sqrt()))?),
+            },
         };
-        let time = time.map(|t| self.tidied(&t)).transpose()?;
-        Ok((time, self.tidied(&distance)?))
+        let raw = &phase * &(&self.mass / k).sqrt();
+        let time = self.tidied(&raw)?;
+        let why = "the time until it stops, of a harmonic oscillation about the place where the forces balance";
+        steps.push(Step::new("t", &raw, &time, why));
+        Ok([time, self.tidied(&distance)?])
     }
 
     /// The time until it rolls.
