@@ -113,36 +113,7 @@ impl Writer<'_> {
         }
         law.extend([Math::Op("="), h("+")]);
         self.show(law, None);
-        let mut definition = vec![name("H", &index, "", true), Math::Op("=")];
-        let mut any = false;
-        for &b in system {
-            let c = words::center(self.scene, b);
-            let arm = self.arm(&self.g.place(Place::Center(b)).clone(), about);
-            let spins = !self.scene.bodies[b].is_particle() && !self.inertia_vanishes(b);
-            let moves = !arm.iter().all(Expr::is_zero) && !self.vanishes(&self.g.mass(b).clone());
-            if moves {
-                if any {
-                    definition.push(Math::Op("+"));
-                }
-                definition.extend([
-                    name("r", &format!("{c}/{o}"), "", true),
-                    Math::Op("×"),
-                    Math::Factor(self.g.mass(b).clone()),
-                    name("v", &c, "", true),
-                ]);
-                any = true;
-            }
-            if spins {
-                if any {
-                    definition.push(Math::Op("+"));
-                }
-                definition.extend([self.inertia_name(b), words::spin(self.scene, b, "")]);
-                any = true;
-            }
-        }
-        if any {
-            self.show(definition, None);
-        }
+        self.definition(system, about, name("H", &index, "", true));
         if !at_rest {
             self.momentum_line(
                 system,
@@ -158,27 +129,60 @@ impl Writer<'_> {
             .collect();
         self.momentum_line(system, about, &after, h("+"), "angular momentum just after");
         for x in &outside {
-            let arm = self.arm(&self.g.place(x.place).clone(), about);
-            let q = words::point(self.scene, x.place);
-            let raw = &arm[0] * &x.impulse[1] - &arm[1] * &x.impulse[0];
-            let math = vec![
-                name("r", &format!("{q}/{o}"), "", true),
-                Math::Op("×"),
-                name("P", &q, "", true),
-                Math::Op("="),
-                Math::Brackets(vec![Math::Vector(arm)]),
-                Math::Op("×"),
-                Math::Brackets(vec![Math::Vector(x.impulse.clone())]),
-                Math::Op("="),
-                Math::Along(x.moment.clone()),
-            ];
-            let id = self.step(
-                Vec::new(),
-                vec![Claim::new(raw, x.moment.clone())],
-                "the moment of the impulse",
-            );
-            self.show(math, Some(id));
+            self.moment_of(x, about);
         }
+    }
+
+    /// H as the sum over the bodies of r × m v + I ω, without what vanishes.
+    fn definition(&mut self, system: &[usize], about: Place, h: Math) {
+        let o = words::point(self.scene, about);
+        let mut sum = Vec::new();
+        for &b in system {
+            let c = words::center(self.scene, b);
+            let arm = self.arm(&self.g.place(Place::Center(b)).clone(), about);
+            let spins = !self.scene.bodies[b].is_particle() && !self.inertia_vanishes(b);
+            let moves = !arm.iter().all(Expr::is_zero) && !self.vanishes(&self.g.mass(b).clone());
+            if moves {
+                sum.push(vec![
+                    name("r", &format!("{c}/{o}"), "", true),
+                    Math::Op("×"),
+                    Math::Factor(self.g.mass(b).clone()),
+                    name("v", &c, "", true),
+                ]);
+            }
+            if spins {
+                sum.push(vec![self.inertia_name(b), words::spin(self.scene, b, "")]);
+            }
+        }
+        if !sum.is_empty() {
+            let mut math = vec![h, Math::Op("=")];
+            math.extend(sum.join(&Math::Op("+")));
+            self.show(math, None);
+        }
+    }
+
+    /// The moment of an impulse from outside, evaluated.
+    fn moment_of(&mut self, x: &Outside, about: Place) {
+        let [o, q] = [about, x.place].map(|place| words::point(self.scene, place));
+        let arm = self.arm(&self.g.place(x.place).clone(), about);
+        let raw = &arm[0] * &x.impulse[1] - &arm[1] * &x.impulse[0];
+        let math = vec![
+            name("r", &format!("{q}/{o}"), "", true),
+            Math::Op("×"),
+            name("P", &q, "", true),
+            Math::Op("="),
+            Math::Brackets(vec![Math::Vector(arm)]),
+            Math::Op("×"),
+            Math::Brackets(vec![Math::Vector(x.impulse.clone())]),
+            Math::Op("="),
+            Math::Along(x.moment.clone()),
+        ];
+        let id = self.step(
+            Vec::new(),
+            vec![Claim::new(raw, x.moment.clone())],
+            "the moment of the impulse",
+        );
+        self.show(math, Some(id));
     }
 
     fn inertia_vanishes(&mut self, b: usize) -> bool {

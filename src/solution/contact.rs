@@ -142,20 +142,33 @@ impl Writer<'_> {
             text.extend([say(with("the normal ")), normal, end]);
         }
         self.text(text);
+        self.separation(c, &restitution, [from, to], (moving.len(), &through));
+    }
+
+    /// The law of restitution at a contact, `from` one body `to` the other; so many of the two move, and the normal passes through
+    /// the centers of mass of some.
+    fn separation(
+        &mut self,
+        c: usize,
+        restitution: &Expr,
+        [from, to]: [usize; 2],
+        (moving, through): (usize, &[usize]),
+    ) {
+        let at = self.scene.contacts[c].name.clone();
         let index = |b: usize| {
             if self.scene.bodies[b].is_particle()
-                || self.spin_after(b).is_zero() && moving.len() == 2
+                || self.spin_after(b).is_zero() && moving == 2
                 || through.contains(&b)
             {
                 words::center(self.scene, b)
-            } else if moving.len() == 1 {
+            } else if moving == 1 {
                 at.clone()
             } else {
                 format!("{at},{}", words::center(self.scene, b))
             }
         };
         let indices = [from, to].map(index);
-        let both = moving.len() == 2;
+        let both = moving == 2;
         let relative = |mark| {
             let mut math = vec![name("v", &indices[1], mark, true)];
             if both {
@@ -177,7 +190,7 @@ impl Writer<'_> {
         } else {
             math.push(Math::Op("−"));
             if !restitution.is_one() {
-                math.push(Math::Factor(restitution));
+                math.push(Math::Factor(restitution.clone()));
             }
             math.extend([relative("-"), Math::Op("·"), n()]);
         }

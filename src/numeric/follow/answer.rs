@@ -7,7 +7,8 @@ use std::fmt;
 
 use super::impact::velocity_at;
 use super::{
-    BodyState, Component, Course, Followed, Impact, Impulse, Lost, Open, Passed, What, kinetic,
+    BodyState, Component, Course, Followed, Impact, Impulse, Lost, Open, Passed, Solid, What,
+    kinetic,
 };
 use crate::expr::{Point, Symbol, Vector};
 use crate::numeric::Answer;
@@ -165,15 +166,9 @@ pub fn answer(
             at_end,
         } => {
             let about = pair(&course, about)?;
-            let (solid, body) = (&followed.solids[*body], &state(at_end).bodies[*body]);
-            let [x, y, _, u, v, w] = body.components();
-            let arm = [x.clone()? - about[0], y.clone()? - about[1]];
-            let orbital = solid.mass * cross(&arm, &[u.clone()?, v.clone()?]);
-            let own = match solid.freedom {
-                Freedom::Rigid => solid.inertia * w.clone()?,
-                Freedom::Particle | Freedom::Fixed => 0.0,
-            };
-            Ok(Answer::Scalar(orbital + own))
+            let moment =
+                angular_momentum(&followed.solids[*body], &state(at_end).bodies[*body], about);
+            Ok(Answer::Scalar(moment?))
         }
         Ask::Velocity {
             body,
@@ -185,6 +180,18 @@ pub fn answer(
         }
         ask => about_end(&course, passed, ask),
     }
+}
+
+/// Angular momentum of a body about a place \[kg m²/s\], counterclockwise.
+fn angular_momentum(solid: &Solid, body: &BodyState, about: [f64; 2]) -> Component {
+    let [x, y, _, u, v, w] = body.components();
+    let arm = [x.clone()? - about[0], y.clone()? - about[1]];
+    let orbital = solid.mass * cross(&arm, &[u.clone()?, v.clone()?]);
+    let own = match solid.freedom {
+        Freedom::Rigid => solid.inertia * w.clone()?,
+        Freedom::Particle | Freedom::Fixed => 0.0,
+    };
+    Ok(orbital + own)
 }
 
 /// How far a body has come along a direction.

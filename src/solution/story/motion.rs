@@ -7,7 +7,7 @@ use crate::expr::{Expr, Symbol, dot, minus};
 use crate::scene::{Ask, Linkage, Slide, SlideEnd, Spring, Stage, StageKind, Turn, Until};
 use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::words::{self, name, say};
-use crate::solution::{Claim, Line, Math, Part, Solution};
+use crate::solution::{Claim, Line, Math, Part};
 use crate::story::{StageTold, State, is_clockwise};
 
 impl Page<'_> {
@@ -28,122 +28,47 @@ impl Page<'_> {
         if matches!(stage.kind, StageKind::Turn(_)) && told.work.is_empty() && !named {
             return;
         }
-        let mut lines = Vec::new();
-        let claim = |s: &mut Solution, left: &Expr, right: &Expr, why: &str| {
-            let claim = Claim::new(left.clone(), right.clone());
-            Some(s.step(Vec::new(), vec![claim], why))
-        };
-        let scene = self.scene;
-        let chain = |head: Vec<Math>, raw: &Expr, value: &Expr| {
-            let mut math = head;
-            math.push(Math::Op("="));
-            let raw = neat(scene, raw);
-            if !alike(&raw, value) {
-                math.extend([Math::Expr(raw), Math::Op("=")]);
-            }
-            math.push(Math::Expr(value.clone()));
-            math
-        };
-        if let (Some([raw, tidy]), StageKind::Turn(turn)) = (&told.inertia, &stage.kind) {
-            let raw = &match turn.with.is_empty() {
-                true => raw.clone(),
-                false => self.about(stage, told, turn),
-            };
-            let math = chain(vec![name("I", &turn.about_name, "", false)], raw, tidy);
-            let step = claim(
-                &mut self.solution,
-                raw,
-                tidy,
-                "moment of inertia about the fixed point: I + m r²",
-            );
-            // A body that turns again about the same point has the moment of inertia told before.
-            if self.is_new(&math) {
-                lines.push(Line { math, step });
-            }
-        }
+        let mut lines: Vec<Line> = self.inertia(stage, told).into_iter().collect();
         if self.is_of_moments(told) {
             if !lines.is_empty() {
                 self.solution.push(Part::Display(lines));
             }
             return self.whirled(stage, told);
         }
-        let t = |mark| vec![words::kinetic("", mark)];
         if let StageKind::Linkage(linkage) = &stage.kind {
             self.velocities(told, linkage);
         }
-        let rises =
-            matches!(&stage.kind, StageKind::Turn(turn) if matches!(turn.until, Until::Stops));
+        let stopping = match &stage.kind {
+            StageKind::Turn(turn) if matches!(turn.until, Until::Stops) => Some(turn),
+            _ => None,
+        };
         let pressing = match &stage.kind {
             StageKind::Slide(slide) if matches!(slide.until, SlideEnd::Stops) => {
                 slide.spring.as_ref()
             }
             _ => None,
         };
-        self.energies(told, rises || pressing.is_some());
+        self.energies(told, stopping.is_some() || pressing.is_some());
         let raw = self.energy_at(told, &told.before);
-        let math = chain(t("-"), &raw, start);
-        let step = claim(
-            &mut self.solution,
-            &raw,
-            start,
-            "kinetic energy at the beginning",
-        );
-        lines.push(Line { math, step });
+        let why = "kinetic energy at the beginning";
+        lines.push(self.chain(vec![words::kinetic("", "-")], &raw, start, why));
         if let Some(spring) = pressing {
             lines.extend(self.pressed(told, spring));
             self.solution.push(Part::Display(lines));
             return self.whirled(stage, told);
         }
-        if let StageKind::Turn(turn) = &stage.kind
-            && matches!(turn.until, Until::Stops)
-            && let Some(g) = &turn.gravity
-        {
-            self.solution.push(Part::Display(lines));
-            return self.rise(stage, told, turn, g);
+        if let Some(turn) = stopping {
+            if let Some(g) = &turn.gravity {
+                self.solution.push(Part::Display(lines));
+                return self.rise(stage, told, turn, g);
+            }
+            if let Some(line) = self.braked(told, turn) {
+                lines.push(line);
+                self.solution.push(Part::Display(lines));
+                return self.stopped(told, turn);
+            }
         }
-        if let StageKind::Turn(turn) = &stage.kind
-            && matches!(turn.until, Until::Stops)
-            && let Some(line) = self.braked(told, turn)
-        {
-            lines.push(line);
-            self.solution.push(Part::Display(lines));
-            return self.stopped(told, turn);
-        }
-        let total = Expr::sum(told.work.iter().map(|(_, w)| w.clone()));
-        let gain = end - start;
-        for (what, raw) in &told.work {
-            let value = if told.work.len() == 1 {
-                &tidied(self.scene, &gain)
-            } else {
-                raw
-            };
-            let index = if told.work.len() == 1 { "" } else { what };
-            let math = chain(vec![name("W", index, "", false)], raw, value);
-            let step = claim(
-                &mut self.solution,
-                raw,
-                value,
-                &format!("work of {what}: force times the way in its direction"),
-            );
-            lines.push(Line { math, step });
-        }
-        let after = start + &total;
-        let mut math = t("+");
-        math.extend([Math::Op("="), words::kinetic("", "-")]);
-        for (what, _) in &told.work {
-            let index = if told.work.len() == 1 { "" } else { what };
-            math.extend([Math::Op("+"), name("W", index, "", false)]);
-        }
-        if !named {
-            math = chain(math, end, end);
-        }
-        let step = claim(
-            &mut self.solution,
-            &after,
-            end,
-            "work changes kinetic energy",
-        );
-        lines.push(Line { math, step });
+        self.worked([start, end], told, named, &mut lines);
         lines.extend(self.speed(stage, told));
         if let (Some([inertia, _]), StageKind::Linkage(linkage)) = (&told.inertia, &stage.kind) {
             let square = self.rate(linkage).powi(2);
@@ -153,6 +78,71 @@ impl Page<'_> {
         }
         self.solution.push(Part::Display(lines));
         self.whirled(stage, told);
+    }
+
+    /// A name, what it is made of, and its value, as a claim.
+    fn chain(&mut self, head: Vec<Math>, raw: &Expr, value: &Expr, why: &str) -> Line {
+        let mut math = head;
+        math.push(Math::Op("="));
+        let shown = neat(self.scene, raw);
+        if !alike(&shown, value) {
+            math.extend([Math::Expr(shown), Math::Op("=")]);
+        }
+        math.push(Math::Expr(value.clone()));
+        self.claimed(math, raw, value, why)
+    }
+
+    fn claimed(&mut self, math: Vec<Math>, left: &Expr, right: &Expr, why: &str) -> Line {
+        let claim = Claim::new(left.clone(), right.clone());
+        let step = Some(self.solution.step(Vec::new(), vec![claim], why));
+        Line { math, step }
+    }
+
+    /// The moment of inertia about the fixed point of a turn, where it was not told before.
+    fn inertia(&mut self, stage: &Stage, told: &StageTold) -> Option<Line> {
+        let (Some([raw, tidy]), StageKind::Turn(turn)) = (&told.inertia, &stage.kind) else {
+            return None;
+        };
+        let raw = &match turn.with.is_empty() {
+            true => raw.clone(),
+            false => self.about(stage, told, turn),
+        };
+        let head = vec![name("I", &turn.about_name, "", false)];
+        let why = "moment of inertia about the fixed point: I + m r²";
+        let line = self.chain(head, raw, tidy, why);
+        self.is_new(&line.math).then_some(line)
+    }
+
+    /// The work on the way and the kinetic energy at the end, whose value is left to an answer that is named after it.
+    fn worked(
+        &mut self,
+        [start, end]: [&Expr; 2],
+        told: &StageTold,
+        named: bool,
+        lines: &mut Vec<Line>,
+    ) {
+        let alone = told.work.len() == 1;
+        let letter = |what: &str| name("W", if alone { "" } else { what }, "", false);
+        let gain = tidied(self.scene, &(end - start));
+        for (what, raw) in &told.work {
+            let value = if alone { &gain } else { raw };
+            let why = format!("work of {what}: force times the way in its direction");
+            lines.push(self.chain(vec![letter(what)], raw, value, &why));
+        }
+        let after = start + &Expr::sum(told.work.iter().map(|(_, w)| w.clone()));
+        let mut math = vec![
+            words::kinetic("", "+"),
+            Math::Op("="),
+            words::kinetic("", "-"),
+        ];
+        for (what, _) in &told.work {
+            math.extend([Math::Op("+"), letter(what)]);
+        }
+        if !named {
+            math.extend([Math::Op("="), Math::Expr(end.clone())]);
+        }
+        let why = "work changes kinetic energy";
+        lines.push(self.claimed(math, &after, end, why));
     }
 
     /// What the letters of a balance of energy stand for; where it comes to rest, only the first is needed.

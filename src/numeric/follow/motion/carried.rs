@@ -7,7 +7,7 @@
 use super::slide::rub;
 use super::strings::{across, fixed};
 use super::{Driven, Moved, Movers, REST, ROUNDING, Units, others, stopped};
-use crate::numeric::follow::mechanism::{Asked, Constraint, Goal, Mechanism, Mobile};
+use crate::numeric::follow::mechanism::{Asked, Constraint, Goal, Mechanism, Mobile, Run, Stop};
 use crate::numeric::follow::{Course, Lost, Passed, State, What};
 use crate::numeric::number::{cross, dot};
 use crate::scene::{Carrier, Slide, SlideEnd};
@@ -119,6 +119,44 @@ impl Pair<'_> {
         }
         Ok((mechanism, way))
     }
+
+    /// The motion until the slide ends; `time` is how long it lasts where that is given.
+    fn to_the_end(
+        &self,
+        course: &Course<'_>,
+        slide: &Slide,
+        mechanism: &Mechanism,
+        units: &Units,
+        time: f64,
+    ) -> Result<Result<Run, Stop>, Lost> {
+        let start = self.movers.start(units);
+        let slips = |y: &[f64]| self.slip(y);
+        Ok(match &slide.until {
+            SlideEnd::Time(_) => mechanism.lasting(&start, time / units.time),
+            SlideEnd::Distance(s) => {
+                let far = course.number(s, "distance")? / units.length;
+                let apart = |y: &[f64]| {
+                    let i = 3 * self.company;
+                    dot(&[y[0] - y[i], y[1] - y[i + 1]], &self.along)
+                };
+                let from = apart(&start);
+                let mut goal = Goal {
+                    left: &|y| apart(y) - from - far,
+                    rate: &slips,
+                    never: &mut |y, _| slips(y) <= 0.0,
+                };
+                mechanism.until(&start, &mut goal)
+            }
+            _ => {
+                let mut goal = Goal {
+                    left: &|y| -slips(y),
+                    rate: &|_| 1.0,
+                    never: &mut |_, _| false,
+                };
+                mechanism.until(&start, &mut goal)
+            }
+        })
+    }
 }
 
 /// Motion on a body that moves too.
@@ -180,33 +218,8 @@ pub(super) fn carried(
         mass: movers.inertias.iter().map(|i| i[0]).sum(),
     };
     let (mechanism, _) = pair.rough(course, &units)?;
-    let start = movers.start(&units);
     let never = "it comes to move with the body below before";
-    let run = match &slide.until {
-        SlideEnd::Time(_) => mechanism.lasting(&start, time / units.time),
-        SlideEnd::Distance(s) => {
-            let far = course.number(s, "distance")? / units.length;
-            let apart = |y: &[f64]| {
-                let i = 3 * pair.company;
-                dot(&[y[0] - y[i], y[1] - y[i + 1]], &pair.along)
-            };
-            let from = apart(&start);
-            let mut goal = Goal {
-                left: &|y| apart(y) - from - far,
-                rate: &|y| pair.slip(y),
-                never: &mut |y, _| pair.slip(y) <= 0.0,
-            };
-            mechanism.until(&start, &mut goal)
-        }
-        _ => {
-            let mut goal = Goal {
-                left: &|y| -pair.slip(y),
-                rate: &|_| 1.0,
-                never: &mut |_, _| false,
-            };
-            mechanism.until(&start, &mut goal)
-        }
-    };
+    let run = pair.to_the_end(course, slide, &mechanism, &units, time)?;
     let run = run.map_err(|stop| stopped(course, stop, never))?;
     let tiny = ROUNDING * (fastest + largest * time) / units.speed();
     if pair.slip(&run.end) < -tiny {

@@ -85,24 +85,10 @@ pub(in crate::numeric::follow) fn slide(
 ) -> Result<Passed, Lost> {
     let bodies = slide.bodies();
     let has_forces = slide.gravity.is_some() || slide.force.is_some();
-    let mut from = [0.0; 2];
-    let mut begin = before.clone();
-    for p in slide.pulleys().filter(|p| course.solids[*p].mass == 0.0) {
-        // Whatever a light pulley does takes nothing.
-        let spin = &mut begin.bodies[p].spin;
-        *spin = spin.clone().or(Ok(0.0));
-    }
-    for b in &bodies {
-        let body = &begin.bodies[*b];
-        match body.known() {
-            Ok([x, y, ..]) if *b == slide.body => from = [x, y],
-            Err(_) if first_open(body.components()).is_some() => {
-                let time = Err(course.open(Why::Needed));
-                return Ok(all_open(course, before, &bodies, has_forces, time));
-            }
-            _ => {}
-        }
-    }
+    let Some((begin, from)) = begun(course, slide, &before, &bodies) else {
+        let time = Err(course.open(Why::Needed));
+        return Ok(all_open(course, before, &bodies, has_forces, time));
+    };
     let movers = Movers::of(course, &bodies, &begin, from)
         .map_err(|_| course.out_of_reach("the place of the body is open"))?;
     if let Some(below) = &slide.on {
@@ -139,45 +125,20 @@ pub(in crate::numeric::follow) fn slide(
     let guides = guides(&acting, slips, &units);
     let first = guides.len();
     let mut mechanism = on_line(&movers, &units, &acting, company, guides, &ropes);
-    let mut start = movers.start(&units);
-    let n = start.len() / 2;
-    // What is across the line is rounding, and so is the spin of what does not turn.
-    let mut directions = vec![(acting.along, 1.0); company];
-    let ends = ropes.ends.iter();
-    directions.extend(ends.flat_map(|e| e.hung().map(|_| (e.along, e.ratio))));
-    directions.resize(bodies.len(), ([0.0; 2], 0.0));
-    for (i, (along, ratio)) in directions.iter().enumerate() {
-        start[n + 3 * i] = speed * ratio * along[0] / units.speed();
-        start[n + 3 * i + 1] = speed * ratio * along[1] / units.speed();
-        if !turns || i > 0 {
-            start[n + 3 * i + 2] = 0.0;
-        }
-    }
-    for pulley in &ropes.pulleys {
-        start[n + 3 * pulley.body + 2] = speed * pulley.spin * units.time;
-    }
-    let unsolved = || course.out_of_reach("the equations of motion have no solution");
-    let held = |mechanism: &Mechanism| {
-        let at_start = mechanism.accelerations(&start).map(|(_, held)| held);
-        at_start.ok_or_else(unsolved)
-    };
-    let presses = held(&mechanism)?;
-    for (end, press) in ropes.ends.iter().zip(&presses[first..]) {
-        let size = -end.rough.unwrap_or(0.0) * press.abs();
-        rub(&mut mechanism, end.bodies[0], end.along, [0.0; 2], size);
-    }
-    let held_at_start = held(&mechanism)?;
-    if let Some(mu) = acting.rough {
-        let press = held_at_start[0].abs();
-        if slips {
-            let way = if turns && slip < 0.0 { -1.0 } else { 1.0 };
-            let arm = acting.contact.unwrap_or_default().map(|r| r / units.length);
-            rub(&mut mechanism, 0, acting.along, arm, -way * mu * press);
-        } else if held_at_start[1].abs() > mu * press * (1.0 + ROUNDING) {
-            return Err(course.contradiction("the surface is too smooth for it to roll"));
-        }
-    }
-    let pulls = held(&mechanism)?;
+    let directions = directions(&acting, company, &ropes, bodies.len());
+    let start = start_on_line(&movers, &units, &ropes, &directions, (speed, turns));
+    let slipping_at = slips.then_some(slip);
+    roughen(
+        course,
+        &mut mechanism,
+        &start,
+        (&acting, &ropes, &units),
+        first,
+        slipping_at,
+    )?;
+    let (rates, pulls) = mechanism
+        .accelerations(&start)
+        .ok_or_else(|| unsolved(course))?;
     let forces = mechanism.forces.iter().flatten();
     let largest = forces.fold(0.0, |a: f64, f| a.max(f.abs()));
     let tensions = &pulls[pulls.len() - ropes.parts(&units).count()..];
@@ -215,7 +176,6 @@ pub(in crate::numeric::follow) fn slide(
     }
     let time = Ok(run.time * units.time);
     others(course, &before, &mut after, &bodies, &time, has_forces);
-    let (rates, _) = mechanism.accelerations(&start).ok_or_else(unsolved)?;
     let acceleration = units.length / (units.time * units.time);
     let driven = directions.iter().enumerate();
     let driven = driven.filter(|(_, (along, _))| *along != [0.0; 2]);
@@ -232,6 +192,110 @@ pub(in crate::numeric::follow) fn slide(
         ..Moved::default()
     };
     Ok(course.passed(time, before, after, What::Motion(moved)))
+}
+
+/// The state at the beginning, with no spin of light pulleys left open, and where the body is; nothing where it is open.
+fn begun(
+    course: &Course<'_>,
+    slide: &Slide,
+    before: &State,
+    bodies: &[usize],
+) -> Option<(State, [f64; 2])> {
+    let mut from = [0.0; 2];
+    let mut begin = before.clone();
+    for p in slide.pulleys().filter(|p| course.solids[*p].mass == 0.0) {
+        // Whatever a light pulley does takes nothing.
+        let spin = &mut begin.bodies[p].spin;
+        *spin = spin.clone().or(Ok(0.0));
+    }
+    for b in bodies {
+        let body = &begin.bodies[*b];
+        match body.known() {
+            Ok([x, y, ..]) if *b == slide.body => from = [x, y],
+            Err(_) if first_open(body.components()).is_some() => return None,
+            _ => {}
+        }
+    }
+    Some((begin, from))
+}
+
+fn unsolved(course: &Course<'_>) -> Lost {
+    course.out_of_reach("the equations of motion have no solution")
+}
+
+/// The direction of each body, with its speed as a share of that of the first one; nothing for what only turns.
+fn directions(
+    acting: &Acting,
+    company: usize,
+    ropes: &Ropes,
+    bodies: usize,
+) -> Vec<([f64; 2], f64)> {
+    let mut directions = vec![(acting.along, 1.0); company];
+    let ends = ropes.ends.iter();
+    directions.extend(ends.flat_map(|e| e.hung().map(|_| (e.along, e.ratio))));
+    directions.resize(bodies, ([0.0; 2], 0.0));
+    directions
+}
+
+/// The state at the beginning: what is across the line is rounding, and so is the spin of what does not turn.
+fn start_on_line(
+    movers: &Movers,
+    units: &Units,
+    ropes: &Ropes,
+    directions: &[([f64; 2], f64)],
+    (speed, turns): (f64, bool),
+) -> Vec<f64> {
+    let mut start = movers.start(units);
+    let n = start.len() / 2;
+    for (i, (along, ratio)) in directions.iter().enumerate() {
+        start[n + 3 * i] = speed * ratio * along[0] / units.speed();
+        start[n + 3 * i + 1] = speed * ratio * along[1] / units.speed();
+        if !turns || i > 0 {
+            start[n + 3 * i + 2] = 0.0;
+        }
+    }
+    for pulley in &ropes.pulleys {
+        start[n + 3 * pulley.body + 2] = speed * pulley.spin * units.time;
+    }
+    start
+}
+
+/// Puts friction of the size that the press at the beginning gives on all that slides; `slip` is nothing where it rolls, which
+/// takes no more friction than there is. The constraints of the strings follow the `first`.
+fn roughen(
+    course: &Course<'_>,
+    mechanism: &mut Mechanism,
+    start: &[f64],
+    (acting, ropes, units): (&Acting, &Ropes, &Units),
+    first: usize,
+    slip: Option<f64>,
+) -> Result<(), Lost> {
+    let held = |mechanism: &Mechanism| {
+        let at_start = mechanism.accelerations(start).map(|(_, held)| held);
+        at_start.ok_or_else(|| unsolved(course))
+    };
+    let presses = held(mechanism)?;
+    for (end, press) in ropes.ends.iter().zip(&presses[first..]) {
+        let size = -end.rough.unwrap_or(0.0) * press.abs();
+        rub(mechanism, end.bodies[0], end.along, [0.0; 2], size);
+    }
+    let Some(mu) = acting.rough else {
+        return Ok(());
+    };
+    let held_at_start = held(mechanism)?;
+    let press = held_at_start[0].abs();
+    if let Some(slip) = slip {
+        let way = if acting.contact.is_some() && slip < 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
+        let arm = acting.contact.unwrap_or_default().map(|r| r / units.length);
+        rub(mechanism, 0, acting.along, arm, -way * mu * press);
+    } else if held_at_start[1].abs() > mu * press * (1.0 + ROUNDING) {
+        return Err(course.contradiction("the surface is too smooth for it to roll"));
+    }
+    Ok(())
 }
 
 /// The bodies begin to move together along the line, and turn only where they may.
