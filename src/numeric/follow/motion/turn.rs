@@ -109,8 +109,14 @@ impl Rotation {
         self.is_balanced =
             !moves && torque == 0.0 && begins.abs() <= REST * self.rate && self.rate > 0.0;
         let lasts = matches!(turn.until, Until::For(_));
+        // From rest it goes where its weight pulls it.
+        let pulled = match moves {
+            true => self.spin,
+            false if torque == 0.0 && !self.is_balanced => begins,
+            false => 0.0,
+        };
         self.way = match (moves, declared) {
-            (true, Some(way)) if way * self.spin < 0.0 => {
+            (_, Some(way)) if way * pulled < 0.0 => {
                 let sense = if way > 0.0 { "" } else { "counter" };
                 return Err(course.contradiction(format!("it begins to turn {sense}clockwise")));
             }

@@ -25,13 +25,6 @@ pub(in crate::story) fn sense(
     } else {
         None
     };
-    let sense_words = |s: i64| {
-        if s > 0 {
-            "counterclockwise"
-        } else {
-            "clockwise"
-        }
-    };
     match (declared, seen) {
         (Some(d), Some(s)) if d != s => Err(Refused::new(
             &stage.name,
@@ -42,27 +35,10 @@ pub(in crate::story) fn sense(
             ),
             "the motion handed on decides the sense; leave `clockwise` out, or look at the stage before",
         )),
-        (Some(d), None) if begins == Seen::Proved(Sign::Zero) && turn.torque.is_none() => {
-            // From rest a body goes where its weight pulls it.
-            let r = minus(&turn.lump(&stage.scene).center, &turn.about);
-            let pull = match &turn.gravity {
-                Some(_) => sign(&(&Expr::from(-d) * &r[0]), domains),
-                None => Seen::Mixed,
-            };
-            if let Seen::Proved(Sign::Negative | Sign::NotPositive) = pull {
-                let why = format!(
-                    "`{body}` is at rest, and its weight turns it {}, not {}",
-                    sense_words(-d),
-                    sense_words(d)
-                );
-                let hint = "leave `clockwise` out, or give it a spin";
-                return Err(Refused::new(&stage.name, why, hint));
-            }
-            Ok((d, None))
-        }
+        (Some(d), None) if begins == Seen::Proved(Sign::Zero) => from_rest(stage, turn, Some(d)),
         (Some(d), _) => Ok((d, None)),
         (None, Some(s)) => Ok((s, None)),
-        (None, None) if begins == Seen::Proved(Sign::Zero) => from_rest(stage, turn),
+        (None, None) if begins == Seen::Proved(Sign::Zero) => from_rest(stage, turn, None),
         // A spin of either sign keeps it: the end is told for a positive one, where values do not say otherwise.
         (None, None) => {
             let way = match constant(&spin.substitute(&given(&stage.scene))) {
@@ -75,11 +51,24 @@ pub(in crate::story) fn sense(
     }
 }
 
-/// Which way a body at rest begins to turn, by its moments; values that are given decide where the domains leave it open.
-fn from_rest(stage: &Stage, turn: &Turn) -> Result<(i64, Option<(Expr, Sentence)>), Refused> {
+fn sense_words(way: i64) -> &'static str {
+    if way > 0 {
+        "counterclockwise"
+    } else {
+        "clockwise"
+    }
+}
+
+/// Which way a body at rest begins to turn, by its weight; what is declared has to agree with it, and values that are given
+/// decide where nothing is declared and the domains leave it open.
+fn from_rest(
+    stage: &Stage,
+    turn: &Turn,
+    declared: Option<i64>,
+) -> Result<(i64, Option<(Expr, Sentence)>), Refused> {
     let body = &stage.scene.bodies[turn.body].name;
     if turn.torque.is_some() {
-        return Ok((1, None));
+        return Ok((declared.unwrap_or(1), None));
     }
     let moment = match turn.gravity {
         Some(_) => -&minus(&turn.lump(&stage.scene).center, &turn.about)[0],
@@ -90,25 +79,51 @@ fn from_rest(stage: &Stage, turn: &Turn) -> Result<(i64, Option<(Expr, Sentence)
         Seen::Proved(Sign::NotPositive) => Some(false),
         seen => seen.side(),
     };
-    if let Some(left) = told {
-        return Ok((if left { 1 } else { -1 }, None));
-    }
-    let way = match constant(&moment.substitute(&given(&stage.scene))) {
-        Some(Sign::Positive) => 1,
-        Some(Sign::Negative) => -1,
-        _ => {
-            let why = format!("`{body}` is at rest, and nothing says which way it begins to turn");
-            let hint = "add \"clockwise\": true or false, a moment, or the domain or value of the angle at which it begins";
+    let told = told.map(|left| if left { 1 } else { -1 });
+    let way = match (told, declared) {
+        (Some(way), Some(d)) if way != d => {
+            let why = format!(
+                "`{body}` is at rest, and its weight turns it {}, not {}",
+                sense_words(way),
+                sense_words(d)
+            );
+            let hint = "leave `clockwise` out, or give it a spin";
             return Err(Refused::new(&stage.name, why, hint));
         }
+        (Some(way), _) => return Ok((way, None)),
+        // What nothing pulls, or what stands in balance, goes where it is told to.
+        (None, Some(d)) if is_zero(&moment, &stage.scene.domains) == Some(true) => {
+            return Ok((d, None));
+        }
+        (None, Some(d)) => d,
+        (None, None) => match constant(&moment.substitute(&given(&stage.scene))) {
+            Some(Sign::Positive) => 1,
+            Some(Sign::Negative) => -1,
+            _ => {
+                let why =
+                    format!("`{body}` is at rest, and nothing says which way it begins to turn");
+                let hint = "add \"clockwise\": true or false, a moment, or the domain or value of the angle at which it begins";
+                return Err(Refused::new(&stage.name, why, hint));
+            }
+        },
     };
     let need = tidied(stage, &(&Expr::from(way) * &moment))?;
-    let words = sentence![
-        crate::answer::calc::at_least_zero(&need, &stage.scene.domains),
-        ", so that `",
-        body,
-        "` begins to turn as it does at the values given"
-    ];
+    let condition = crate::answer::calc::at_least_zero(&need, &stage.scene.domains);
+    let words = match declared {
+        Some(_) => sentence![
+            condition,
+            ", so that `",
+            body,
+            "` begins to turn ",
+            sense_words(way)
+        ],
+        None => sentence![
+            condition,
+            ", so that `",
+            body,
+            "` begins to turn as it does at the values given"
+        ],
+    };
     Ok((way, Some((need, words))))
 }
 
