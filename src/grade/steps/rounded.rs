@@ -8,6 +8,7 @@ use super::super::{Tolerance, believed, fraction, number};
 use super::Desk;
 use super::link::Link;
 use crate::algebra::quotient;
+use crate::dimension;
 use crate::expr::{Expr, Rational, Symbol};
 
 impl Desk<'_> {
@@ -39,8 +40,8 @@ impl Desk<'_> {
                 if share.is_some_and(|k| number::within(&k, &Expr::one(), &room) == Some(true)) {
                     return true;
                 }
-                // `v = e · 4.95 m/s`: some of the values put in.
-                if !decimal {
+                // `v = e · 4.95 m/s`: some of the values put in, which the dimensions show; else it is a formula.
+                if !decimal || self.have_one_dimension([&a, &b]) {
                     return false;
                 }
             }
@@ -48,6 +49,17 @@ impl Desk<'_> {
             let constant = a.symbols().is_empty() && b.symbols().is_empty();
             constant && number::within(&b, &a, &room) == Some(true)
         })
+    }
+
+    /// Whether two sides in terms of parameters have the same dimension.
+    fn have_one_dimension(&self, sides: [&Expr; 2]) -> bool {
+        let parameters = &self.sheet.scene.parameters;
+        let known = |name: &str| {
+            let named = parameters.iter().find(|p| *p.name == *name);
+            named.map(|p| p.dimension.clone())
+        };
+        let [a, b] = sides.map(|side| dimension::of(side, &known));
+        matches!((a, b), (Ok(a), Ok(b)) if a == b)
     }
 
     /// The constant factor between two formulas.
