@@ -123,9 +123,14 @@ impl Page<'_> {
     ) {
         let alone = told.work.len() == 1;
         let letter = |what: &str| name("W", if alone { "" } else { what }, "", false);
-        let gain = tidied(self.scene, &(end - start));
+        let gain = end - start;
         for (what, raw) in &told.work {
-            let value = if alone { &gain } else { raw };
+            let tidy = tidied(self.scene, if alone { &gain } else { raw });
+            let value = if alone || tidy.size() < raw.size() {
+                &tidy
+            } else {
+                raw
+            };
             let why = format!("work of {what}: force times the way in its direction");
             lines.push(self.chain(vec![letter(what)], raw, value, &why));
         }

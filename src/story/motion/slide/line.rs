@@ -270,6 +270,9 @@ impl<'a> Line<'a> {
             () if self.slide.force.is_some() => {
                 (false, "the force does work, its size times the distance")
             }
+            () if self.slide.spring.is_some() && self.slide.along[1].is_zero() => {
+                (true, "the spring keeps what it takes, and gives it back")
+            }
             () if self.slide.spring.is_some() => (
                 true,
                 "the spring keeps what it takes, and weight has a potential",
@@ -296,7 +299,7 @@ impl<'a> Line<'a> {
             let own = &(&self.own * g) * &lost;
             let others = self.strings.iter().map(|s| &s.pull * &course.distance);
             let weight = Expr::sum([own].into_iter().chain(others));
-            if !weight.is_zero() {
+            if is_zero(&weight, self.domains()) != Some(true) {
                 out.push(("weight", weight));
             }
         }
