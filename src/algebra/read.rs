@@ -199,8 +199,15 @@ impl Field {
         let over_even = (k - over_odd * even) / odd;
         // What cannot be written out may still be the same power of the same.
         if odd == 1 && even == 1 && k.abs() > MOST_POWER && base.num.len() > 1 {
+            let turned = base.num.leading_is_negative();
+            let base = if turned { self.neg(&base) } else { base };
             let exponent = self.integer(k);
-            return Ok(self.opaque_power(base, exponent));
+            let power = self.opaque_power(base, exponent);
+            return Ok(if turned && k % 2 != 0 {
+                self.neg(&power)
+            } else {
+                power
+            });
         }
         let mut root = base.clone();
         for _ in 0..even.ilog2() {

@@ -125,6 +125,9 @@ impl Field {
         if let Some(v) = self.known_root(p, 2) {
             return Ok(Element::var(v));
         }
+        if let Some((n, value)) = self.as_root(p).filter(|(n, _)| n % 2 == 1) {
+            return self.nested_root(&value, n);
+        }
         if let Some(hidden) = self.hidden_square(p) {
             return self.abs(&hidden);
         }
@@ -134,6 +137,24 @@ impl Field {
         let v = self.adjoin(Kind::Root);
         self.relate(v, 2, p.clone());
         Ok(Element::var(v))
+    }
+
+    /// Degree and radicand, when a polynomial is a root by itself.
+    fn as_root(&self, p: &Poly) -> Option<(u32, Poly)> {
+        let g = &self.gens[self.as_generator(&Element::from_poly(p.clone()))?];
+        match g.kind {
+            Kind::Root => g.relation.clone(),
+            _ => None,
+        }
+    }
+
+    /// The root of degree 2n for odd n, of a root within a root: √p (ⁿ√p)^((1 − n)/2), since 1/(2n) = 1/2 + (1 − n)/(2n).
+    fn nested_root(&mut self, p: &Poly, n: u32) -> Result<Element, Stop> {
+        let p = Element::from_poly(p.clone());
+        let root = self.sqrt(&p)?;
+        let odd = self.odd_root(&p, n)?;
+        let power = self.pow(&odd, (1 - i64::from(n)) / 2)?;
+        self.mul(&root, &power)
     }
 
     /// The generator that is the n-th root of p, if there is one.
@@ -404,6 +425,7 @@ impl Field {
             total = self.mul(&total, &power)?;
             if left > 0 {
                 let root = match sign {
+                    _ if let Some((2, value)) = self.as_root(&f) => self.nested_root(&value, n)?,
                     Some(_) => self.odd_root_generator(&f, n),
                     // Generators that are roots are not negative.
                     None => {

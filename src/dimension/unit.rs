@@ -426,7 +426,7 @@ Wb weber; 1 2 -2 -1; 1
 K kelvin kelvins; 0 0 0 0 1; 1
 rad rads radian radians; 0 0 0; 1 angle
 deg degree degrees °; 0 0 0; pi / 180 angle
-rev turn revolution revolutions; 0 0 0; 2 pi angle
+rev revs turn turns revolution revolutions; 0 0 0; 2 pi angle
 rpm; 0 0 -1; pi / 30 angle
 ";
 

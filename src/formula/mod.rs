@@ -414,12 +414,19 @@ fn box_beside_unit(text: &str) -> Option<String> {
         .then(|| format!("{:start$}{} {behind}", "", &text[start..end]))
 }
 
-/// Start and end of the inside of the last `\boxed{}`; without one of the whole text.
+/// Start and end of the inside of the last `\boxed{}`; without one of the whole text, or of `\text{2 m/s}` around all of it.
 fn boxed(text: &str) -> Faulty<(usize, usize)> {
     const OPEN: &str = "\\boxed";
+    const FONTS: [&str; 4] = ["\\text{", "\\textbf{", "\\mathrm{", "\\mathbf{"];
     let command = text.contains('\\').then(|| text.rfind(OPEN));
     let Some(at) = command.flatten() else {
-        return Ok((0, text.len()));
+        let mut opened = FONTS.iter().filter_map(|font| text.strip_prefix(font));
+        let inside = opened.next().and_then(|behind| behind.strip_suffix('}'));
+        let number =
+            inside.filter(|i| i.starts_with(|c: char| c.is_ascii_digit()) && !i.contains('}'));
+        return Ok(number.map_or((0, text.len()), |i| {
+            (text.len() - 1 - i.len(), text.len() - 1)
+        }));
     };
     let behind = &text[at + OPEN.len()..];
     let blanks = behind.len() - behind.trim_start().len();

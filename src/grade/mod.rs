@@ -327,7 +327,7 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         }
         return grade;
     }
-    unit::metres(key, &mut reading);
+    unit::as_asked(key, &mut reading);
     let names = key.question.symbols.iter().map(|g| &g.name);
     if let Some(content) = read::sizes(&reading.content, names) {
         reading.content = content;

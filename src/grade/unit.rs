@@ -117,8 +117,19 @@ fn dimension_of(side: &Content) -> Option<Dimension> {
     }
 }
 
-/// `1.2 ms^{-1}`, where m s⁻¹ is asked: without a space the letters are those of a millisecond, which nobody means there.
-pub(super) fn metres(key: &Key, reading: &mut Reading) {
+/// What letters of a unit may mean where only that fits what is asked: without a space `ms` of `1.2 ms^{-1}` would be a
+/// millisecond, and a pound is a force in `12 ft lb`.
+const MEANT: [(&str, &str); 6] = [
+    ("ms", "m s"),
+    ("kgms", "kg m s"),
+    ("lb", "lbf"),
+    ("lbs", "lbf"),
+    ("pound", "lbf"),
+    ("pounds", "lbf"),
+];
+
+/// Reads the unit of an answer as it fits what is asked, if it only fits so.
+pub(super) fn as_asked(key: &Key, reading: &mut Reading) {
     let asked = match key.reading.content.answer() {
         Content::Quantity(expected) => Some(expected.unit.dimension.clone()),
         _ => asked(key),
@@ -131,15 +142,30 @@ pub(super) fn metres(key: &Key, reading: &mut Reading) {
     let Some(Content::Quantity(quantity)) = said else {
         return;
     };
-    if quantity.unit.dimension == asked || !quantity.unit_text.contains("ms") {
+    if quantity.unit.dimension == asked {
         return;
     }
-    let text = formula::plain_unit(&quantity.unit_text.replace("ms", "m s"));
-    let unit = text.and_then(|text| dimension::unit(&text).ok());
-    if let Some(unit) = unit.filter(|unit| unit.dimension == asked) {
+    let meant = MEANT.iter().filter_map(|(word, meant)| {
+        let text = formula::plain_unit(&with_word(&quantity.unit_text, word, meant)?)?;
+        dimension::unit(&text).ok()
+    });
+    if let Some(unit) = meant.into_iter().find(|unit| unit.dimension == asked) {
         quantity.value = &quantity.written * &unit.value();
         quantity.unit = unit;
     }
+}
+
+/// A text with a word of letters replaced wherever it stands, if it does.
+fn with_word(text: &str, word: &str, other: &str) -> Option<String> {
+    let mut out = String::new();
+    let mut found = false;
+    for part in text.split_inclusive(|c: char| !c.is_alphabetic()) {
+        let letters = part.trim_end_matches(|c: char| !c.is_alphabetic());
+        found |= letters == word;
+        out.push_str(if letters == word { other } else { letters });
+        out.push_str(&part[letters.len()..]);
+    }
+    found.then_some(out)
 }
 
 const MISSING: &str = "a unit is missing";
