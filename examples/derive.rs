@@ -8,7 +8,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let text = std::fs::read_to_string(&path)?;
     let scene = scene::read(&text).map_err(|faults| faults.render(&path, &text))?;
     let worked = worked::out(&scene)?;
-    print!("{}", render::story::text(&worked.scene, &worked.told));
+    print!("{}", render::text::told(&worked.scene, &worked.told));
     assert!(worked.holds(), "a closed form is not proved");
     Ok(())
 }

@@ -34,7 +34,7 @@ const ROOT: &str = "\u{1}root";
 pub type Known = BTreeMap<Symbol, Expr>;
 
 /// One thing that was checked.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Check {
     /// Stable name of the kind of check.
     pub kind: &'static str,

@@ -92,8 +92,8 @@ pub fn derive(scene: &Scene, format: Format) -> Result<Output, String> {
     }
     let worked = worked::out(scene)?;
     let text = match format {
-        Format::Text => render::story::text(scene, &worked.told),
-        Format::Json => pretty(&render::story::json(scene, &worked.told)),
+        Format::Text => render::text::told(scene, &worked.told),
+        Format::Json => pretty(&render::json::told(scene, &worked.told)),
     };
     Ok(Output::new(text, worked.holds()))
 }

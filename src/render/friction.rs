@@ -62,7 +62,7 @@ pub fn text(
             one.case.mode.words(),
             holds_where(scene, &table.law, one.case)
         ));
-        let full = super::story::text(&one.case.scene, &one.told);
+        let full = super::text::told(&one.case.scene, &one.told);
         // The heading stands above already.
         let rest = full.split_once('\n').map_or("", |(_, rest)| rest);
         say(rest.trim_end());
@@ -97,7 +97,7 @@ pub fn text(
         }
         if !about.is_empty() {
             say("\nin every case:");
-            say(super::story::answers(scene, about).trim_end());
+            say(super::text::answers(scene, None, about).trim_end());
         }
     }
     say("\nchecked against the path of the impulse:");
@@ -256,7 +256,7 @@ pub fn json(scene: &Scene, table: &Table, judged: &Judged, shown: &[Shown]) -> V
     let cases: Vec<Value> = shown
         .iter()
         .map(|each| {
-            let mut value = super::story::json(&each.case.scene, &each.told);
+            let mut value = super::json::told(&each.case.scene, &each.told);
             if let Value::Object(fields) = &mut value {
                 fields.insert("mode".into(), json!(each.case.mode.words()));
                 fields.insert("direction".into(), json!(each.case.direction));

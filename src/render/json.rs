@@ -9,10 +9,78 @@ use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, write_plain};
 use crate::laws;
 use crate::scene::Scene;
-use crate::story::{Case, Told};
+use crate::story::{Case, StageTold, Told};
+
+/// What was told as data: one impact with its equations, or answers with the stages beside them.
+pub fn told(scene: &Scene, told: &Told) -> Value {
+    if let Some(impact) = told.alone() {
+        return self::impact(scene, told, impact);
+    }
+    json!({
+        "title": scene.title,
+        "source": scene.source,
+        "admissible": told.refusals().is_empty(),
+        "refusals": told.refusals(),
+        "answers": told.answers.iter().map(|a| answer(scene, told, a)).collect::<Vec<_>>(),
+        "stages": told.stages.iter().map(|s| stage(scene, s)).collect::<Vec<_>>(),
+        "readings": told.readings,
+        "unused": told.unused.iter().map(|s| &**s).collect::<Vec<_>>(),
+        "remarks": scene.remarks,
+        "verified": told.holds(),
+    })
+}
+
+fn stage(scene: &Scene, s: &StageTold) -> Value {
+    let bodies: Vec<Value> = scene
+        .bodies
+        .iter()
+        .enumerate()
+        .filter(|(_, b)| !b.is_fixed())
+        .map(|(i, b)| {
+            let state = |s: &crate::story::State| {
+                json!({
+                    "center": [write_plain(&s.center[i][0]), write_plain(&s.center[i][1])],
+                    "velocity": [write_plain(&s.velocity[i][0]), write_plain(&s.velocity[i][1])],
+                    "spin": write_plain(&s.spin[i]),
+                })
+            };
+            json!({"body": b.name, "before": state(&s.before), "after": state(&s.after)})
+        })
+        .collect();
+    json!({
+        "name": s.name,
+        "kind": s.placed.kind.word(),
+        "words": plain(&s.words),
+        "conserved": s.kept.iter().map(|k| json!({"what": k.what, "conserved": k.conserved, "why": k.why.to_string()})).collect::<Vec<_>>(),
+        "cases": s.cases.iter().map(|c| case(scene, c)).collect::<Vec<_>>(),
+        "energy": s.energy.as_ref().map(|[a, b]| json!({"before": write_plain(a), "after": write_plain(b)})),
+        "bodies": bodies,
+        "assumptions": plain(&s.assumptions),
+        "checks": s.checks.iter().map(check).collect::<Vec<_>>(),
+    })
+}
+
+/// An outcome of an impact, with the equations it took.
+fn case(scene: &Scene, case: &Case) -> Value {
+    let conditions = case.conditions.iter();
+    let conditions = conditions.map(|(why, e)| format!("{} >= 0 ({why})", write_plain(e)));
+    let mut out = object(json!({
+        "active": case.active,
+        "conditions": conditions.collect::<Vec<_>>(),
+        "verified": case.proof.holds(),
+        "admissible": super::possible::json(scene, &case.possible),
+    }));
+    let (asked, derivation) = case.asked();
+    out.extend(equations(&asked, &derivation));
+    Value::Object(out)
+}
+
+fn plain(all: &[Sentence]) -> Vec<String> {
+    all.iter().map(ToString::to_string).collect()
+}
 
 /// Everything about the one impact of a scene, its derivation and its proof.
-pub(super) fn impact(scene: &Scene, told: &Told, impact: &Case) -> Value {
+fn impact(scene: &Scene, told: &Told, impact: &Case) -> Value {
     let Case {
         derivation,
         proof,
@@ -37,7 +105,7 @@ pub(super) fn impact(scene: &Scene, told: &Told, impact: &Case) -> Value {
 }
 
 /// The fields of an object.
-pub(super) fn object(value: Value) -> Map<String, Value> {
+fn object(value: Value) -> Map<String, Value> {
     match value {
         Value::Object(fields) => fields,
         _ => Map::new(),
@@ -45,7 +113,7 @@ pub(super) fn object(value: Value) -> Map<String, Value> {
 }
 
 /// The equations that an impact took, and what it did not need.
-pub(super) fn equations(scene: &Scene, derivation: &Derivation) -> Map<String, Value> {
+fn equations(scene: &Scene, derivation: &Derivation) -> Map<String, Value> {
     let counting = &derivation.counting;
     let used: usize = derivation.blocks.iter().map(|b| b.equations.len()).sum();
     object(json!({
@@ -97,7 +165,7 @@ pub fn matrix(m: &Matrix) -> Value {
 }
 
 /// An answer: what it is, what it rests on, and how it was checked. Those of one impact may hold definitions of its derivation.
-pub(super) fn answer(scene: &Scene, told: &Told, a: &Answer) -> Value {
+fn answer(scene: &Scene, told: &Told, a: &Answer) -> Value {
     let impact = told.alone().filter(|_| a.told.is_some());
     let derivation = impact.map(|impact| &impact.derivation);
     // The domains, how the statement is read, and its own assumptions.
@@ -121,11 +189,7 @@ pub(super) fn answer(scene: &Scene, told: &Told, a: &Answer) -> Value {
                 );
                 out.insert("closed".into(), json!(write_plain(closed)));
             }
-            let value = match derivation {
-                Some(derivation) => super::answer_value(scene, derivation, closed),
-                None => super::value(scene, closed),
-            };
-            if let Some(value) = value {
+            if let Some(value) = super::answer_value(scene, derivation, closed) {
                 out.insert("value".into(), json!(value.approximate));
                 if let Some(exact) = value.exact {
                     out.insert("value_exact".into(), json!(exact.to_string()));

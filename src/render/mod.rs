@@ -24,7 +24,6 @@ pub mod several;
 pub mod site;
 pub mod stages;
 pub mod steps;
-pub mod story;
 pub mod text;
 
 use std::collections::BTreeMap;
@@ -264,11 +263,11 @@ pub fn value(scene: &Scene, e: &Expr) -> Option<Value> {
     Some(Value { approximate, exact })
 }
 
-/// The value of an answer at the scene's values, through the definitions where the derivation went in steps.
-pub fn answer_value(scene: &Scene, derivation: &Derivation, closed: &Expr) -> Option<Value> {
-    if !derivation.in_steps {
+/// The value of an answer at the scene's values, through the definitions where the derivation it comes from went in steps.
+pub fn answer_value(scene: &Scene, from: Option<&Derivation>, closed: &Expr) -> Option<Value> {
+    let Some(derivation) = from.filter(|d| d.in_steps) else {
         return value(scene, closed);
-    }
+    };
     let point = numeric::values(scene).ok()?;
     let approximate = crate::verify::evaluate(closed, derivation, &point)?;
     Some(Value {

@@ -1,134 +1,258 @@
-//! A derivation for the terminal: the answers, the few equations they took, what was left out, how it was checked.
+//! A scene worked out, for the terminal: the answers with how each is known, then how it goes, stage by stage, with the few
+//! equations that took and what was left out. A scene of one impact is one stage without a name.
 
 use std::fmt::Write;
 
 use super::unicode;
 use crate::answer::{Answer, Check, Form, Matrix};
 use crate::derive::Derivation;
+use crate::expr::Expr;
+use crate::formula::{Relation, Sentence};
 use crate::laws;
-use crate::scene::Scene;
-use crate::story::{Case, Told};
+use crate::scene::{Ask, Question, Scene};
+use crate::story::{StageTold, Told};
 
-/// The one impact of a scene as plain text.
-pub(super) fn impact(scene: &Scene, told: &Told, impact: &Case) -> String {
-    let Case {
-        derivation: d,
-        proof,
-        possible,
-        ..
-    } = impact;
-    let (own, about) = told.answers.split_at(d.answers.len());
+/// What was told: what cannot be so first, then the answers, then the stages.
+pub fn told(scene: &Scene, told: &Told) -> String {
     let mut out = String::new();
-    if let Some(refusal) = possible.refusal() {
+    for refusal in told.refusals() {
         let _ = writeln!(out, "{refusal}");
     }
     let _ = writeln!(out, "{}", super::heading(&scene.title, &scene.source));
-    equations(&mut out, scene, d);
-    if !own.is_empty() {
-        let _ = writeln!(out, "\nanswers:");
+    for reading in &told.readings {
+        let _ = writeln!(out, "read as: {reading}");
     }
-    for answer in own {
-        self::answer(&mut out, scene, d, answer);
+    for why in &told.ended {
+        let _ = writeln!(out, "\n✗ {why}");
     }
-    if !d.definitions.is_empty() {
-        let _ = writeln!(out, "\nwhere:");
-        for definition in &d.definitions {
-            let _ = writeln!(
-                out,
-                "  {} = {}",
-                definition.name,
-                unicode(scene, &definition.value)
-            );
-            let _ = writeln!(out, "      {}", definition.meaning);
-        }
+    let alone = told.alone().map(|case| &case.derivation);
+    if !told.answers.is_empty() {
+        let _ = writeln!(out, "\nanswers");
+        out.push_str(&answers(scene, Some(told), &told.answers));
     }
-    let under = super::assumptions(scene, d, proof);
+    let definitions = alone.map_or(&[][..], |d| &d.definitions);
+    if !definitions.is_empty() {
+        let _ = writeln!(out, "\nwhere");
+    }
+    for definition in definitions {
+        let value = unicode(scene, &definition.value);
+        let _ = writeln!(out, "   {} = {value}", definition.name);
+        let _ = writeln!(out, "      {}", definition.meaning);
+    }
+    let under = scene.domains.conditions();
     if !under.is_empty() {
         let _ = writeln!(out, "\nunder: {}", under.join(", "));
     }
-    let only = super::possible::conditions(scene, possible);
-    if !only.is_empty() {
-        let _ = writeln!(out, "\npossible where: {}", only.join(", "));
+    if !told.unused.is_empty() {
+        let names: Vec<&str> = told.unused.iter().map(AsRef::as_ref).collect();
+        let _ = writeln!(out, "\nnot needed: {}", names.join(", "));
     }
-    left_out(&mut out, d);
-    let _ = writeln!(out, "\nchecked:");
-    proof.scene.iter().for_each(|c| check(&mut out, "  ", c));
-    if let Some(possible) = super::possible::check(scene, possible) {
-        check(&mut out, "  ", &possible);
-    }
-    for words in &possible.not_judged {
-        let _ = writeln!(out, "  – not judged: {words}");
-    }
-    for note in &possible.notes {
-        let _ = writeln!(out, "  – {note}");
-    }
-    for (answer, checks) in d.answers.iter().zip(&proof.answers) {
-        for c in checks {
-            check(&mut out, &format!("  {}: ", answer.name), c);
+    for (i, s) in told.stages.iter().enumerate() {
+        let kind = s.placed.kind.word();
+        let _ = match alone {
+            Some(_) => writeln!(out, "\n{kind}"),
+            None => writeln!(out, "\n{}. {} ({kind})", i + 1, s.name),
+        };
+        for line in stage(scene, s).lines() {
+            let _ = writeln!(out, "{}", format!("   {line}").trim_end());
         }
-    }
-    if !about.is_empty() {
-        let _ = writeln!(out, "\nasked about these answers:");
-        out.push_str(&super::story::answers(scene, about));
     }
     out
 }
 
-/// An answer: its formula with its value, its equation, its matrix, or that it stays open.
-fn answer(out: &mut String, scene: &Scene, d: &Derivation, answer: &Answer) {
-    match &answer.form {
-        Form::Value { closed, short } => {
-            let value = super::answer_value(scene, d, closed)
-                .filter(|_| !closed.is_zero())
-                .map_or(String::new(), |v| {
-                    let number = super::digits(v.approximate);
-                    format!(" = {}", answer.dimension.measured(&number))
-                });
-            let _ = writeln!(
-                out,
-                "  {} = {}{}",
-                answer.name,
-                unicode(scene, short),
-                value
-            );
-            let _ = writeln!(
-                out,
-                "      {} [{}]",
-                answer.words,
-                answer.dimension.spoken()
-            );
+/// How a stage goes, what it keeps, its outcomes, and how that was checked.
+fn stage(scene: &Scene, s: &StageTold) -> String {
+    let mut out = String::new();
+    let written = |words: &Sentence| words.written(|e| unicode(scene, e));
+    for words in &s.words {
+        let _ = writeln!(out, "{}", written(words));
+    }
+    for k in &s.kept {
+        let not = if k.conserved { "" } else { "not " };
+        let _ = writeln!(out, "{} {not}conserved: {}", k.what, written(&k.why));
+    }
+    for words in &s.assumptions {
+        let _ = writeln!(out, "taken for granted: {}", written(words));
+    }
+    for (k, case) in s.cases.iter().enumerate() {
+        if s.cases.len() > 1 {
+            let _ = writeln!(out, "case {}:", k + 1);
         }
-        Form::Equation { left, right } => {
-            let _ = writeln!(
-                out,
-                "  {}: {} = {}",
-                answer.name,
-                unicode(scene, left),
-                unicode(scene, right)
-            );
-            let _ = writeln!(out, "      {}", answer.words);
+        let (scene, derivation) = case.asked();
+        equations(&mut out, &scene, &derivation);
+        left_out(&mut out, &derivation);
+        let only = super::possible::conditions(&scene, &case.possible);
+        if !only.is_empty() {
+            let _ = writeln!(out, "\npossible where: {}", only.join(", "));
         }
-        Form::Matrix(m) => {
-            let _ = writeln!(out, "  {}: {}", answer.name, answer.words);
-            matrix_lines(out, scene, m);
-            for sentence in &answer.text {
-                let _ = writeln!(out, "      {}", sentence.written(|e| unicode(scene, e)));
+        out.push('\n');
+        if let Some(possible) = super::possible::check(&scene, &case.possible) {
+            check(&mut out, "", &possible);
+        }
+        for words in &case.possible.not_judged {
+            let _ = writeln!(out, "? not judged: {words}");
+        }
+        for note in &case.possible.notes {
+            let _ = writeln!(out, "? {note}");
+        }
+    }
+    s.checks.iter().for_each(|c| check(&mut out, "", c));
+    out
+}
+
+/// Answers one after the other, each with what it rests on and how it was checked, but for what is said of their stages. Those
+/// of a scene of one impact may hold definitions of its derivation.
+pub fn answers(scene: &Scene, of: Option<&Told>, answers: &[Answer]) -> String {
+    let mut out = String::new();
+    let alone = of.and_then(Told::alone).map(|case| &case.derivation);
+    let stages = of.map_or(&[][..], |told| &told.stages);
+    let is_new = |c: &&Check| !stages.iter().any(|s| s.checks.contains(c));
+    let written = |words: &Sentence| words.written(|e| unicode(scene, e));
+    for (i, a) in answers.iter().enumerate() {
+        if answers[..i].iter().any(|before| is_alike(before, a)) {
+            continue;
+        }
+        let alone = alone.filter(|_| a.told.is_some());
+        let _ = writeln!(out, "\n   {}", says(scene, alone, a));
+        if let Form::Matrix(m) = &a.form {
+            for line in matrix(scene, m).lines() {
+                let _ = writeln!(out, "   {line}");
             }
         }
-        Form::Words => {}
-        Form::Open(names) => {
-            let _ = writeln!(
-                out,
-                "  {}: not determined by the laws ({} open)",
-                answer.name,
+        let alike: Vec<&Answer> = answers[i + 1..].iter().filter(|b| is_alike(a, b)).collect();
+        let unit = a
+            .formula()
+            .map(|_| a.unit(scene))
+            .filter(|unit| unit != "1");
+        let unit = unit.map_or(String::new(), |unit| format!(" [{unit}]"));
+        let mut lines = vec![format!("{}{unit}", shared_words(a, &alike))];
+        if let Form::Open(names) = &a.form
+            && a.text.is_empty()
+        {
+            lines.push(format!(
+                "not determined: it depends on {}",
                 names.join(", ")
-            );
+            ));
         }
+        lines.extend(a.text.iter().map(written));
+        lines.extend(
+            a.discarded
+                .iter()
+                .map(|words| format!("discarded: {}", written(words))),
+        );
+        let given = given(a, &alike, written).into_iter();
+        lines.extend(given.map(|words| format!("given that {words}")));
+        for line in lines {
+            let _ = writeln!(out, "      {line}");
+        }
+        let checks = a.checks.iter().filter(is_new);
+        checks.for_each(|c| check(&mut out, "      ", c));
+    }
+    out
+}
+
+/// An answer in one line: its formula, equation or range, with the number it has at the given values.
+fn says(scene: &Scene, alone: Option<&Derivation>, a: &Answer) -> String {
+    let name = &a.name;
+    let is_it = |q: &&Question| q.name == a.question;
+    let asked = scene.questions.iter().find(is_it).map(|q| &q.ask);
+    let is_largest = matches!(asked, Some(Ask::Maximum { .. }));
+    let text = |e: &Expr| unicode(scene, e);
+    let value = match &a.form {
+        Form::Value { short, .. } => Some(text(short)),
+        _ => None,
+    };
+    let number = number(scene, alone, a).filter(|number| value.as_ref() != Some(number));
+    let number = number.map_or(String::new(), |number| format!(" ≈ {number}"));
+    match (&value, a.range.as_slice()) {
+        // A largest value, and where it is.
+        (Some(value), [(s, Relation::Equal, e)]) if is_largest || *value != text(e) => {
+            format!("{name} = {value}{number}, at {} = {}", text(s), text(e))
+        }
+        (_, [(s, relation, e)]) => {
+            format!(
+                "{name}: {} {} {}{number}",
+                text(s),
+                relation.sign(),
+                text(e)
+            )
+        }
+        (None, several @ [_, _, ..]) if several.iter().all(|(_, r, _)| *r == Relation::Equal) => {
+            let all = several.iter();
+            let all = all.map(|(s, _, e)| format!("{} = {}", text(s), text(e)));
+            format!("{name}: {}", all.collect::<Vec<_>>().join(" or "))
+        }
+        (Some(value), _) => format!("{name} = {value}{number}"),
+        (None, _) => match &a.form {
+            // An identity that was to be shown stands in its text.
+            Form::Equation { left, right } if a.told.is_some() => {
+                format!("{name}: {} = {}", text(left), text(right))
+            }
+            _ => format!("{name}:"),
+        },
     }
 }
 
+/// The number that an answer has at the given values, with its unit.
+fn number(scene: &Scene, alone: Option<&Derivation>, a: &Answer) -> Option<String> {
+    let closed = a.formula().filter(|e| !e.is_zero())?;
+    let value = super::answer_value(scene, alone, closed)?.approximate;
+    let number = super::digits(value);
+    Some(match closed.is_arc() {
+        true => format!("{number} rad, {}°", super::digits(value.to_degrees())),
+        false => a.dimension.measured(&number),
+    })
+}
+
+/// Whether two cases of an answer say the same, and all that was checked of the second holds: they are told as one.
+fn is_alike(a: &Answer, b: &Answer) -> bool {
+    let plain = |a: &Answer| a.name.split("_case").next().map(str::to_string);
+    let says = |a: &Answer| (a.form.clone(), a.range.clone(), a.text.clone());
+    a.told.is_some()
+        && a.question == b.question
+        && plain(a) == plain(b)
+        && says(a) == says(b)
+        && a.formula().is_some()
+        && b.checks.iter().all(|c| c.holds == Some(true))
+}
+
+/// What an answer is, as far as those alike are the same.
+fn shared_words<'a>(a: &'a Answer, alike: &[&Answer]) -> &'a str {
+    let mut words = a.words.as_str();
+    while let Some((shorter, _)) = words.rsplit_once(", ")
+        && !alike
+            .iter()
+            .all(|b| b.words == words || b.words.starts_with(&format!("{words}, ")))
+    {
+        words = shorter;
+    }
+    words
+}
+
+/// What an answer and those alike rest on: what all of them do, and then what each of them does besides.
+fn given(a: &Answer, alike: &[&Answer], written: impl Fn(&Sentence) -> String) -> Vec<String> {
+    let everywhere = |s: &&Sentence| alike.iter().all(|b| b.assumptions.contains(s));
+    let (common, own): (Vec<&Sentence>, Vec<&Sentence>) =
+        a.assumptions.iter().partition(everywhere);
+    let mut out: Vec<String> = common.iter().map(|s| written(s)).collect();
+    let besides = |b: &&Answer| -> Vec<String> {
+        let more = b.assumptions.iter().filter(|s| !common.contains(s));
+        more.map(&written).collect()
+    };
+    if alike.is_empty() {
+        return out;
+    }
+    let mut each: Vec<Vec<String>> = vec![own.into_iter().map(&written).collect()];
+    each.extend(alike.iter().map(besides));
+    if each.iter().all(|words| !words.is_empty()) {
+        let each: Vec<String> = each.iter().map(|words| words.join(" and ")).collect();
+        out.push(each.join(", or that "));
+    }
+    out
+}
+
 /// How many equations there are, and the blocks that answer the questions.
-pub(super) fn equations(out: &mut String, scene: &Scene, d: &Derivation) {
+fn equations(out: &mut String, scene: &Scene, d: &Derivation) {
     counting(out, d);
     for (unknown, value) in &d.given {
         let name = d.names.plain(*unknown);
@@ -158,7 +282,7 @@ pub(super) fn equations(out: &mut String, scene: &Scene, d: &Derivation) {
 }
 
 /// What the scene did not need.
-pub(super) fn left_out(out: &mut String, d: &Derivation) {
+fn left_out(out: &mut String, d: &Derivation) {
     if !d.left_out.is_empty() {
         let _ = writeln!(out, "\nleft out:");
         for left in &d.left_out {
@@ -186,21 +310,16 @@ pub fn numbers(scene: &Scene, numbers: &[super::Number]) -> String {
 
 /// A matrix, one row a line.
 pub fn matrix(scene: &Scene, m: &Matrix) -> String {
-    let mut out = String::new();
-    matrix_lines(&mut out, scene, m);
-    out
-}
-
-fn matrix_lines(out: &mut String, scene: &Scene, m: &Matrix) {
     let entries = m.entries.iter();
     let entries = entries.map(|row| row.iter().map(|e| unicode(scene, e)).collect());
     let rows: Vec<Vec<String>> = [m.unknowns.clone()].into_iter().chain(entries).collect();
     let lines = super::columns(&rows, |_| false);
-    let _ = writeln!(out, "      {}", lines[0].trim_end());
+    let mut out = format!("      {}\n", lines[0].trim_end());
     for (i, cells) in lines[1..].iter().enumerate() {
         let rhs = unicode(scene, &m.rhs[i]);
         let _ = writeln!(out, "    [ {cells} | {rhs} ]   {}", m.rows[i]);
     }
+    out
 }
 
 fn counting(out: &mut String, d: &Derivation) {
@@ -238,8 +357,8 @@ fn counting(out: &mut String, d: &Derivation) {
 fn check(out: &mut String, lead: &str, check: &Check) {
     let mark = match check.holds {
         Some(true) => "✓",
-        Some(false) => "✗ FAILED:",
-        None => "–",
+        Some(false) => "✗",
+        None => "?",
     };
     let _ = writeln!(out, "{lead}{mark} {}", check.words);
 }

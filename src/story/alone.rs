@@ -52,12 +52,14 @@ pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
     };
     let mut answers = answers(&case);
     let assumptions = case.assumptions().map(Sentence::from).collect();
+    let checks = case.proof.scene.clone();
     let first = answers.len();
     answers.extend(about);
     let mut told = Told {
         stages: vec![StageTold {
             cases: vec![case],
             assumptions,
+            checks,
             ..StageTold::new(&stage, before, after)
         }],
         answers,
