@@ -7,11 +7,11 @@ use super::label::{Label, Level};
 use super::marks::{centers, names};
 use super::picture::arrow_length;
 use super::place::Spot;
+use super::plane::{Pair, ahead, dot, minus, opposite, size, unit};
 use super::pose::Look;
 use super::quantity::{magnitude, vector_name};
 use super::sheet::{Ink, SIZE, Sheet};
 use super::stage::{DOT, Moment, Stage};
-use super::values::{Pair, dot, size};
 use crate::expr::Vector;
 use crate::numeric::Motion;
 use crate::numeric::system::Unknown;
@@ -102,23 +102,20 @@ impl Push {
         }
         let at = stage.px(self.at);
         let center = stage.px(stage.poses[self.body].center);
-        let inward = [center[0] - at[0], center[1] - at[1]];
-        let d = [
-            self.vector[0] / size(self.vector),
-            self.vector[1] / size(self.vector),
-        ];
+        let inward = minus(center, at);
+        let d = unit(self.vector);
         // What presses on a body acts on its outline.
         let pose = &stage.poses[self.body];
         let solid = matches!(
             pose.look,
             Look::Plate(..) | Look::Blob(_) | Look::Round { .. }
         );
-        let deep = stage.long(pose.reach(self.at, [-d[0], -d[1]]));
+        let deep = stage.long(pose.reach(self.at, opposite(d)));
         // On the outline and away from the body it pulls, as a cord does.
-        let ahead = stage.long(pose.reach(self.at, d));
-        let presses = self.presses && !(deep > 1.0 && ahead < 1.0);
+        let beyond = stage.long(pose.reach(self.at, d));
+        let presses = self.presses && !(deep > 1.0 && beyond < 1.0);
         let at = match solid && presses {
-            true => [at[0] - d[0] * deep, at[1] - d[1] * deep],
+            true => ahead(at, d, -deep),
             false => at,
         };
         let moved = solid && presses && (self.is_blow || deep > 1.0);
@@ -129,15 +126,9 @@ impl Push {
             2.0
         };
         let (from, to) = if pushing || (size(inward) <= 1.0 && presses) {
-            (
-                [
-                    at[0] - d[0] * (length + free),
-                    at[1] - d[1] * (length + free),
-                ],
-                [at[0] - d[0] * free, at[1] - d[1] * free],
-            )
+            (ahead(at, d, -(length + free)), ahead(at, d, -free))
         } else {
-            (at, [at[0] + d[0] * length, at[1] + d[1] * length])
+            (at, ahead(at, d, length))
         };
         sheet.arrow(from, to, Ink::Impulse, 2.2);
         sheet.wish(self.label.clone(), SIZE, Spot::Along { from, to });

@@ -4,10 +4,11 @@
 //! body keeps its velocity and spin; what turns about a resting point of a support goes on about it, and what moves as one
 //! stays together. The motion itself is that of [`crate::numeric::follow()`].
 
+use super::plane::{Pair, ahead, cross, dot, left, minus, plus, size, times, turned};
 use super::pose::{Pose, posed};
 use super::sheet::{Ink, Sheet};
 use super::stage::spanning;
-use super::values::{Pair, Values, fits, representative, size};
+use super::values::{Values, fits, representative};
 use crate::expr::Point;
 use crate::numeric::follow::{self, Followed, Passed, Solid, State, What};
 use crate::numeric::given::Freedom;
@@ -237,7 +238,7 @@ impl<'f> Going<'f> {
     /// Velocity of the point of a body that is somewhere now.
     fn velocity(&self, body: usize, at: Pair) -> Pair {
         let [x, y, _, u, v, spin] = self.bodies[body];
-        [u - spin * (at[1] - y), v + spin * (at[0] - x)]
+        ahead([u, v], left(minus(at, [x, y])), spin)
     }
 
     fn is_nothing(&self, v: Pair) -> bool {
@@ -318,13 +319,9 @@ impl<'f> Going<'f> {
                 ([x, y], [u * time, v * time])
             }
         };
-        let (s, c) = by.sin_cos();
-        let arm = [x - about[0], y - about[1]];
-        [
-            about[0] + c * arm[0] - s * arm[1] + shift[0],
-            about[1] + s * arm[0] + c * arm[1] + shift[1],
-            angle + by,
-        ]
+        let arm = turned(minus([x, y], about), by);
+        let [x, y] = plus(plus(about, arm), shift);
+        [x, y, angle + by]
     }
 
     /// The same with a velocity or spin as somebody has it. What turns about a support still does; else the rest of the
@@ -348,17 +345,15 @@ impl<'f> Going<'f> {
                 let more = match along {
                     Some(along) => {
                         let along = values.pair(along)?;
-                        let now = now[0] * along[0] + now[1] * along[1];
-                        along.map(|c| c * (value[0] - now))
+                        times(along, value[0] - dot(now, along))
                     }
-                    None => [value[0] - now[0], value[1] - now[1]],
+                    None => minus(value, now),
                 };
                 match pivot {
                     // Only the part across the arm is left to it.
                     Some(p) => {
-                        let arm = [at[0] - p[0], at[1] - p[1]];
-                        let across = arm[0] * more[1] - arm[1] * more[0];
-                        own[5] = spin + across / (arm[0] * arm[0] + arm[1] * arm[1]);
+                        let arm = minus(at, p);
+                        own[5] = spin + cross(arm, more) / dot(arm, arm);
                     }
                     None => [own[3], own[4]] = [u + more[0], v + more[1]],
                 }
@@ -366,7 +361,7 @@ impl<'f> Going<'f> {
             _ => return None,
         }
         if let Some(p) = pivot {
-            [own[3], own[4]] = [-own[5] * (y - p[1]), own[5] * (x - p[0])];
+            [own[3], own[4]] = times(left(minus([x, y], p)), own[5]);
         }
         own.iter().all(|c| c.is_finite()).then_some(out)
     }

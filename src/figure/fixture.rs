@@ -3,15 +3,15 @@
 //! In: a place on the sheet, in pixels, and which way it faces. Out: lines on the sheet.
 
 use super::place::Room;
+use super::plane::{Pair, ahead, left, minus, opposite, right, size, times};
 use super::sheet::{Ink, Line, Sheet};
 use super::stage::PEG;
-use super::values::{Pair, size};
 
 /// A line with strokes on its far side.
 pub(super) fn hatched(sheet: &mut Sheet, from: Pair, to: Pair, back: Pair) {
-    let d = [to[0] - from[0], to[1] - from[1]];
+    let d = minus(to, from);
     let length = size(d).max(1e-9);
-    let unit = [d[0] / length, d[1] / length];
+    let along = times(d, 1.0 / length);
     sheet.segment(
         from,
         to,
@@ -25,15 +25,12 @@ pub(super) fn hatched(sheet: &mut Sheet, from: Pair, to: Pair, back: Pair) {
     let count = (length / 7.0).floor() as usize;
     for k in 0..count.min(100) {
         let t = (k as f64 + 0.85) * length / count as f64;
-        let foot = [from[0] + unit[0] * t, from[1] + unit[1] * t];
-        let end = [
-            foot[0] + back[0] * 7.0 - unit[0] * 5.5,
-            foot[1] + back[1] * 7.0 - unit[1] * 5.5,
-        ];
+        let foot = ahead(from, along, t);
+        let end = ahead(ahead(foot, back, 7.0), along, -5.5);
         sheet.segment(foot, end, Line::thin(Ink::Ground), 0.0);
     }
     for depth in [3.5, 7.5] {
-        let behind = |p: Pair| [p[0] + back[0] * depth, p[1] + back[1] * depth];
+        let behind = |p: Pair| ahead(p, back, depth);
         sheet.walls.push((behind(from), behind(to), 3.0));
     }
 }
@@ -58,13 +55,8 @@ pub(super) fn peg(sheet: &mut Sheet, at: Pair) {
 
 /// The support of a hinge: a triangle on a hatched line, away from the body.
 pub(super) fn support(sheet: &mut Sheet, at: Pair, away: Pair) {
-    let across = [-away[1], away[0]];
-    let spot = |out: f64, side: f64| {
-        [
-            at[0] + away[0] * out + across[0] * side,
-            at[1] + away[1] * out + across[1] * side,
-        ]
-    };
+    let across = left(away);
+    let spot = |out: f64, side: f64| ahead(ahead(at, away, out), across, side);
     sheet.path(
         vec![at, spot(15.0, 10.0), spot(15.0, -10.0)],
         true,
@@ -99,11 +91,11 @@ pub(super) fn stop(sheet: &mut Sheet, at: Pair, way: f64) {
 
 /// The corner of a table: its top leads away from the body, its side goes down.
 pub(super) fn edge(sheet: &mut Sheet, at: Pair, n: Pair, out: f64) {
-    let along = [n[1] * out, -n[0] * out];
-    let back = [-n[0], -n[1]];
-    let inner = [at[0] - along[0] * 4.0, at[1] - along[1] * 4.0];
-    let far = [at[0] + along[0] * 58.0, at[1] + along[1] * 58.0];
-    let foot = [inner[0] + back[0] * 40.0, inner[1] + back[1] * 40.0];
+    let along = times(right(n), out);
+    let back = opposite(n);
+    let inner = ahead(at, along, -4.0);
+    let far = ahead(at, along, 58.0);
+    let foot = ahead(inner, back, 40.0);
     match out > 0.0 {
         true => hatched(sheet, inner, far, back),
         false => hatched(sheet, far, inner, back),
@@ -118,15 +110,10 @@ pub(super) fn edge(sheet: &mut Sheet, at: Pair, n: Pair, out: f64) {
 /// A wheel between the body and the ground.
 pub(super) fn wheel(sheet: &mut Sheet, at: Pair, n: Pair) {
     const RADIUS: f64 = 9.0;
-    let spot = |down: f64, side: f64| {
-        [
-            at[0] - n[0] * down + n[1] * side,
-            at[1] - n[1] * down - n[0] * side,
-        ]
-    };
+    let spot = |down: f64, side: f64| ahead(ahead(at, n, -down), right(n), side);
     sheet.circle(spot(RADIUS, 0.0), RADIUS, Line::of(Ink::Ground));
     sheet.dot(spot(RADIUS, 0.0), 1.6, Ink::Ground);
-    let back = [-n[0], -n[1]];
+    let back = opposite(n);
     hatched(
         sheet,
         spot(2.0 * RADIUS + 0.8, -24.0),

@@ -4,10 +4,10 @@ use std::f64::consts::PI;
 
 use super::label::Label;
 use super::place::{Room, Spot};
+use super::plane::{Pair, ahead, apart, between, dot, minus, plus, polar, size, unit};
 use super::pose::{Look, Pose};
 use super::sheet::{Ink, Item, Paint, SIZE, SMALL, Sheet};
 use super::stage::{DOT, Stage, center_name};
-use super::values::{Pair, dot, size};
 use crate::expr::Vector;
 use crate::scene::{Body, Shape};
 
@@ -20,17 +20,14 @@ pub(super) fn velocity(
     label: Label,
     behind: bool,
 ) {
-    let d = [v[0] / size(v), v[1] / size(v)];
+    let d = unit(v);
     let (from, to) = if behind {
         (
-            [
-                at[0] - d[0] * (length + DOT + 3.0),
-                at[1] - d[1] * (length + DOT + 3.0),
-            ],
-            [at[0] - d[0] * (DOT + 3.0), at[1] - d[1] * (DOT + 3.0)],
+            ahead(at, d, -(length + DOT + 3.0)),
+            ahead(at, d, -(DOT + 3.0)),
         )
     } else {
-        (at, [at[0] + d[0] * length, at[1] + d[1] * length])
+        (at, ahead(at, d, length))
     };
     sheet.arrow(from, to, Ink::Motion, 2.0);
     sheet.wish(label, SIZE, Spot::Along { from, to });
@@ -49,10 +46,7 @@ pub(super) fn turning(stage: &Stage, sheet: &mut Sheet, body: usize, spin: f64, 
         (0..=steps)
             .map(|k| {
                 let phi = start + sign * 1.4 * PI * 0.75 * f64::from(k) / f64::from(steps);
-                let p = [
-                    center[0] + radius * phi.cos(),
-                    center[1] + radius * phi.sin(),
-                ];
+                let p = polar(center, radius, phi);
                 let near = sheet
                     .walls
                     .iter()
@@ -69,17 +63,14 @@ pub(super) fn turning(stage: &Stage, sheet: &mut Sheet, body: usize, spin: f64, 
     let sweep = sign * 1.05 * PI;
     sheet.turning(center, radius, start, sweep, Ink::Motion);
     let half = start + sweep / 2.0;
-    let at = [
-        center[0] + radius * half.cos(),
-        center[1] + radius * half.sin(),
-    ];
+    let at = polar(center, radius, half);
     sheet.wish(label, SIZE, Spot::point(at, [half.cos(), half.sin()], 2.0));
 }
 
 fn distance(p: Pair, a: Pair, b: Pair) -> f64 {
-    let d = [b[0] - a[0], b[1] - a[1]];
-    let t = (dot([p[0] - a[0], p[1] - a[1]], d) / dot(d, d).max(1e-12)).clamp(0.0, 1.0);
-    size([p[0] - a[0] - t * d[0], p[1] - a[1] - t * d[1]])
+    let d = minus(b, a);
+    let t = (dot(minus(p, a), d) / dot(d, d).max(1e-12)).clamp(0.0, 1.0);
+    size(ahead(minus(p, a), d, -t))
 }
 
 /// Where a fixed body is drawn.
@@ -110,9 +101,7 @@ fn is_far(stage: &Stage, pair: &[usize; 2], shown: &[usize], at: &Vector) -> boo
     let far = |b: &usize| {
         let center = stage.px(stage.poses[*b].center);
         stage.scene.bodies[*b].is_particle()
-            && stage
-                .spot(at)
-                .is_some_and(|p| size([p[0] - center[0], p[1] - center[1]]) > 3.0 * DOT)
+            && stage.spot(at).is_some_and(|p| apart(p, center) > 3.0 * DOT)
     };
     mine.all(far)
 }
@@ -151,10 +140,7 @@ pub(super) fn names(stage: &Stage, sheet: &mut Sheet, bodies: &[usize], free: bo
         .collect();
     for (name, at) in points.chain(joints) {
         let Some(at) = stage.spot(at) else { continue };
-        if done
-            .iter()
-            .any(|p| size([p[0] - at[0], p[1] - at[1]]) < 2.0)
-        {
+        if done.iter().any(|p| apart(*p, at) < 2.0) {
             continue;
         }
         done.push(at);
@@ -218,14 +204,14 @@ fn short_name(body: &Body) -> String {
 
 fn mass(stage: &Stage, sheet: &mut Sheet, pose: &Pose, aside: Pair, label: Label) {
     let at = stage.px(pose.center);
-    let at = [at[0] + aside[0], at[1] + aside[1]];
+    let at = plus(at, aside);
     let spot = match &pose.look {
         Look::Bar(_) => match pose.ends() {
             Some([a, b]) => {
                 let (a, b) = (stage.px(a), stage.px(b));
                 // Beside the rod, away from its middle, where the velocity starts.
                 Spot::Along {
-                    from: [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0],
+                    from: between(a, b, 0.5),
                     to: b,
                 }
             }
@@ -267,10 +253,7 @@ pub(super) fn axes(sheet: &mut Sheet) {
             } => points.windows(2).any(|w| {
                 (0..=10).any(|k| {
                     let t = f64::from(k) / 10.0;
-                    let p = [
-                        w[0][0] + (w[1][0] - w[0][0]) * t,
-                        w[0][1] + (w[1][1] - w[0][1]) * t,
-                    ];
+                    let p = between(w[0], w[1], t);
                     Room::around(p, 0.5).overlap(b) > 0.0
                 })
             }),
@@ -294,7 +277,7 @@ pub(super) fn axes(sheet: &mut Sheet) {
         .unwrap_or([room.low[0] - 56.0, room.low[1]]);
     let mut extra = Sheet::default();
     for (to, latex) in [([26.0, 0.0], "\\hat{i}"), ([0.0, 26.0], "\\hat{j}")] {
-        let tip = [at[0] + to[0], at[1] + to[1]];
+        let tip = plus(at, to);
         extra.arrow(at, tip, Ink::Dimension, 1.1);
         let toward = [to[0], to[1]];
         extra.wish(Label::latex(latex), SMALL, Spot::point(tip, toward, 1.0));

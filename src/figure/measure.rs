@@ -7,12 +7,15 @@ use num_traits::{One, Signed, Zero};
 
 use super::label::Label;
 use super::place::{Room, Spot};
+use super::plane::{
+    Pair, ahead, apart, bearing, between, left, minus, opposite, plus, polar, size, times, unit,
+};
 use super::pose::Look;
 use super::sheet::{Ink, Line, SIZE, Sheet, arc};
 use super::stage::Stage;
-use super::values::{Pair, Values, size};
+use super::values::Values;
 use crate::dimension::Dimension;
-use crate::expr::{Expr, Node, Rational, Symbol, Vector, minus};
+use crate::expr::{self, Expr, Node, Rational, Symbol, Vector};
 use crate::scene::{BlowImpulse, KnownQuantity, Shape};
 
 /// Draws the lengths and angles of a scene that its symbols name.
@@ -43,7 +46,7 @@ fn shapes(stage: &Stage, sheet: &mut Sheet, shown: &mut Vec<Expr>) {
                 }
                 let (center, r) = (stage.px(pose.center), stage.long(*r));
                 let phi = quiet(sheet, center, r);
-                let edge = [center[0] + r * phi.cos(), center[1] + r * phi.sin()];
+                let edge = polar(center, r, phi);
                 sheet.arrow(center, edge, Ink::Dimension, 0.9);
                 sheet.wish(
                     text(radius),
@@ -69,13 +72,7 @@ fn shapes(stage: &Stage, sheet: &mut Sheet, shown: &mut Vec<Expr>) {
 /// Direction from a center in which least is drawn.
 fn quiet(sheet: &Sheet, center: Pair, radius: f64) -> f64 {
     let busy = |phi: f64| {
-        let room = Room::around(
-            [
-                center[0] + 0.6 * radius * phi.cos(),
-                center[1] + 0.6 * radius * phi.sin(),
-            ],
-            0.3 * radius,
-        );
+        let room = Room::around(polar(center, 0.6 * radius, phi), 0.3 * radius);
         crowd(sheet, &room)
     };
     [135.0, 45.0, 225.0, 315.0, 110.0, 250.0]
@@ -93,7 +90,7 @@ fn crowd(sheet: &Sheet, room: &Room) -> f64 {
         near(a, b)
             && (0..=parts).any(|k| {
                 let t = f64::from(k) / f64::from(parts);
-                let p = [a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t];
+                let p = between(*a, *b, t);
                 Room::around(p, 0.5).overlap(room) > 0.0
             })
     });
@@ -103,14 +100,14 @@ fn crowd(sheet: &Sheet, room: &Room) -> f64 {
 
 /// A dimension line parallel to a segment, on its emptier side, as near as it can be.
 fn beside(sheet: &mut Sheet, a: Pair, b: Pair, label: Label) {
-    let d = [b[0] - a[0], b[1] - a[1]];
+    let d = minus(b, a);
     let length = size(d);
     if length < 14.0 {
         return;
     }
-    let n = [-d[1] / length, d[0] / length];
+    let n = unit(left(d));
     let n = if n[1] < -1e-9 || (n[1].abs() < 1e-9 && n[0] < 0.0) {
-        [-n[0], -n[1]]
+        opposite(n)
     } else {
         n
     };
@@ -123,7 +120,7 @@ fn beside(sheet: &mut Sheet, a: Pair, b: Pair, label: Label) {
         let mut cost = 0.8 * rank as f64;
         for k in 0..=10 {
             let t = f64::from(k) / 10.0;
-            let spot = |o: f64| [a[0] + d[0] * t + n[0] * o, a[1] + d[1] * t + n[1] * o];
+            let spot = |o: f64| ahead(ahead(a, d, t), n, o);
             cost += crowd(sheet, &Room::around(spot(offset), 3.0))
                 + 0.2 * crowd(sheet, &Room::around(spot(out), 4.0));
         }
@@ -132,62 +129,45 @@ fn beside(sheet: &mut Sheet, a: Pair, b: Pair, label: Label) {
         }
     }
     let offset = best.map_or(24.0, |(_, o)| o);
-    line(sheet, [a, b], [n[0] * offset, n[1] * offset], label);
+    line(sheet, [a, b], times(n, offset), label);
 }
 
 /// A dimension line of one of two opposite sides of a rectangle, the emptier one.
 fn outside(sheet: &mut Sheet, corners: [Pair; 4], label: Label) {
     let [a, b, c, d] = corners;
-    let across = [a[0] - d[0], a[1] - d[1]];
+    let across = minus(a, d);
     let long = size(across).max(1e-9);
-    let n = [across[0] / long * 16.0, across[1] / long * 16.0];
+    let n = times(across, 1.0 / long * 16.0);
     let busy = |p: Pair, q: Pair, n: Pair| {
         (0..=8)
             .map(|k| {
                 let t = f64::from(k) / 8.0;
-                crowd(
-                    sheet,
-                    &Room::around(
-                        [
-                            p[0] + (q[0] - p[0]) * t + n[0],
-                            p[1] + (q[1] - p[1]) * t + n[1],
-                        ],
-                        7.0,
-                    ),
-                )
+                crowd(sheet, &Room::around(plus(between(p, q, t), n), 7.0))
             })
             .sum::<f64>()
     };
     // The lower or right side at equal crowding.
     let first_is_low = n[1] < -1.0 || (n[1].abs() <= 1.0 && n[0] > 0.0);
-    let (first, second) = (busy(a, b, n), busy(c, d, [-n[0], -n[1]]));
+    let (first, second) = (busy(a, b, n), busy(c, d, opposite(n)));
     if first < second || (first == second && first_is_low) {
         line(sheet, [a, b], n, label);
     } else {
-        line(sheet, [c, d], [-n[0], -n[1]], label);
+        line(sheet, [c, d], opposite(n), label);
     }
 }
 
 /// A dimension line from one end to the other, shifted by `offset`, with extension lines.
 fn line(sheet: &mut Sheet, ends: [Pair; 2], offset: Pair, label: Label) {
-    let [a, b] = ends.map(|p| [p[0] + offset[0], p[1] + offset[1]]);
+    let [a, b] = ends.map(|p| plus(p, offset));
     let far = size(offset);
     if far > 1.0 {
-        let u = [offset[0] / far, offset[1] / far];
+        let u = times(offset, 1.0 / far);
         for (end, foot) in ends.iter().zip([a, b]) {
-            let start = [
-                end[0] + u[0] * 5.0_f64.min(far / 2.0),
-                end[1] + u[1] * 5.0_f64.min(far / 2.0),
-            ];
-            sheet.segment(
-                start,
-                [foot[0] + u[0] * 3.0, foot[1] + u[1] * 3.0],
-                Line::thin(Ink::Dimension),
-                1.0,
-            );
+            let start = ahead(*end, u, 5.0_f64.min(far / 2.0));
+            sheet.segment(start, ahead(foot, u, 3.0), Line::thin(Ink::Dimension), 1.0);
         }
     }
-    let middle = [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0];
+    let middle = between(a, b, 0.5);
     sheet.arrow(middle, a, Ink::Dimension, 0.9);
     sheet.arrow(middle, b, Ink::Dimension, 0.9);
     sheet.wish(label, SIZE, Spot::Along { from: a, to: b });
@@ -239,7 +219,7 @@ fn distances(stage: &Stage, sheet: &mut Sheet, shown: &[Expr]) {
         let mut best: Option<(u32, usize, usize, usize, Expr)> = None;
         for i in 0..places.len() {
             for j in i + 1..places.len() {
-                let difference = minus(&places[j], &places[i]);
+                let difference = expr::minus(&places[j], &places[i]);
                 for axis in 0..2 {
                     let Some((factor, name)) = single(&difference[axis]) else {
                         continue;
@@ -332,7 +312,7 @@ fn angles(stage: &Stage, sheet: &mut Sheet) {
             else {
                 continue;
             };
-            let (end, start) = (d[1].atan2(d[0]), d0[1].atan2(d0[0]));
+            let (end, start) = (bearing(d), bearing(d0));
             let turn = (end - start + PI).rem_euclid(2.0 * PI) - PI;
             if size(d) < 1e-9
                 || size(d0) < 1e-9
@@ -342,7 +322,7 @@ fn angles(stage: &Stage, sheet: &mut Sheet) {
                 continue;
             }
             let reach = if turn.abs() < 0.4 { 50.0 } else { 34.0 };
-            let tip = |phi: f64, r: f64| [ray.at[0] + r * phi.cos(), ray.at[1] + r * phi.sin()];
+            let tip = |phi: f64, r: f64| polar(ray.at, r, phi);
             sheet.segment(
                 ray.at,
                 tip(start, reach + 22.0),
@@ -392,9 +372,7 @@ fn rays<'a>(stage: &'a Stage) -> Vec<Ray<'a>> {
         let center = stage.px(stage.poses[i].center);
         let joint = joints.iter().copied().find(|(bodies, at)| {
             bodies.contains(&i)
-                && stage
-                    .spot(at)
-                    .is_some_and(|p| size([p[0] - center[0], p[1] - center[1]]) > 8.0)
+                && stage.spot(at).is_some_and(|p| apart(p, center) > 8.0)
                 && matches!(body.shape, Shape::Rod { .. })
         });
         match joint {
@@ -402,7 +380,7 @@ fn rays<'a>(stage: &'a Stage) -> Vec<Ray<'a>> {
                 at: stage.spot(at).unwrap_or(center),
                 direction: Box::new(move |v| {
                     let (g, p) = (v.pair(&body.center)?, v.pair(at)?);
-                    Some([g[0] - p[0], g[1] - p[1]])
+                    Some(minus(g, p))
                 }),
                 drawn: true,
             }),

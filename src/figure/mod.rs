@@ -16,6 +16,7 @@ mod motion;
 mod panel;
 mod picture;
 mod place;
+mod plane;
 #[cfg(feature = "png")]
 mod png;
 mod pose;

@@ -10,10 +10,11 @@ use super::fixture::hatched;
 use super::label::Label;
 use super::marks::centers;
 use super::place::Spot;
+use super::plane::{Pair, ahead, apart, bearing, cross, dot, left, minus, polar, size, unit};
 use super::pose::{Look, Pose, posed};
 use super::sheet::{Ink, Line, SIZE, SMALL, Sheet, arc};
 use super::stage::{Stage, spanning};
-use super::values::{Pair, Values, size};
+use super::values::Values;
 use super::way::Gone;
 use crate::expr::Expr;
 use crate::scene::{Ask, Body, FallEnd, Hinge, Scene, Slide, SlideEnd, StageKind, Turn, Until};
@@ -125,8 +126,7 @@ pub fn motion(scene: &Scene, values: &Values, course: &Course) -> Option<Sheet> 
 fn is_rolled_over(pose: &Pose, end: &Pose) -> bool {
     match (&pose.look, &end.look) {
         (Look::Round { radius: a, .. }, Look::Round { radius: b, .. }) => {
-            let apart = [0, 1].map(|k| pose.center[k] - end.center[k]);
-            size(apart) < 0.98 * (a + b)
+            apart(pose.center, end.center) < 0.98 * (a + b)
         }
         _ => false,
     }
@@ -248,25 +248,24 @@ fn strings(
         let mut feet = Vec::new();
         for (pose, along, pulley, under) in legs {
             let along = stage.values.pair(along)?;
-            let along = along.map(|c| c / size(along));
+            let along = unit(along);
             let center = begin.get(pulley)?.center;
-            let arm = [0, 1].map(|k| center[k] - pose.center[k]);
-            let ahead = arm[0] * along[0] + arm[1] * along[1];
+            let arm = minus(center, pose.center);
+            let far = dot(arm, along);
             // The parts at a movable pulley run along its rim on either side, first the one that leads to the other pulley.
             let aside = match under {
                 None => vec![0.0],
                 Some(under) => {
                     let (own, rim) = (radius(under)?, radius(pulley)?);
-                    let across = along[0] * arm[1] - along[1] * arm[0];
+                    let across = cross(along, arm);
                     let off = |a: f64| ((a - across).abs() - rim).abs();
                     let first = if off(own) <= off(-own) { own } else { -own };
                     vec![first, -first]
                 }
             };
             for (k, a) in aside.into_iter().enumerate() {
-                let from = [pose.center[0] - a * along[1], pose.center[1] + a * along[0]];
-                let foot = [0, 1].map(|k| from[k] + ahead * along[k]);
-                let ends = [from, foot].map(|p| stage.px(p));
+                let from = ahead(pose.center, left(along), a);
+                let ends = [from, ahead(from, along, far)].map(|p| stage.px(p));
                 sheet.segment(ends[0], ends[1], Line::thin(Ink::Body), 1.0);
                 if k == 0 {
                     feet.push(ends[1]);
@@ -274,9 +273,9 @@ fn strings(
                 }
                 // The other part is fastened there.
                 let d = [0, 1].map(|k| ends[1][k] - ends[0][k]);
-                let back = d.map(|c| c / size(d));
-                let half = [-back[1] * FASTENED, back[0] * FASTENED];
-                let [low, high] = [-1.0, 1.0].map(|s| [0, 1].map(|k| ends[1][k] + s * half[k]));
+                let back = unit(d);
+                let [low, high] =
+                    [-FASTENED, FASTENED].map(|half| ahead(ends[1], left(back), half));
                 hatched(sheet, low, high, back);
             }
         }
@@ -298,12 +297,12 @@ fn angle(stage: &Stage, sheet: &mut Sheet, course: &Course, turn: &Turn, [from, 
     };
     let ray = |pose: &Pose| {
         let p = stage.px(pose.center);
-        [p[0] - at[0], p[1] - at[1]]
+        minus(p, at)
     };
     let (a, b) = (ray(from), ray(end));
-    let start = a[1].atan2(a[0]);
+    let start = bearing(a);
     let way = if course.clockwise { -1.0 } else { 1.0 };
-    let sweep = way * (way * (b[1].atan2(b[0]) - start)).rem_euclid(TAU);
+    let sweep = way * (way * (bearing(b) - start)).rem_euclid(TAU);
     // A center of mass there has its name already.
     if size(a) > 1.0 {
         sheet.wish(
@@ -316,7 +315,7 @@ fn angle(stage: &Stage, sheet: &mut Sheet, course: &Course, turn: &Turn, [from, 
         return;
     }
     let reach = (0.55 * size(a).min(size(b))).clamp(16.0, 44.0);
-    let tip = |phi: f64, r: f64| [at[0] + r * phi.cos(), at[1] + r * phi.sin()];
+    let tip = |phi: f64, r: f64| polar(at, r, phi);
     for phi in [start, start + sweep] {
         sheet.segment(at, tip(phi, reach + 8.0), Line::dashed(Ink::Dimension), 1.0);
     }
@@ -347,17 +346,17 @@ fn trail(sheet: &mut Sheet, points: &[Pair]) {
     };
     let before = points[..points.len() - 1].to_vec();
     sheet.path(before, false, Line::dashed(Ink::Motion), 2.0);
-    let d = [last[0] - last_but[0], last[1] - last_but[1]];
+    let d = minus(*last, *last_but);
     if size(d) > 1e-6 {
-        let u = [d[0] / size(d), d[1] / size(d)];
-        let tail = [last[0] - u[0] * 11.0, last[1] - u[1] * 11.0];
+        let u = unit(d);
+        let tail = ahead(*last, u, -11.0);
         sheet.arrow(tail, *last, Ink::Motion, 1.6);
     }
 }
 
 /// A height or a range beside a flight, on a line of its own where the flight does not go along it.
 fn level(stage: &Stage, sheet: &mut Sheet, [from, to]: [Pair; 2], is_apart: bool, e: &Expr) {
-    if size([to[0] - from[0], to[1] - from[1]]) < SHORTEST {
+    if apart(to, from) < SHORTEST {
         return;
     }
     if is_apart {
@@ -405,7 +404,7 @@ fn forces(stage: &Stage, sheet: &mut Sheet, kind: &StageKind, gone: &Gone) {
     if let Some((force, direction)) = push
         && let Some(d) = stage.values.pair(direction)
     {
-        arrow(at, [at[0] + 40.0 * d[0], at[1] + 40.0 * d[1]], force);
+        arrow(at, ahead(at, d, 40.0), force);
     }
     if let (Some(torque), StageKind::Turn(turn)) = (torque, kind)
         && let Some(at) = stage.spot(&turn.about)
@@ -422,11 +421,7 @@ fn forces(stage: &Stage, sheet: &mut Sheet, kind: &StageKind, gone: &Gone) {
         sheet.wish(
             Label::formula(torque, stage.scene),
             SIZE,
-            Spot::point(
-                [at[0] + radius * half.cos(), at[1] + radius * half.sin()],
-                [half.cos(), half.sin()],
-                2.0,
-            ),
+            Spot::point(polar(at, radius, half), [half.cos(), half.sin()], 2.0),
         );
     }
 }

@@ -1,6 +1,7 @@
 //! A picture with its heading, notes and words, and pictures under each other on one page.
 
 use super::label::advance;
+use super::plane::opposite;
 use super::sheet::{Item, SMALL, Sheet};
 use super::stage::Stage;
 use super::{
@@ -227,7 +228,7 @@ pub(crate) fn framed(
 ) -> Drawing {
     let room = sheet.room().unwrap_or(Room::around([0.0; 2], 0.0));
     let page = room.grown(MARGIN);
-    sheet.shift([-page.low[0], -page.low[1]]);
+    sheet.shift(opposite(page.low));
     written(sheet, page.extent(), title, caption, alternative)
 }
 

@@ -6,10 +6,10 @@ use super::during::impulses;
 use super::label::Label;
 use super::marks::{axes, centers, masses, names, turning, velocity, wall_point};
 use super::measure;
+use super::plane::{Pair, ahead, apart, left, minus, plus, size};
 use super::quantity::{LEGIBLE, speed, spin_before, spin_name, vector_name, velocity_name};
 use super::sheet::Sheet;
 use super::stage::{Moment, Stage};
-use super::values::{Pair, size};
 use crate::expr::{Expr, Point};
 use crate::numeric::system::Unknown;
 use crate::numeric::{Motion, assemble, given, motion, motion_of, solve_f64};
@@ -80,7 +80,7 @@ pub fn before(stage: &Stage, after: Option<&Motion<f64>>) -> Sheet {
             continue;
         };
         let start = stage.px(stage.poses[i].center);
-        let start = [start[0] + asides[i][0], start[1] + asides[i][1]];
+        let start = plus(start, asides[i]);
         let start = if body.is_fixed() {
             wall_point(stage, i).unwrap_or(start)
         } else {
@@ -142,7 +142,7 @@ pub fn after(stage: &Stage, motion: &Motion<f64>) -> Sheet {
             && motion.determines(Unknown::Velocity(i, 1));
         let v = motion.velocity[i];
         let start = stage.px(stage.poses[i].center);
-        let start = [start[0] + asides[i][0], start[1] + asides[i][1]];
+        let start = plus(start, asides[i]);
         let told = body.is_particle() && asked_at(stage, motion, stage.poses[i].center, v);
         if known && size(v) > 1e-7 * most && !body.is_fixed() && !told {
             velocity(
@@ -169,15 +169,10 @@ pub fn after(stage: &Stage, motion: &Motion<f64>) -> Sheet {
         else {
             continue;
         };
-        let (Some(p), Some(v)) = (stage.values.pair(at), motion.velocity.get(*body)) else {
+        let Some(p) = stage.values.pair(at) else {
             continue;
         };
-        let r = [
-            p[0] - stage.poses[*body].center[0],
-            p[1] - stage.poses[*body].center[1],
-        ];
-        let spin = motion.spin[*body];
-        let v = [v[0] - spin * r[1], v[1] + spin * r[0]];
+        let v = of_point(stage, motion, *body, p);
         let known = motion_of(*body);
         if size(v) > 1e-7 * most && known.into_iter().all(|u| motion.determines(u)) {
             let label = vector_name(&question.name, question.latex.as_deref());
@@ -196,6 +191,12 @@ pub fn after(stage: &Stage, motion: &Motion<f64>) -> Sheet {
     sheet
 }
 
+/// Velocity after of the point of a body that is somewhere now.
+fn of_point(stage: &Stage, motion: &Motion<f64>, body: usize, at: Pair) -> Pair {
+    let arm = minus(at, stage.poses[body].center);
+    ahead(motion.velocity[body], left(arm), motion.spin[body])
+}
+
 /// Whether a question about a point of another body already shows this velocity here.
 fn asked_at(stage: &Stage, motion: &Motion<f64>, at: Pair, v: Pair) -> bool {
     stage.scene.asked_of_impact().any(|question| {
@@ -210,13 +211,7 @@ fn asked_at(stage: &Stage, motion: &Motion<f64>, at: Pair, v: Pair) -> bool {
         let Some(p) = stage.values.pair(p) else {
             return false;
         };
-        let r = [
-            p[0] - stage.poses[*body].center[0],
-            p[1] - stage.poses[*body].center[1],
-        ];
-        let (u, spin) = (motion.velocity[*body], motion.spin[*body]);
-        let u = [u[0] - spin * r[1], u[1] + spin * r[0]];
-        size([p[0] - at[0], p[1] - at[1]]) < 1e-9
-            && size([u[0] - v[0], u[1] - v[1]]) <= 1e-6 * size(v)
+        let u = of_point(stage, motion, *body, p);
+        apart(p, at) < 1e-9 && apart(u, v) <= 1e-6 * size(v)
     })
 }

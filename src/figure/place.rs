@@ -3,8 +3,8 @@
 //! In: labels with what they belong to, segments and rooms to keep off. Out: one room per label; no two of them overlap.
 
 use super::label::Label;
+use super::plane::{Pair, ahead, apart, between, dot, left, minus, plus, size, times};
 use super::sheet::extent;
-use super::values::{Pair, dot, size};
 
 /// An upright rectangle.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -64,42 +64,30 @@ pub struct Wish {
 impl Room {
     /// The square of half side `reach` around a point.
     pub fn around(at: Pair, reach: f64) -> Room {
-        Room {
-            low: [at[0] - reach, at[1] - reach],
-            high: [at[0] + reach, at[1] + reach],
-        }
+        Room { low: at, high: at }.grown(reach)
     }
 
     /// The least box around points.
     pub fn of(points: &[Pair]) -> Option<Room> {
         let first = points.first()?;
-        let start = Room {
-            low: *first,
-            high: *first,
-        };
-        Some(
-            points
-                .iter()
-                .fold(start, |b, p| b.with(&Room { low: *p, high: *p })),
-        )
+        let point = |p: &Pair| Room { low: *p, high: *p };
+        let all = points.iter().map(point);
+        Some(all.fold(point(first), |room, p| room.with(&p)))
     }
 
     /// The least box around two.
     pub fn with(&self, other: &Room) -> Room {
         Room {
-            low: [self.low[0].min(other.low[0]), self.low[1].min(other.low[1])],
-            high: [
-                self.high[0].max(other.high[0]),
-                self.high[1].max(other.high[1]),
-            ],
+            low: [0, 1].map(|k| self.low[k].min(other.low[k])),
+            high: [0, 1].map(|k| self.high[k].max(other.high[k])),
         }
     }
 
     /// Larger by a margin on every side.
     pub fn grown(&self, by: f64) -> Room {
         Room {
-            low: [self.low[0] - by, self.low[1] - by],
-            high: [self.high[0] + by, self.high[1] + by],
+            low: self.low.map(|c| c - by),
+            high: self.high.map(|c| c + by),
         }
     }
 
@@ -112,15 +100,12 @@ impl Room {
 
     /// Width and height.
     pub fn extent(&self) -> Pair {
-        [self.high[0] - self.low[0], self.high[1] - self.low[1]]
+        minus(self.high, self.low)
     }
 
     /// Middle.
     pub fn middle(&self) -> Pair {
-        [
-            (self.low[0] + self.high[0]) / 2.0,
-            (self.low[1] + self.high[1]) / 2.0,
-        ]
+        between(self.low, self.high, 0.5)
     }
 
     /// Length of a segment inside.
@@ -147,7 +132,7 @@ impl Room {
         if end <= start {
             0.0
         } else {
-            (end - start) * size([b[0] - a[0], b[1] - a[1]])
+            (end - start) * apart(b, a)
         }
     }
 }
@@ -229,10 +214,10 @@ pub fn leader(wish: &Wish, room: &Room) -> Option<[Pair; 2]> {
         // From an arrow or dimension line, not from its very ends.
         Spot::Along { from, to } => {
             let middle = room.middle();
-            let d = [to[0] - from[0], to[1] - from[1]];
-            let t = dot([middle[0] - from[0], middle[1] - from[1]], d) / dot(d, d).max(1e-9);
+            let d = minus(to, from);
+            let t = dot(minus(middle, from), d) / dot(d, d).max(1e-9);
             let t = t.clamp(0.15, 0.85);
-            ([from[0] + d[0] * t, from[1] + d[1] * t], 0.0)
+            (ahead(from, d, t), 0.0)
         }
         Spot::Inside { .. } => return None,
     };
@@ -240,23 +225,20 @@ pub fn leader(wish: &Wish, room: &Room) -> Option<[Pair; 2]> {
         at[0].clamp(room.low[0], room.high[0]),
         at[1].clamp(room.low[1], room.high[1]),
     ];
-    let d = [nearest[0] - at[0], nearest[1] - at[1]];
+    let d = minus(nearest, at);
     let far = size(d);
     (far > reach + 16.0).then(|| {
         let start = (reach + 2.0) / far;
         let stop = 1.0 - 2.0 / far;
-        [
-            [at[0] + d[0] * start, at[1] + d[1] * start],
-            [at[0] + d[0] * stop, at[1] + d[1] * stop],
-        ]
+        [ahead(at, d, start), ahead(at, d, stop)]
     })
 }
 
 fn boxed(wish: &Wish, middle: Pair) -> Room {
-    let [w, h] = extent(&wish.label, wish.size);
+    let half = times(extent(&wish.label, wish.size), 0.5);
     Room {
-        low: [middle[0] - w / 2.0, middle[1] - h / 2.0],
-        high: [middle[0] + w / 2.0, middle[1] + h / 2.0],
+        low: minus(middle, half),
+        high: plus(middle, half),
     }
 }
 
@@ -301,9 +283,9 @@ fn candidates(wish: &Wish) -> Vec<(Room, f64)> {
                     (w / 2.0 + clear) / c.abs().max(1e-9),
                     (h / 2.0 + clear) / s.abs().max(1e-9),
                 );
-                let middle = [at[0] + c * step, at[1] + s * step];
+                let middle = ahead(at, [c, s], step);
                 let turned = if size(toward) > 0.0 {
-                    4.0 * (1.0 - (c * toward[0] + s * toward[1]) / size(toward))
+                    4.0 * (1.0 - dot([c, s], toward) / size(toward))
                 } else {
                     // Above and to the right is where people look first.
                     0.6 * (1.0 - (0.8 * c + 0.6 * s))
@@ -330,7 +312,7 @@ fn candidates(wish: &Wish) -> Vec<(Room, f64)> {
                 (-0.45, 0.45),
                 (0.45, 0.45),
             ] {
-                let middle = [at[0] + x * radius, at[1] + y * radius];
+                let middle = ahead(at, [x, y], radius);
                 let corner = size([x * radius, y * radius]) + size([w, h]) / 2.0;
                 if corner < radius + 2.0 {
                     out.push((boxed(wish, middle), size([x, y])));
@@ -338,21 +320,17 @@ fn candidates(wish: &Wish) -> Vec<(Room, f64)> {
             }
         }
         Spot::Along { from, to } => {
-            let d = [to[0] - from[0], to[1] - from[1]];
-            let length = size(d).max(1e-9);
-            let normal = [-d[1] / length, d[0] / length];
+            let d = minus(to, from);
+            let normal = times(left(d), 1.0 / size(d).max(1e-9));
             for (rank, t) in [0.5, 0.62, 0.38, 0.75, 0.25, 0.9, 0.1, 1.0]
                 .into_iter()
                 .enumerate()
             {
                 for (round, gap) in [2.5, 6.0, 11.0, 18.0].into_iter().enumerate() {
                     for side in [1.0, -1.0] {
-                        let n = [normal[0] * side, normal[1] * side];
+                        let n = times(normal, side);
                         let support = n[0].abs() * w / 2.0 + n[1].abs() * h / 2.0 + gap;
-                        let middle = [
-                            from[0] + d[0] * t + n[0] * support,
-                            from[1] + d[1] * t + n[1] * support,
-                        ];
+                        let middle = ahead(ahead(from, d, t), n, support);
                         let above = if n[1] + 0.3 * n[0] > 0.0 { 0.0 } else { 0.3 };
                         out.push((
                             boxed(wish, middle),

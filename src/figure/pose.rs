@@ -4,8 +4,9 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::plane::{Pair, apart, bearing, cross, dot, minus, plus, size, turned};
 use super::sheet::arc;
-use super::values::{Pair, Values, size};
+use super::values::Values;
 use crate::scene::{Body, Outline, Scene, Shape};
 
 /// Outline of a body around its center, in meters.
@@ -162,7 +163,7 @@ fn attached(scene: &Scene, values: &Values, body: usize, center: Pair) -> Option
     contacts
         .chain(hinges)
         .chain(blows)
-        .map(|v| values.pair(v).map(|p| [p[0] - center[0], p[1] - center[1]]))
+        .map(|v| values.pair(v).map(|p| minus(p, center)))
         .collect()
 }
 
@@ -176,10 +177,7 @@ fn blob(through: &[Pair]) -> Vec<Pair> {
         let d = (phi - at + PI).rem_euclid(TAU) - PI;
         (-(d / 0.75).powi(2)).exp()
     };
-    let points: Vec<(f64, f64)> = through
-        .iter()
-        .map(|p| (p[1].atan2(p[0]), size(*p)))
-        .collect();
+    let points: Vec<(f64, f64)> = through.iter().map(|p| (bearing(*p), size(*p))).collect();
     let mut heights = vec![0.0; points.len()];
     let radius = |phi: f64, heights: &[f64]| {
         let bumps: f64 = points
@@ -206,11 +204,7 @@ fn blob(through: &[Pair]) -> Vec<Pair> {
 impl Pose {
     /// A point given along and across the body's axis, in meters.
     fn at(&self, along: f64, across: f64) -> Pair {
-        let (s, c) = self.angle.sin_cos();
-        [
-            self.center[0] + along * c - across * s,
-            self.center[1] + along * s + across * c,
-        ]
+        plus(self.center, turned([along, across], self.angle))
     }
 
     /// The closed lines that are drawn in place of the plain outline.
@@ -247,13 +241,12 @@ impl Pose {
         for points in &lines {
             for (i, a) in points.iter().enumerate() {
                 let b = points[(i + 1) % points.len()];
-                let (u, w) = ([b[0] - a[0], b[1] - a[1]], [a[0] - from[0], a[1] - from[1]]);
-                let det = direction[1] * u[0] - direction[0] * u[1];
+                let (u, w) = (minus(b, *a), minus(*a, from));
+                let det = cross(u, direction);
                 if det.abs() < 1e-12 * (size(u) * size(direction)).max(1e-300) {
                     continue;
                 }
-                let t = (w[1] * u[0] - w[0] * u[1]) / det;
-                let s = (direction[0] * w[1] - direction[1] * w[0]) / det;
+                let (t, s) = (cross(u, w) / det, cross(direction, w) / det);
                 if (-1e-9..=1.0 + 1e-9).contains(&s) {
                     far = far.max(t);
                 }
@@ -275,10 +268,7 @@ impl Pose {
                 self.at(-w, -h),
                 self.at(*w, -h),
             ],
-            Look::Blob(points) => points
-                .iter()
-                .map(|p| [self.center[0] + p[0], self.center[1] + p[1]])
-                .collect(),
+            Look::Blob(points) => points.iter().map(|p| plus(self.center, *p)).collect(),
             Look::Parts(parts) => parts.iter().flat_map(Pose::outline).collect(),
         }
     }
@@ -286,9 +276,9 @@ impl Pose {
     /// Whether it is a rod, or has one, that lies through a point along a surface with this normal.
     pub fn lies_along(&self, at: Pair, n: Pair) -> bool {
         let level = |[a, b]: [Pair; 2]| {
-            let long = size([b[0] - a[0], b[1] - a[1]]);
-            let apart = |p: Pair| ((p[0] - a[0]) * n[0] + (p[1] - a[1]) * n[1]).abs();
-            apart(b) < 0.02 * long && apart(at) < 0.02 * long
+            let long = apart(b, a);
+            let off = |p: Pair| dot(minus(p, a), n).abs();
+            off(b) < 0.02 * long && off(at) < 0.02 * long
         };
         match &self.look {
             Look::Parts(parts) => parts.iter().any(|part| part.lies_along(at, n)),
@@ -301,7 +291,7 @@ impl Pose {
         let (Some(mine), Some(theirs)) = (self.ends(), other.ends()) else {
             return false;
         };
-        let close = |a: &Pair, b: &Pair| size([a[0] - b[0], a[1] - b[1]]) < 1e-9;
+        let close = |a: &Pair, b: &Pair| apart(*a, *b) < 1e-9;
         mine.iter().any(|a| theirs.iter().any(|b| close(a, b)))
     }
 

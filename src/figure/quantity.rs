@@ -1,8 +1,8 @@
 //! What velocities, spins and impulses are called: as the questions name them, else by the book's usual letters.
 
 use super::label::Label;
+use super::plane::{Pair, size};
 use super::stage::{Stage, center_name};
-use super::values::{Pair, size};
 use crate::expr::{Expr, Vector};
 use crate::scene::Ask;
 

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 use super::label::Label;
 use super::place::{self, Room, Spot, Wish};
-use super::values::Pair;
+use super::plane::{Pair, ahead, minus, polar, times};
 
 /// What a line or label belongs to; the writer picks colors.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -226,14 +226,14 @@ impl Sheet {
 
     /// Draws an arrow.
     pub fn arrow(&mut self, from: Pair, to: Pair, ink: Ink, width: f64) {
-        let d = [to[0] - from[0], to[1] - from[1]];
+        let d = minus(to, from);
         let length = d[0].hypot(d[1]);
         if length < 1e-6 {
             return;
         }
-        let along = [d[0] / length, d[1] / length];
+        let along = times(d, 1.0 / length);
         let size = if width > 1.5 { 10.0 } else { 7.0 };
-        let stop = [to[0] - along[0] * size * 0.7, to[1] - along[1] * size * 0.7];
+        let stop = ahead(to, along, -(size * 0.7));
         let line = Line {
             width,
             ..Line::of(ink)
@@ -241,7 +241,7 @@ impl Sheet {
         self.segment(from, stop, line, 0.0);
         self.items.push(head(to, along, size, ink));
         self.walls.push((from, to, 3.0));
-        let middle = [to[0] - along[0] * size / 2.0, to[1] - along[1] * size / 2.0];
+        let middle = ahead(to, along, -(size / 2.0));
         self.kept.push(Room::around(middle, size / 2.0));
     }
 
@@ -255,10 +255,7 @@ impl Sheet {
         let sign = turn.signum();
         let lean = end - sign * 4.0 / radius;
         let along = [-lean.sin() * sign, lean.cos() * sign];
-        let tip = [
-            center[0] + radius * end.cos(),
-            center[1] + radius * end.sin(),
-        ];
+        let tip = polar(center, radius, end);
         let cut = arc(center, radius, start, start + turn - sign * 6.0 / radius);
         let line = Line {
             width: 1.9,
@@ -412,10 +409,7 @@ pub fn arc(center: Pair, radius: f64, from: f64, to: f64) -> Vec<Pair> {
     (0..=steps)
         .map(|i| {
             let phi = from + (to - from) * i as f64 / steps as f64;
-            [
-                center[0] + radius * phi.cos(),
-                center[1] + radius * phi.sin(),
-            ]
+            polar(center, radius, phi)
         })
         .collect()
 }

@@ -7,9 +7,10 @@ use std::f64::consts::PI;
 
 use super::label::Label;
 use super::place::Room;
+use super::plane::{Pair, ahead, apart, bearing, dot, minus, opposite, plus, size, times, unit};
 use super::pose::{Look, Pose, posed};
 use super::sheet::{Ink, Item, Line, Paint, Sheet, arc};
-use super::values::{Pair, Values, dot, size};
+use super::values::Values;
 use crate::scene::Scene;
 
 /// A moment of the collision.
@@ -91,10 +92,7 @@ pub fn spanning<'a>(
 impl Stage<'_> {
     /// A place on the sheet.
     pub fn px(&self, p: Pair) -> Pair {
-        [
-            (p[0] - self.middle[0]) * self.scale,
-            (p[1] - self.middle[1]) * self.scale,
-        ]
+        times(minus(p, self.middle), self.scale)
     }
 
     /// What place \[m\] a point of the sheet shows.
@@ -139,7 +137,7 @@ impl Stage<'_> {
             contact.bodies[0]
         };
         let relative = |v: &[Pair]| match (v.get(body), v.get(other)) {
-            (Some(a), Some(b)) => [a[0] - b[0], a[1] - b[1]],
+            (Some(a), Some(b)) => minus(*a, *b),
             _ => nothing,
         };
         let before: Vec<Pair> = self
@@ -152,18 +150,12 @@ impl Stage<'_> {
         let normal = contact.normal.as_ref().and_then(|n| self.values.pair(n));
         // Away from the partner: against the normal for the first body, else back where it came from.
         let back = match normal {
-            Some(n) if contact.bodies[0] == body => [-n[0], -n[1]],
+            Some(n) if contact.bodies[0] == body => opposite(n),
             Some(n) => n,
-            None => [-incoming[0], -incoming[1]],
+            None => opposite(incoming),
         };
-        let unit = |v: Pair| {
-            if size(v) > 1e-9 {
-                [v[0] / size(v), v[1] / size(v)]
-            } else {
-                nothing
-            }
-        };
-        let back = unit(back);
+        let direction = |v: Pair| if size(v) > 1e-9 { unit(v) } else { nothing };
+        let back = direction(back);
         let both_dots = self.scene.bodies[other].is_particle();
         let near = match self.poses[other].look {
             Look::Bar(_) => DOT + THICK + 1.0,
@@ -175,19 +167,16 @@ impl Stage<'_> {
             Moment::Before
                 if size(incoming) > 1e-9 && before.get(body).is_some_and(|v| size(*v) > 1e-9) =>
             {
-                let from = unit([-before[body][0], -before[body][1]]);
-                return [
-                    from[0] * 30.0 + back[0] * near,
-                    from[1] * 30.0 + back[1] * near,
-                ];
+                let from = direction(opposite(before[body]));
+                return ahead(times(from, 30.0), back, near);
             }
             Moment::Before | Moment::During => 0.0,
             Moment::After => {
                 let leaving = relative(velocity);
                 let scale = size(incoming).max(1e-9);
                 if size(leaving) > 1e-6 * scale && both_dots {
-                    let away = unit(leaving);
-                    return [away[0] * 15.0, away[1] * 15.0];
+                    let away = direction(leaving);
+                    return times(away, 15.0);
                 }
                 if size(leaving) > 1e-6 * scale && dot(leaving, back) > 0.0 {
                     16.0
@@ -196,7 +185,7 @@ impl Stage<'_> {
                 }
             }
         };
-        [back[0] * (near + gap), back[1] * (near + gap)]
+        times(back, near + gap)
     }
 
     /// Whether a particle is at a hinge or on a string, which is drawn to where the particle is.
@@ -213,7 +202,7 @@ impl Stage<'_> {
     pub fn body(&self, sheet: &mut Sheet, pose: &Pose, aside: Pair) {
         let put = |p: Pair| {
             let q = self.px(p);
-            [q[0] + aside[0], q[1] + aside[1]]
+            plus(q, aside)
         };
         if !pose.skin.is_empty() {
             for line in pose.drawn() {
@@ -286,7 +275,7 @@ impl Stage<'_> {
 }
 
 fn capsule(a: Pair, b: Pair) -> Vec<Pair> {
-    let phi = (b[1] - a[1]).atan2(b[0] - a[0]);
+    let phi = bearing(minus(b, a));
     let mut points = arc(b, THICK, phi - PI / 2.0, phi + PI / 2.0);
     points.extend(arc(a, THICK, phi + PI / 2.0, phi + 1.5 * PI));
     points
@@ -299,11 +288,10 @@ pub fn center_name(stage: &Stage, body: usize) -> Option<Label> {
         return None;
     }
     let center = stage.px(stage.poses[body].center);
-    let named = scene.points.iter().find(|p| {
-        stage
-            .spot(&p.at)
-            .is_some_and(|q| size([q[0] - center[0], q[1] - center[1]]) < 1.5)
-    });
+    let named = scene
+        .points
+        .iter()
+        .find(|p| stage.spot(&p.at).is_some_and(|q| apart(q, center) < 1.5));
     if let Some(point) = named {
         return Some(Label::symbol(&point.name, None));
     }

@@ -5,10 +5,12 @@
 
 use super::fixture::{edge, hatched, peg, spring, stop, support, wheel};
 use super::place::Room;
+use super::plane::{
+    Pair, ahead, apart, cross, dot, left, minus, opposite, plus, right, size, times, unit,
+};
 use super::pose::{Look, Pose};
 use super::sheet::{Ink, Line, Sheet};
 use super::stage::{DOT, PEG, Stage, THICK};
-use super::values::{Pair, dot, size};
 use crate::expr::Vector;
 use crate::scene::{Body, Support};
 
@@ -43,7 +45,7 @@ impl Stage<'_> {
             };
             let given = contact.normal.as_ref().and_then(|n| self.values.pair(n));
             let sign = if fixed == a { 1.0 } else { -1.0 };
-            let normal = given.map(|n| [n[0] * sign, n[1] * sign]);
+            let normal = given.map(|n| times(n, sign));
             match hints.string(&contact.name) {
                 Some(end) => self.string(sheet, at, aside(other), end.as_ref(), normal),
                 None => self.standing(sheet, &contact.name, at, normal, other),
@@ -72,8 +74,7 @@ impl Stage<'_> {
             });
             let near = |end: &Vector| {
                 let [p, q] = [self.spot(end), Some(self.px(at))];
-                p.zip(q)
-                    .is_some_and(|(p, q)| size([p[0] - q[0], p[1] - q[1]]) < 2.0)
+                p.zip(q).is_some_and(|(p, q)| apart(p, q) < 2.0)
             };
             if ends.into_iter().any(near) {
                 continue;
@@ -82,7 +83,7 @@ impl Stage<'_> {
                 self.standing(sheet, &hinge.name, at, None, other);
                 continue;
             }
-            let d = [at[0] - pose.center[0], at[1] - pose.center[1]];
+            let d = minus(at, pose.center);
             let away = if size(d) < 1e-9 {
                 [0.0, -1.0]
             } else if d[0].abs() > d[1].abs() {
@@ -148,15 +149,15 @@ impl Stage<'_> {
             let center = self.px(pose.center);
             let below = pose.outline().into_iter().map(|p| {
                 let p = self.px(p);
-                (p[0] - center[0]) * down[0] + (p[1] - center[1]) * down[1]
+                dot(minus(p, center), down)
             });
             let deep = below.fold(6.0, f64::max) + 0.8;
-            [center[0] + deep * down[0], center[1] + deep * down[1]]
+            ahead(center, down, deep)
         };
         let ends = [(from, -40.0), (end, 40.0)].map(|(pose, more)| {
             let foot = lowest(pose);
             let more = self.clear(from, foot, along, more);
-            [foot[0] + more * along[0], foot[1] + more * along[1]]
+            ahead(foot, along, more)
         });
         match way > 0.0 {
             true => hatched(sheet, ends[0], ends[1], down),
@@ -166,14 +167,13 @@ impl Stage<'_> {
 
     /// How far a surface goes on from a foot of a body, in pixels: it ends before a wheel in its way.
     fn clear(&self, body: &Pose, foot: Pair, along: Pair, more: f64) -> f64 {
-        let ahead = along.map(|c| c * more.signum());
+        let way = times(along, more.signum());
         let mut far = more.abs();
         for pose in self.poses.iter().filter(|p| p.center != body.center) {
             if let Look::Round { radius, .. } = &pose.look {
                 let (center, r) = (self.px(pose.center), self.long(*radius));
-                let to = [0, 1].map(|k| center[k] - foot[k]);
-                let off = to[0] * ahead[1] - to[1] * ahead[0];
-                let reach = to[0] * ahead[0] + to[1] * ahead[1];
+                let to = minus(center, foot);
+                let (off, reach) = (cross(to, way), dot(to, way));
                 if off.abs() < r && reach > 0.0 {
                     far = far.min((reach - (r * r - off * off).sqrt() - 3.0).max(0.0));
                 }
@@ -193,7 +193,7 @@ impl Stage<'_> {
                 continue;
             };
             for (a, b) in begins.into_iter().zip(stops) {
-                let near = |p: Pair, q: Pair| size([p[0] - q[0], p[1] - q[1]]) < 1e-9;
+                let near = |p: Pair, q: Pair| apart(p, q) < 1e-9;
                 let joined = (rods.iter().enumerate()).any(|(j, other)| {
                     j != i && ends(other).is_some_and(|(ends, _)| ends.iter().any(|e| near(*e, a)))
                 });
@@ -246,7 +246,7 @@ impl Stage<'_> {
         };
         let (body, length) = (self.px(from), {
             let p = self.px(taut);
-            size([p[0] - top[0], p[1] - top[1]])
+            apart(p, top)
         });
         let hanging = |sag: f64| -> Vec<Pair> {
             let each = (0..=PIECES).map(|k| {
@@ -258,8 +258,7 @@ impl Stage<'_> {
         };
         let long = |points: &[Pair]| -> f64 {
             let each = points.windows(2);
-            each.map(|p| size([p[1][0] - p[0][0], p[1][1] - p[0][1]]))
-                .sum()
+            each.map(|p| apart(p[1], p[0])).sum()
         };
         let (mut low, mut high) = (0.0, length);
         if long(&hanging(low)) >= length {
@@ -292,12 +291,12 @@ impl Stage<'_> {
         normal: Option<Pair>,
     ) {
         let from = self.px(at);
-        let from = [from[0] + aside[0], from[1] + aside[1]];
+        let from = plus(from, aside);
         let n = normal.unwrap_or([0.0, 1.0]);
         let to = end
             .and_then(|v| self.spot(v))
             .or_else(|| self.hook(from, n))
-            .unwrap_or([from[0] + n[0] * STRING, from[1] + n[1] * STRING]);
+            .unwrap_or(ahead(from, n, STRING));
         let line = Line {
             width: 1.1,
             ..Line::of(Ink::Body)
@@ -313,9 +312,8 @@ impl Stage<'_> {
     fn hook(&self, from: Pair, n: Pair) -> Option<Pair> {
         let mut points = self.scene.points.iter().filter_map(|p| self.spot(&p.at));
         points.find(|p| {
-            let d = [p[0] - from[0], p[1] - from[1]];
-            let [along, across] = [dot(d, n), d[0] * n[1] - d[1] * n[0]];
-            along > 2.0 * DOT && across.abs() < 1.0
+            let d = minus(*p, from);
+            dot(d, n) > 2.0 * DOT && cross(d, n).abs() < 1.0
         })
     }
 
@@ -335,7 +333,7 @@ impl Stage<'_> {
             None => Support::Bar,
         });
         let hit = self.hit(other, at).filter(|v| size(*v) > 1e-9);
-        let hit = hit.map(|v| [v[0] / size(v), v[1] / size(v)]);
+        let hit = hit.map(|v| unit(v));
         match kind {
             Support::Wall => self.wall(sheet, at, faces.unwrap_or([-1.0, 0.0]), other),
             Support::Floor => self.wall(sheet, at, [0.0, 1.0], other),
@@ -346,13 +344,13 @@ impl Stage<'_> {
             Support::Edge => {
                 let n = faces.unwrap_or([0.0, 1.0]);
                 let center = self.poses[other].center;
-                let along = [n[1], -n[0]];
-                let out = dot([at[0] - center[0], at[1] - center[1]], along);
+                let along = right(n);
+                let out = dot(minus(at, center), along);
                 edge(sheet, self.touch(other, at, n), n, out.signum());
             }
             Support::Post => {
                 let n = faces.unwrap_or([0.0, 1.0]);
-                support(sheet, self.touch(other, at, n), [-n[0], -n[1]]);
+                support(sheet, self.touch(other, at, n), opposite(n));
             }
             Support::Wheel => {
                 let n = faces.unwrap_or([0.0, 1.0]);
@@ -360,9 +358,9 @@ impl Stage<'_> {
             }
             Support::Bar => {
                 // A bar touches the body from the side the body comes from.
-                let n = normal.or(hit.map(|v| [-v[0], -v[1]])).unwrap_or([0.0, 0.0]);
+                let n = normal.or(hit.map(|v| opposite(v))).unwrap_or([0.0, 0.0]);
                 let foot = self.touch(other, at, n);
-                peg(sheet, [foot[0] - n[0] * PEG, foot[1] - n[1] * PEG]);
+                peg(sheet, ahead(foot, n, -PEG));
             }
         }
     }
@@ -371,13 +369,11 @@ impl Stage<'_> {
     fn usual(&self, other: usize, at: Pair, n: Pair) -> Support {
         let points = self.poses[other].outline();
         let part = |axis: Pair| {
-            let each = points
-                .iter()
-                .map(move |p| dot([p[0] - at[0], p[1] - at[1]], axis));
+            let each = points.iter().map(move |p| dot(minus(*p, at), axis));
             let low = each.clone().fold(0.0, f64::min);
             (low, each.fold(0.0, f64::max))
         };
-        let (low, high) = part([n[1], -n[0]]);
+        let (low, high) = part(right(n));
         let (below, above) = part(n);
         let long = high - low;
         if long < 1e-9 || above.max(-below) > 0.1 * long {
@@ -397,40 +393,37 @@ impl Stage<'_> {
             Look::Dot | Look::Parts(_) => DOT + 0.8,
             _ => 0.8,
         };
-        let far = self.long(pose.reach(at, [-n[0], -n[1]])) + thick;
+        let far = self.long(pose.reach(at, opposite(n))) + thick;
         let at = self.px(at);
-        [at[0] - n[0] * far, at[1] - n[1] * far]
+        ahead(at, n, -far)
     }
 
     /// Velocity just before of a body's point.
     fn hit(&self, body: usize, at: Pair) -> Option<Pair> {
         let center = self.poses.get(body)?.center;
-        let r = [at[0] - center[0], at[1] - center[1]];
+        let r = minus(at, center);
         let v = self.values.pair(&self.scene.bodies[body].velocity)?;
         let spin = self.values.of(&self.scene.bodies[body].spin)?;
-        Some([v[0] - spin * r[1], v[1] + spin * r[0]])
+        Some(ahead(v, left(r), spin))
     }
 
     /// Which way a wall faces that a body hits without a stated normal; `None` for a peg.
     fn upright(&self, other: usize, at: Pair) -> Option<Pair> {
         let pose = self.poses.get(other)?;
-        let r = [pose.center[0] - at[0], pose.center[1] - at[1]];
+        let r = minus(pose.center, at);
         let hit = self.hit(other, at)?;
         if let Look::Blob(_) = pose.look {
-            return (size(r) > 1e-9).then(|| [r[0] / size(r), r[1] / size(r)]);
+            return (size(r) > 1e-9).then(|| unit(r));
         }
         if let Look::Dot = pose.look {
-            return (size(hit) > 1e-9).then(|| [-hit[0] / size(hit), -hit[1] / size(hit)]);
+            return (size(hit) > 1e-9).then(|| opposite(unit(hit)));
         }
         let points = pose.outline();
-        let span = points
-            .iter()
-            .map(|p| size([p[0] - at[0], p[1] - at[1]]))
-            .fold(0.0, f64::max);
+        let span = points.iter().map(|p| apart(*p, at)).fold(0.0, f64::max);
         [[0.0, 1.0], [1.0, 0.0], [-1.0, 0.0], [0.0, -1.0]]
             .into_iter()
             .filter(|n| {
-                let heights = || points.iter().map(|p| dot([p[0] - at[0], p[1] - at[1]], *n));
+                let heights = || points.iter().map(|p| dot(minus(*p, at), *n));
                 heights().all(|h| h > -1e-6 * span)
                     && heights().fold(0.0, f64::max) > 0.15 * span
                     && dot(hit, *n) < -1e-9
@@ -439,7 +432,7 @@ impl Stage<'_> {
     }
 
     fn wall(&self, sheet: &mut Sheet, at: Pair, n: Pair, other: usize) {
-        let along = [n[1], -n[0]];
+        let along = right(n);
         let at = match &self.poses[other].look {
             _ if self.poses[other].lies_along(at, n) => {
                 let [x, y] = self.px(at);
@@ -452,11 +445,11 @@ impl Stage<'_> {
         let (mut low, mut high) = (-42.0f64, 42.0f64);
         for p in self.poses.get(other).map(Pose::outline).unwrap_or_default() {
             let q = self.px(p);
-            let t = dot([q[0] - at[0], q[1] - at[1]], along);
+            let t = dot(minus(q, at), along);
             low = low.min(t - 14.0);
             high = high.max(t + 14.0);
         }
-        let spot = |t: f64| [at[0] + along[0] * t, at[1] + along[1] * t];
-        hatched(sheet, spot(low), spot(high), [-n[0], -n[1]]);
+        let spot = |t: f64| ahead(at, along, t);
+        hatched(sheet, spot(low), spot(high), opposite(n));
     }
 }

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::label::{Level, SMALL};
+use super::plane::Pair;
 use super::sheet::{Ink, Item, Paint};
-use super::values::Pair;
 
 /// A picture with its words.
 pub struct Page<'a> {

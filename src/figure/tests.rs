@@ -1,7 +1,7 @@
 //! Every shipped scene is drawn; a folder given in `CAROM_GALLERY` gets the pictures, for looking at.
 
+use super::plane::Pair;
 use super::sheet::Item;
-use super::values::Pair;
 use super::*;
 
 /// The pictures of one impact.
@@ -190,7 +190,7 @@ fn a_pulley_of_a_string_stands_on_a_support_where_no_hinge_tells_of_it() {
         let hinged = |b: usize| scene.hinges.iter().any(|h| h.bodies.contains(&b));
         for axle in scene.axles.iter().filter(|p| !hinged(**p)) {
             let at = stage.px(stage.poses[*axle].center);
-            let near = |p: &values::Pair| values::size([p[0] - at[0], p[1] - at[1]]) < 1.0;
+            let near = |p: &Pair| plane::apart(*p, at) < 1.0;
             let stands = sheet.items.iter().any(|item| match item {
                 sheet::Item::Path { points, .. } => points.iter().any(near),
                 _ => false,
@@ -254,7 +254,7 @@ fn a_rise_is_marked_by_its_height_and_what_has_rolled_on_is_in_nobodys_way() {
             let disks: Vec<(Pair, f64)> = sheet.items.iter().filter_map(round).collect();
             for (i, (p, r)) in disks.iter().enumerate() {
                 for (q, s) in &disks[..i] {
-                    let apart = values::size([p[0] - q[0], p[1] - q[1]]);
+                    let apart = plane::apart(*p, *q);
                     assert!(apart > 0.97 * (r + s), "{name}: {apart} of {}", r + s);
                 }
             }
@@ -298,8 +298,8 @@ fn no_body_crosses_a_support() {
             }) {
                 let p = stage.px(p);
                 let r = [p[0] - from[0], p[1] - from[1]];
-                let along = values::dot(r, d) / values::dot(d, d);
-                let deep = values::dot(r, *back);
+                let along = plane::dot(r, d) / plane::dot(d, d);
+                let deep = plane::dot(r, *back);
                 seen += 1;
                 assert!(
                     !(0.0..=1.0).contains(&along) || !(2.0..40.0).contains(&deep),

@@ -5,9 +5,9 @@
 
 use super::label::{Label, Level, Run};
 use super::latex::command;
+use super::plane::Pair;
 use super::sheet::{Ink, Item, Paint};
 use super::svg::number;
-use super::values::Pair;
 
 /// Points of print for a pixel of the screen.
 const SCALE: f64 = 0.72;

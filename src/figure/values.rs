@@ -5,13 +5,11 @@
 
 use std::f64::consts::PI;
 
+use super::plane::{Pair, ahead, dot, minus, opposite, right, size, turned};
 use crate::dimension::Dimension;
 use crate::domain::Domain;
 use crate::expr::{Expr, Point, Symbol, Vector};
 use crate::scene::{Body, Parameter, Scene, Shape};
-
-/// A point or direction in the plane.
-pub type Pair = [f64; 2];
 
 /// Values of all symbols of a scene.
 #[derive(Clone, Debug)]
@@ -239,7 +237,7 @@ fn penalty(scene: &Scene, point: &Point<f64>) -> f64 {
     // What an earlier stage hands on may have no value: there the scene does not get so far.
     let never = |b: &&Body| values.pair(&b.velocity).is_none() || values.of(&b.spin).is_none();
     cost += 1e3 * scene.bodies.iter().filter(never).count() as f64;
-    let arm = |body: usize, at: Pair| [centers[body][0] - at[0], centers[body][1] - at[1]];
+    let arm = |body: usize, at: Pair| minus(centers[body], at);
     for contact in &scene.contacts {
         let (Some(at), [a, b]) = (values.pair(&contact.at), contact.bodies) else {
             return 1e9;
@@ -253,8 +251,8 @@ fn penalty(scene: &Scene, point: &Point<f64>) -> f64 {
         let out = match normal {
             Some(n) => n,
             None if first.is_fixed() || first.is_particle() => rb,
-            None if second.is_fixed() || second.is_particle() => [-ra[0], -ra[1]],
-            None => [rb[0] - ra[0], rb[1] - ra[1]],
+            None if second.is_fixed() || second.is_particle() => opposite(ra),
+            None => minus(rb, ra),
         };
         for (body, r, sign) in [(first, ra, -1.0), (second, rb, 1.0)] {
             if !body.is_fixed() && size(r) > 0.0 {
@@ -275,7 +273,7 @@ fn penalty(scene: &Scene, point: &Point<f64>) -> f64 {
         let (Some(va), Some(vb)) = (moving(first, &values, ra), moving(second, &values, rb)) else {
             return 1e9;
         };
-        let closing = dot([vb[0] - va[0], vb[1] - va[1]], out);
+        let closing = dot(minus(vb, va), out);
         cost += if closing >= -1e-9 && size(out) > 0.0 {
             3.0
         } else {
@@ -305,7 +303,7 @@ fn penalty(scene: &Scene, point: &Point<f64>) -> f64 {
 /// Velocity of the body's point from which the center of mass lies at `r`.
 fn moving(body: &Body, values: &Values, r: Pair) -> Option<Pair> {
     let (v, spin) = (values.pair(&body.velocity)?, values.of(&body.spin)?);
-    Some([v[0] + spin * r[1], v[1] - spin * r[0]])
+    Some(ahead(v, right(r), spin))
 }
 
 /// How far a point lies off a body's edge, or outside the body, against the body's size.
@@ -313,9 +311,8 @@ fn miss(body: &Body, values: &Values, at: Pair, on_edge: bool) -> f64 {
     let (Some(center), Some(angle)) = (values.pair(&body.center), values.of(&body.angle)) else {
         return 1e9;
     };
-    let (s, c) = angle.sin_cos();
-    let d = [at[0] - center[0], at[1] - center[1]];
-    let (along, across) = (d[0] * c + d[1] * s, -d[0] * s + d[1] * c);
+    let d = minus(at, center);
+    let [along, across] = turned(d, -angle);
     let value = |e: &Expr| values.of(e).unwrap_or(f64::NAN);
     let off = match &body.shape {
         Shape::Rod { length } => {
@@ -340,14 +337,4 @@ fn miss(body: &Body, values: &Values, at: Pair, on_edge: bool) -> f64 {
         _ => 0.0,
     };
     if off.is_finite() { 4.0 * off } else { 1e6 }
-}
-
-/// Scalar product.
-pub fn dot(a: Pair, b: Pair) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-/// Length of a vector.
-pub fn size(a: Pair) -> f64 {
-    a[0].hypot(a[1])
 }

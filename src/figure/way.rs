@@ -6,8 +6,9 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::Course;
+use super::plane::{Pair, ahead, apart, bearing, minus, plus, polar, size, times, turned};
 use super::pose::{Look, Pose};
-use super::values::{Pair, Values, size};
+use super::values::Values;
 use crate::expr::Expr;
 use crate::scene::{Fall, FallEnd, Linkage, Scene, SlideEnd, StageKind, Turn, Until};
 
@@ -87,7 +88,7 @@ impl Gone {
         for (b, pose) in all {
             let mass = values.of(&scene.bodies[b].mass).unwrap_or(0.0);
             sum += mass;
-            moment = [0, 1].map(|k| moment[k] + mass * pose.center[k]);
+            moment = ahead(moment, pose.center, mass);
         }
         match sum > 0.0 {
             true => moment.map(|c| c / sum),
@@ -138,7 +139,7 @@ fn driven(
     let StageKind::Slide(slide) = kind else {
         return Some(Vec::new());
     };
-    let far = size([0, 1].map(|k| end.center[k] - from.center[k]));
+    let far = apart(end.center, from.center);
     let mut out = Vec::new();
     for string in &slide.strings {
         let along = values.pair(&string.along)?;
@@ -154,19 +155,14 @@ fn driven(
 /// Poses on the way, the first one the beginning, each with the angle turned through.
 fn way(scene: &Scene, values: &Values, course: &Course, from: &Pose) -> Option<Vec<(Pose, f64)>> {
     let straight = |d: Pair| {
-        let at = |k: u32| {
-            (
-                moved(from, from.center, 0.0, [d[0] * part(k), d[1] * part(k)]),
-                0.0,
-            )
-        };
+        let at = |k: u32| (moved(from, from.center, 0.0, times(d, part(k))), 0.0);
         (0..=STEPS).map(at).collect::<Vec<_>>()
     };
     Some(match &course.kind {
         StageKind::Turn(turn) => {
             let about = values.pair(&turn.about)?;
             let center = values.pair(&turn.lump(scene).center)?;
-            let by = turned(values, course, turn, [about, center, from.center])?;
+            let by = angle_of(values, course, turn, [about, center, from.center])?;
             let at = |k: u32| (moved(from, about, by * part(k), [0.0, 0.0]), by * part(k));
             (0..=STEPS).map(at).collect()
         }
@@ -177,11 +173,11 @@ fn way(scene: &Scene, values: &Values, course: &Course, from: &Pose) -> Option<V
                 // How far it gets is the result; the picture shows which way.
                 _ => {
                     let arms = from.outline().into_iter();
-                    let arms = arms.map(|p| size([0, 1].map(|k| p[k] - from.center[k])));
+                    let arms = arms.map(|p| apart(p, from.center));
                     3.0 * arms.fold(0.1, f64::max)
                 }
             };
-            straight([along[0] * far, along[1] * far])
+            straight(times(along, far))
         }
         StageKind::Fall(f) => flight(scene, values, f, (f.body, from))?
             .into_iter()
@@ -189,17 +185,13 @@ fn way(scene: &Scene, values: &Values, course: &Course, from: &Pose) -> Option<V
             .collect(),
         StageKind::Wind(w) => {
             let (pole, to) = (values.pair(&w.around)?, values.of(&w.to)?);
-            let arm = [from.center[0] - pole[0], from.center[1] - pole[1]];
-            let (long, phi) = (size(arm), arm[1].atan2(arm[0]));
+            let arm = minus(from.center, pole);
+            let (long, phi) = (size(arm), bearing(arm));
             let turns = 1.75 * TAU * if course.clockwise { -1.0 } else { 1.0 };
             let at = |k: u32| {
-                let (s, c) = (phi + turns * part(k)).sin_cos();
                 let r = long + (to - long) * part(k);
-                let shift = [
-                    pole[0] + r * c - from.center[0],
-                    pole[1] + r * s - from.center[1],
-                ];
-                (moved(from, from.center, 0.0, shift), 0.0)
+                let at = polar(pole, r, phi + turns * part(k));
+                (moved(from, from.center, 0.0, minus(at, from.center)), 0.0)
             };
             (0..=STEPS).map(at).collect()
         }
@@ -273,22 +265,22 @@ fn linked(
 }
 
 /// The angle of a rotation, counterclockwise; `center` is that of all that turns, `begin` that of the body.
-fn turned(
+fn angle_of(
     values: &Values,
     course: &Course,
     turn: &Turn,
     [about, center, begin]: [Pair; 3],
 ) -> Option<f64> {
     let way = if course.clockwise { -1.0 } else { 1.0 };
-    let bearing = |p: Pair| (p[1] - about[1]).atan2(p[0] - about[0]);
+    let toward = |p: Pair| bearing(minus(p, about));
     let by = match &turn.until {
         Until::By(by) => return Some(way * values.of(by)?),
-        Until::Above => FRAC_PI_2 - bearing(center),
-        Until::Below => -FRAC_PI_2 - bearing(center),
+        Until::Above => FRAC_PI_2 - toward(center),
+        Until::Below => -FRAC_PI_2 - toward(center),
         Until::For(_) | Until::Stops => {
             let end = course.end.get(turn.body).and_then(|e| values.pair(e));
-            match end.filter(|end| size([0, 1].map(|k| end[k] - about[k])) > 1e-9) {
-                Some(end) => bearing(end) - bearing(begin),
+            match end.filter(|end| apart(*end, about) > 1e-9) {
+                Some(end) => toward(end) - toward(begin),
                 None => return Some(way * SOME_ANGLE),
             }
         }
@@ -298,18 +290,16 @@ fn turned(
 
 /// A pose turned about a point and shifted.
 fn moved(pose: &Pose, about: Pair, by: f64, shift: Pair) -> Pose {
-    let (s, c) = by.sin_cos();
-    let turn = |p: Pair| [p[0] * c - p[1] * s, p[0] * s + p[1] * c];
-    let arm = turn([pose.center[0] - about[0], pose.center[1] - about[1]]);
+    let arm = turned(minus(pose.center, about), by);
     let look = match &pose.look {
-        Look::Blob(points) => Look::Blob(points.iter().map(|p| turn(*p)).collect()),
+        Look::Blob(points) => Look::Blob(points.iter().map(|p| turned(*p, by)).collect()),
         Look::Parts(parts) => {
             Look::Parts(parts.iter().map(|p| moved(p, about, by, shift)).collect())
         }
         other => other.clone(),
     };
     Pose {
-        center: [about[0] + arm[0] + shift[0], about[1] + arm[1] + shift[1]],
+        center: plus(plus(about, arm), shift),
         angle: pose.angle + by,
         look,
         massless: pose.massless,
