@@ -333,7 +333,7 @@ impl Stage<'_> {
             None => Support::Bar,
         });
         let hit = self.hit(other, at).filter(|v| size(*v) > 1e-9);
-        let hit = hit.map(|v| unit(v));
+        let hit = hit.map(unit);
         match kind {
             Support::Wall => self.wall(sheet, at, faces.unwrap_or([-1.0, 0.0]), other),
             Support::Floor => self.wall(sheet, at, [0.0, 1.0], other),
@@ -358,7 +358,7 @@ impl Stage<'_> {
             }
             Support::Bar => {
                 // A bar touches the body from the side the body comes from.
-                let n = normal.or(hit.map(|v| opposite(v))).unwrap_or([0.0, 0.0]);
+                let n = normal.or(hit.map(opposite)).unwrap_or([0.0, 0.0]);
                 let foot = self.touch(other, at, n);
                 peg(sheet, ahead(foot, n, -PEG));
             }
