@@ -205,6 +205,12 @@ fn every_check_of_every_story_holds_and_every_question_has_an_answer() {
                 "{name}: {} does not say how it is known",
                 a.name
             );
+            let mut followed = a.checks.iter().filter(|c| c.kind == "integration");
+            assert!(
+                followed.all(|c| c.holds == Some(true)),
+                "{name}: {} is not held against the scene followed in numbers",
+                a.name
+            );
         }
     }
 }

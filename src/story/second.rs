@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::integrate::points_of;
 use super::worlds::{self, World};
-use super::{Answer, StageTold, State, Told};
+use super::{Answer, Case, StageTold, State, Told};
 use crate::answer::Check;
 use crate::answer::calc::rounding;
 use crate::dimension::Dimension;
@@ -43,10 +43,13 @@ pub(super) struct Second<'a> {
     lost: Vec<Lost>,
 }
 
+/// Outcomes of stages told, both by index.
+type Way = BTreeMap<usize, usize>;
+
 /// The scene at one point.
 struct Seen {
-    /// Which way through the cases it takes, by index.
-    world: usize,
+    /// What happens there, of the stages that are told of it.
+    way: Way,
     point: Point<f64>,
     followed: Followed,
     units: Units,
@@ -60,13 +63,18 @@ struct Units {
     speed: f64,
 }
 
-/// Follows a scene at points of its domain.
+/// Follows a scene at points of its domain: some for each way through its cases, and some for each outcome, which may suppose
+/// what no whole way does.
 pub(super) fn look<'a>(scene: &'a Scene, worlds: &[World], stages: &[StageTold]) -> Second<'a> {
     let mut out = Second {
         scene,
         points: Vec::new(),
         lost: Vec::new(),
     };
+    let outcomes = stages.iter().enumerate();
+    let outcomes = outcomes.flat_map(|(i, told)| (0..told.cases.len().max(1)).map(move |k| (i, k)));
+    let mut wanted: Vec<Way> = worlds.iter().map(|world| world.outcome.clone()).collect();
+    wanted.extend(outcomes.map(|at| super::line(stages, at).collect::<Way>()));
     let names = names(scene);
     // The values of the scene show a case that few points of its domain have.
     let mut own = Point::default();
@@ -81,10 +89,8 @@ pub(super) fn look<'a>(scene: &'a Scene, worlds: &[World], stages: &[StageTold])
     let random = points_of(names, &scene.domains, PROMISING[0]);
     let mut promising = 0;
     for (k, point) in own.into_iter().chain(random).enumerate() {
-        let is_wanted = |w: usize| out.points.iter().filter(|s| s.world == w).count() < POINTS;
-        let promises = |w: usize| is_wanted(w) && promises(&worlds[w], stages, &point);
         if k > TRIED {
-            if !(0..worlds.len()).any(promises) {
+            if !wanted.iter().any(|way| promises(way, stages, &point)) {
                 continue;
             }
             promising += 1;
@@ -98,23 +104,29 @@ pub(super) fn look<'a>(scene: &'a Scene, worlds: &[World], stages: &[StageTold])
         if let Some(Err(lost)) = followed.stages.iter().find(|s| s.is_err()) {
             out.lost.push(lost.clone());
         }
-        let Some(world) = world_of(scene, worlds, stages, &followed, &point) else {
+        let way = way_of(scene, stages, &followed, &point);
+        if !wanted.iter().any(|wanted| leads(&way, wanted)) {
             continue;
-        };
-        if out.points.iter().filter(|s| s.world == world).count() < POINTS {
-            let units = Units::of(&followed);
-            out.points.push(Seen {
-                world,
-                point,
-                followed,
-                units,
-            });
         }
-        if out.points.len() == POINTS * worlds.len() {
+        let units = Units::of(&followed);
+        out.points.push(Seen {
+            way,
+            point,
+            followed,
+            units,
+        });
+        let count = |way: &Way| out.points.iter().filter(|s| leads(&s.way, way)).count();
+        wanted.retain(|way| count(way) < POINTS);
+        if wanted.is_empty() {
             break;
         }
     }
     out
+}
+
+/// Whether all these outcomes are among those that happen.
+fn leads(happens: &Way, outcomes: &Way) -> bool {
+    outcomes.iter().all(|(i, k)| happens.get(i) == Some(k))
 }
 
 /// All that has to have a value for a scene to be followed.
@@ -124,52 +136,49 @@ fn names(scene: &Scene) -> BTreeSet<Symbol> {
     names
 }
 
-/// Whether all that a way through the cases needs is so at a point. What is followed there decides.
-fn promises(world: &World, stages: &[StageTold], point: &Point<f64>) -> bool {
+/// Whether all that some outcomes need is so at a point. What is followed there decides.
+fn promises(way: &Way, stages: &[StageTold], point: &Point<f64>) -> bool {
     let holds = |e: &Expr| e.evaluate(point).is_none_or(|v| v > 0.0);
-    world.outcome.iter().all(|(i, k)| {
+    way.iter().all(|(i, k)| {
         let told = &stages[*i];
         let conditions = told.cases.get(*k).into_iter().flat_map(|c| &c.conditions);
         told.needs.iter().all(holds) && conditions.map(|(_, e)| e).all(holds)
     })
 }
 
-/// The way through the cases that the second way takes by itself; `None` where it does not get to its end or lies on a
-/// boundary.
-fn world_of(
-    scene: &Scene,
-    worlds: &[World],
-    stages: &[StageTold],
-    followed: &Followed,
-    point: &Point<f64>,
-) -> Option<usize> {
-    let fits = |world: &World| {
-        world.outcome.iter().all(|(i, k)| {
-            let told = &stages[*i];
-            let fails = |e: &Expr| e.evaluate(point).is_some_and(|v| v < 0.0);
-            if told.needs.iter().any(fails) {
-                return false;
-            }
-            let passed = passed(scene, followed, told);
-            let Some(case) = told.cases.get(*k) else {
-                return passed.is_some();
-            };
-            let holds = |e: &Expr| e.evaluate(point).is_none_or(|v| v > 0.0);
-            let Some(What::Impact(impact)) = passed.map(|p| &p.what) else {
-                return false;
-            };
-            let acts = match impact.acting.as_slice() {
+/// What the second way finds to happen: of each stage that it gets to the end of, as it is told, the outcome there. Where that
+/// lies on a boundary, or what the stage supposes is not so, it is left out, and what goes on from it.
+fn way_of(scene: &Scene, stages: &[StageTold], followed: &Followed, point: &Point<f64>) -> Way {
+    let mut way = Way::new();
+    let fails = |e: &Expr| e.evaluate(point).is_some_and(|v| v < 0.0);
+    let holds = |e: &Expr| e.evaluate(point).is_none_or(|v| v > 0.0);
+    for (i, told) in stages.iter().enumerate() {
+        let follows = told
+            .branch
+            .is_none_or(|(parent, case)| way.get(&parent) == Some(&case));
+        let passed = passed(scene, followed, told);
+        let Some(passed) = passed.filter(|_| follows && !told.needs.iter().any(fails)) else {
+            continue;
+        };
+        let acts = |case: &Case| match &passed.what {
+            What::Motion(_) => false,
+            What::Impact(impact) => match impact.acting.as_slice() {
                 [] => case.active.is_empty(),
                 [acting] => {
                     acting.len() == case.active.len()
                         && acting.iter().all(|name| case.active.contains(name))
                 }
                 _ => false,
-            };
-            acts && case.conditions.iter().all(|(_, e)| holds(e))
-        })
-    };
-    worlds.iter().position(fits)
+            },
+        };
+        let is_so = |case: &Case| acts(case) && case.conditions.iter().all(|(_, e)| holds(e));
+        let outcome = match told.cases.as_slice() {
+            [] => Some(0),
+            cases => cases.iter().position(is_so),
+        };
+        way.extend(outcome.map(|k| (i, k)));
+    }
+    way
 }
 
 fn passed<'f>(scene: &Scene, followed: &'f Followed, told: &StageTold) -> Option<&'f Passed> {
@@ -297,8 +306,8 @@ impl Second<'_> {
     }
 
     /// Bodies that pass through each other in a stage: a failed check where they do at every point looked at.
-    pub fn passage(&self, worlds: &[World], index: usize, told: &StageTold) -> Option<Check> {
-        let here = |seen: &&Seen| worlds[seen.world].outcome.contains_key(&index);
+    pub fn passage(&self, index: usize, told: &StageTold) -> Option<Check> {
+        let here = |seen: &&Seen| seen.way.contains_key(&index);
         let seen = self.points.iter().filter(here);
         let seen = seen.filter_map(|seen| passed(self.scene, &seen.followed, told));
         let mut all: Vec<Vec<[usize; 2]>> = seen.map(|p| p.passing.clone()).collect();
@@ -330,17 +339,14 @@ impl Second<'_> {
     }
 
     /// Holds places, angles, velocities, spins and times of a stage against what was followed.
-    pub fn stage(&self, worlds: &[World], index: usize, told: &StageTold) -> Check {
+    pub fn stage(&self, index: usize, told: &StageTold) -> Check {
         let mut compared = Compared::default();
         for seen in &self.points {
-            if !worlds[seen.world].outcome.contains_key(&index) {
-                continue;
-            }
-            let Some(passed) = passed(self.scene, &seen.followed, told) else {
+            let passed = passed(self.scene, &seen.followed, told);
+            let (Some(passed), Some(outcome)) = (passed, seen.way.get(&index)) else {
                 continue;
             };
-            let outcome = worlds[seen.world].outcome[&index];
-            let after = told.cases.get(outcome).map_or(&told.after, |c| &c.after);
+            let after = told.cases.get(*outcome).map_or(&told.after, |c| &c.after);
             compared.points += 1;
             for (state, bodies, when) in [
                 (&told.before, &passed.before.bodies, "before"),
@@ -429,19 +435,20 @@ impl Second<'_> {
 pub fn held(scene: &Scene, told: &Told) -> BTreeMap<usize, Check> {
     let worlds = worlds::of(&told.stages);
     let second = look(scene, &worlds, &told.stages);
-    answers(&second, &worlds, &told.answers)
+    answers(&second, (&worlds, &told.stages), &told.answers)
 }
 
 /// Checks of all answers, by index.
 pub(super) fn answers(
     second: &Second<'_>,
-    worlds: &[World],
+    (worlds, stages): (&[World], &[StageTold]),
     answers: &[Answer],
 ) -> BTreeMap<usize, Check> {
     let asked = asked::Asked {
         scene: second.scene,
         second,
         worlds,
+        stages,
         answers,
     };
     let check = |(i, answer): (usize, &Answer)| {

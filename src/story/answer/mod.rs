@@ -55,13 +55,13 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
         answers.extend(new);
     }
     let second = second::look(scene, &worlds, &stages);
-    for (i, check) in second::answers(&second, &worlds, &answers) {
+    for (i, check) in second::answers(&second, (&worlds, &stages), &answers) {
         answers[i].checks.push(check);
     }
     let each = stages.iter().enumerate();
     let checks = each.map(|(i, told)| {
-        let passage = second.passage(&worlds, i, told);
-        [second.stage(&worlds, i, told)].into_iter().chain(passage)
+        let passage = second.passage(i, told);
+        [second.stage(i, told)].into_iter().chain(passage)
     });
     let checks: Vec<Vec<Check>> = checks.map(Iterator::collect).collect();
     for (told, checks) in stages.iter_mut().zip(checks) {

@@ -3,6 +3,10 @@
 //! In: questions with their answers in closed form, and the points at which the scene was followed. Out: checks. A threshold is
 //! looked at on both sides, a largest value beside its place and far from it, a limit and an approximation closer and closer.
 
+use std::collections::BTreeSet;
+use std::iter::successors;
+
+use super::super::StageTold;
 use super::super::worlds::without_case;
 use super::values::moved;
 use super::{CLOSE, Compared, Second, Seen, World, points_of, shaken};
@@ -38,6 +42,7 @@ pub(super) struct Asked<'a> {
     pub scene: &'a Scene,
     pub second: &'a Second<'a>,
     pub worlds: &'a [World],
+    pub stages: &'a [StageTold],
     pub answers: &'a [Answer],
 }
 
@@ -54,7 +59,8 @@ impl Asked<'_> {
         if !asks_motion && !about.any(|q| self.is_of_motion(q)) {
             return None;
         }
-        let here = |seen: &&Seen| happens(seen, self.worlds, question, answer);
+        let uses = self.stages_of(question);
+        let here = |seen: &&Seen| self.happens(seen, &uses, question, answer);
         for seen in self.second.points.iter().filter(here) {
             let held = match &question.ask {
                 Ask::Condition { .. } => self.tips(seen, question, answer),
@@ -197,6 +203,40 @@ impl Asked<'_> {
             }
         }
         out
+    }
+
+    /// Names of the stages that a question needs: those of the motions it is about, and those before them.
+    fn stages_of(&self, question: &Question) -> BTreeSet<&str> {
+        let stages = &self.scene.stages;
+        let about = question.ask.formulas().into_iter();
+        let about = about.flat_map(|of| self.needs(of)).chain([question]);
+        let at = about.filter_map(|q| q.stage);
+        let before = at.flat_map(|at| successors(Some(at), |i| stages[*i].from));
+        before.map(|i| stages[i].name.as_str()).collect()
+    }
+
+    /// Whether an answer is about what happens at a point, in the stages that its question uses.
+    fn happens(
+        &self,
+        seen: &Seen,
+        uses: &BTreeSet<&str>,
+        question: &Question,
+        answer: &Answer,
+    ) -> bool {
+        let is_used = |told: &StageTold| uses.contains(told.placed.name.as_str());
+        let goes = |w: usize| {
+            let mut outcome = self.worlds[w].outcome.iter();
+            outcome.all(|(i, k)| !is_used(&self.stages[*i]) || seen.way.get(i) == Some(k))
+        };
+        match answer.told {
+            // A threshold of friction is asked of the impact, whatever its contact does.
+            Some((stage, _)) if matches!(question.ask, Ask::Friction { .. }) => {
+                seen.way.contains_key(&stage)
+            }
+            Some((stage, case)) => seen.way.get(&stage) == Some(&case),
+            None if answer.worlds.is_empty() => (0..self.worlds.len()).any(goes),
+            None => answer.worlds.iter().any(|w| goes(*w)),
+        }
     }
 
     /// Whether the scene still goes the way of an answer where a parameter has another value.
@@ -350,19 +390,6 @@ impl Asked<'_> {
         let gaps: Vec<String> = gaps.iter().map(|(gap, _)| format!("{gap:.3e}")).collect();
         let how = format!("closer and closer by it is apart by {}", gaps.join(", "));
         Some(Held::So(nears.any(|nears| nears), how))
-    }
-}
-
-/// Whether an answer is about what happens at a point.
-fn happens(seen: &Seen, worlds: &[World], question: &Question, answer: &Answer) -> bool {
-    let world = &worlds[seen.world];
-    match answer.told {
-        // A threshold of friction is asked of the impact, whatever its contact does.
-        Some((stage, _)) if matches!(question.ask, Ask::Friction { .. }) => {
-            world.outcome.contains_key(&stage)
-        }
-        Some((stage, case)) => world.outcome.get(&stage) == Some(&case),
-        None => answer.worlds.is_empty() || answer.worlds.contains(&seen.world),
     }
 }
 
