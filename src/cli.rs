@@ -66,6 +66,9 @@ enum Command {
         /// The double nearest to each true value, and how it was certified; parameters count as exact (0.1 is 1/10)
         #[arg(long, conflicts_with = "exact")]
         certify: bool,
+        /// Only the impact of this stage, which begins as the file says
+        #[arg(long, value_name = "NAME")]
+        stage: Option<String>,
     },
     /// Lay the laws of contact side by side at the values of a scene with friction
     Compare(friction::CompareArgs),
@@ -161,7 +164,15 @@ pub fn run() -> ExitCode {
             format,
             exact,
             certify,
-        } => solve_command(&input, format, exact, certify),
+            stage,
+        } => {
+            let numbers = match (exact, certify) {
+                (_, true) => Numbers::Certified,
+                (true, _) => Numbers::Exact,
+                _ => Numbers::Doubles,
+            };
+            solve_command(&input, format, numbers, stage.as_deref())
+        }
         Command::Compare(args) => friction::run(&args),
         Command::Draw(args) => draw::run(&args),
         Command::Emit(args) => emit::run(&args),
@@ -222,18 +233,25 @@ fn derive_command(
 fn solve_command(
     input: &SceneArgs,
     format: Format,
-    exact: bool,
-    certify: bool,
+    numbers: Numbers,
+    stage: Option<&str>,
 ) -> Result<u8, Failure> {
-    let numbers = match (exact, certify) {
-        (_, true) => Numbers::Certified,
-        (true, _) => Numbers::Exact,
-        _ => Numbers::Doubles,
-    };
-    print_output(
-        &input.scene,
-        command::solve(&input.read()?, numbers, format),
-    )
+    let (path, mut scene) = (&input.scene, input.read()?);
+    if stage.is_some() || scene.has_stages() && numbers != Numbers::Doubles {
+        let all = scene.stages.iter();
+        let all = all.filter_map(|s| Some((s.name.clone(), s.from_the_file()?)));
+        let mut all: Vec<_> = all.collect();
+        if !scene.has_stages() {
+            all.push((String::new(), scene));
+        }
+        if all.is_empty() {
+            let why = "no impact here begins as the file says; what follows a motion is integrated in doubles";
+            let hint = "leave out --exact, --certify and --stage";
+            return Err(refused(path, format!("{why}\nhint: {hint}")));
+        }
+        scene = only(path, all, stage)?;
+    }
+    print_output(path, command::solve(&scene, numbers, format))
 }
 
 /// Why a command has no result for the scene of a file.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use carom::answer::Form;
 use carom::equality::{Equality, How, decide};
 use carom::formula::{Content, Symbols, read, write_plain};
-use carom::numeric::{self, follow};
+use carom::numeric::{self, Answer as Found, follow};
 use carom::render;
 use carom::scene::Scene;
 use carom::story::{Told, tell};
@@ -213,6 +213,57 @@ fn every_check_of_every_story_holds_and_every_question_has_an_answer() {
             );
         }
     }
+}
+
+#[test]
+fn an_impact_that_begins_as_the_file_says_is_solved_in_fractions() {
+    let mut held = 0;
+    for folder in ["derivations/problems", "derivations/more"] {
+        for path in shared::files(folder, "json") {
+            let text = std::fs::read_to_string(&path).expect("a scene");
+            let Ok(scene) = carom::scene::read(&text) else {
+                continue;
+            };
+            for (i, stage) in scene.stages.iter().enumerate() {
+                let Some(impact) = stage.from_the_file().filter(|own| own.friction().is_none())
+                else {
+                    continue;
+                };
+                let mut needed = numeric::needed(&impact);
+                for symbol in follow::symbols(&scene) {
+                    if !needed.angles.contains_key(&symbol) {
+                        needed.add(&carom::expr::Expr::symbol(&symbol));
+                    }
+                }
+                let exact = numeric::random_point(&needed, &scene.domains, 7);
+                let at = numeric::rounded(&exact);
+                let Ok(followed) = numeric::follow(&scene, &at) else {
+                    continue;
+                };
+                let answers = numeric::answers(&impact, &exact, numeric::solve_exact);
+                for (name, found) in answers.expect("laws that agree") {
+                    let question = scene
+                        .questions
+                        .iter()
+                        .find(|q| q.name == name && q.stage == Some(i));
+                    let Some(question) = question else { continue };
+                    let same = follow::answer(&scene, &followed, question, &at).expect("a number");
+                    let pairs = match (found.expect("a fraction"), same) {
+                        (Found::Scalar(a), Found::Scalar(b)) => vec![(a, b)],
+                        (Found::Vector(a), Found::Vector(b)) => a.into_iter().zip(b).collect(),
+                        _ => panic!("{name}: a number and a vector"),
+                    };
+                    for (exact, double) in pairs {
+                        let exact = carom::expr::number::to_f64(&exact);
+                        let close = (exact - double).abs() <= 1e-9 * exact.abs().max(1.0);
+                        assert!(close, "{}: {name} is {exact} and {double}", path.display());
+                        held += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(held >= 20, "{held}");
 }
 
 #[test]

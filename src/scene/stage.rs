@@ -47,6 +47,24 @@ impl Stage {
         }
     }
 
+    /// An impact that begins as the file says, as a scene of its own; `None` of any other stage, and where a support or string
+    /// may let go.
+    pub fn from_the_file(&self) -> Option<Scene> {
+        let StageKind::Impact { one_sided, .. } = &self.kind else {
+            return None;
+        };
+        if self.from.is_some() || !self.earlier.is_empty() || !one_sided.is_empty() {
+            return None;
+        }
+        let mut scene = self.scene.clone();
+        for (b, velocity, spin) in self.start.clone() {
+            let body = &mut scene.bodies[b];
+            body.velocity = velocity.unwrap_or_else(|| body.velocity.clone());
+            body.spin = spin.unwrap_or_else(|| body.spin.clone());
+        }
+        Some(scene)
+    }
+
     /// The stage with what is known of the places and of earlier answers put in; a symbol without a value stays.
     pub fn placed(&self, values: &BTreeMap<Symbol, Expr>) -> Stage {
         let mut out = self.clone();
