@@ -32,6 +32,7 @@ use super::lexer::{Lexer, Tok, Token};
 use super::note::Remark;
 use super::product::FEW;
 use super::symbols::Symbols;
+use super::units::numbered;
 use super::written::{Shape, Sign, Written, is_axis};
 use crate::dimension::Unit;
 
@@ -222,6 +223,20 @@ impl<'a> Parser<'a> {
         if !is_unit || self.units == 0 && self.lexer.fills_side(end) {
             return Ok(term);
         }
+        self.with_unit(term)
+    }
+
+    /// A factor with its own unit, as in `10 m / 2 s`: behind it stands another number, or an earlier factor has a unit.
+    pub(super) fn measured_factor(&mut self, factor: Written, beside: bool) -> Faulty<Written> {
+        let token = self.peek()?;
+        let (is_unit, end) = (matches!(token.tok, Tok::Unit(_)), token.end);
+        match is_unit && (beside || numbered(self.lexer.text[end..].trim_start())) {
+            true => self.with_unit(factor),
+            false => Ok(factor),
+        }
+    }
+
+    fn with_unit(&mut self, term: Written) -> Faulty<Written> {
         let token = self.next()?;
         let Tok::Unit(unit) = token.tok else {
             return Ok(term);

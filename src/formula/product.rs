@@ -13,6 +13,7 @@ impl Parser<'_> {
     /// Groups tied by `*` and `/`, from left to right.
     pub(super) fn term(&mut self) -> Faulty<Written> {
         let first = self.group()?;
+        let first = self.measured_factor(first, false)?;
         let mut factors: Vec<(Link, Written)> = Vec::new();
         let (start, mut end) = (first.start, first.end);
         let mut first = Some(first);
@@ -45,6 +46,8 @@ impl Parser<'_> {
                 let stop = factor.end;
                 factor = Written::new(Shape::Sum(vec![(Sign::Minus, factor)]), at, stop);
             }
+            let measured = |(_, f): &(Link, Written)| matches!(f.shape, Shape::Measured(..));
+            factor = self.measured_factor(factor, factors.iter().any(measured))?;
             end = factor.end;
             if link == Link::Cross
                 && let Some((_, before)) = factors.last()

@@ -94,7 +94,7 @@ impl Lexer<'_> {
             Some(read) => (side.len(), read),
             // Units inside a formula of numbers.
             None if self.units_first => {
-                let piece = &side[..end_of_unit(side)?];
+                let piece = &side[..self.end_of_unit(side)?];
                 let plain = plain_unit(piece)?;
                 (piece.len(), (dimension::unit(&plain).ok()?, plain))
             }
@@ -122,6 +122,38 @@ impl Lexer<'_> {
         }
         self.pos = start + stop;
         Some(Tok::Unit(Box::new(read)))
+    }
+
+    /// Where a unit ends that does not fill its side: before a sign, a comma, a bracket that it did not open, a unit vector, or
+    /// another number behind `*` or `/`.
+    fn end_of_unit(&self, side: &str) -> Option<usize> {
+        let mut before = ' ';
+        let mut depth = 0u32;
+        for (at, c) in side.char_indices() {
+            let command = ["\\hat", "\\vec", "\\mathbf", "\\right", "\\end"];
+            match c {
+                '+' | '-' | '−' | '±' if !"^{(⁻".contains(before) => return Some(at),
+                ',' | ';' | ']' | '&' | 'î' | 'ĵ' => return Some(at),
+                '\\' if command.iter().any(|c| side[at..].starts_with(c)) => return Some(at),
+                '\\' if side[at..].starts_with("\\\\") => return Some(at),
+                _ if depth == 0 && before != '^' && numbered(&side[at..]) => return Some(at),
+                'i' | 'j' | 'k' if self.is_axis(side, at) => return Some(at),
+                '(' | '{' => depth += 1,
+                ')' | '}' if depth == 0 => return Some(at),
+                ')' | '}' => depth -= 1,
+                _ => {}
+            }
+            if !c.is_whitespace() {
+                before = c;
+            }
+        }
+        None
+    }
+
+    /// Whether a letter of a unit's side is the direction behind it, as in `3 m/s i`.
+    fn is_axis(&self, side: &str, at: usize) -> bool {
+        let alone = side[..at].ends_with(' ') && !side[at + 1..].starts_with(char::is_alphanumeric);
+        alone && self.symbols.axis(&side[at..at + 1]).is_some()
     }
 
     /// Whether what could be a unit holds nothing that is declared, nor a letter that is a symbol first.
@@ -185,27 +217,18 @@ pub(super) fn spelled(text: &str) -> String {
     out.replace("^ ", "^").trim().to_string()
 }
 
-/// Where a unit ends that does not fill its side: before a sign, a comma, a bracket that it did not open, or a unit vector.
-fn end_of_unit(side: &str) -> Option<usize> {
-    let mut before = ' ';
-    let mut depth = 0u32;
-    for (at, c) in side.char_indices() {
-        let command = ["\\hat", "\\vec", "\\mathbf", "\\right", "\\end"];
-        match c {
-            '+' | '-' | '−' | '±' if !"^{(⁻".contains(before) => return Some(at),
-            ',' | ';' | ']' | '&' | 'î' | 'ĵ' => return Some(at),
-            '\\' if command.iter().any(|c| side[at..].starts_with(c)) => return Some(at),
-            '\\' if side[at..].starts_with("\\\\") => return Some(at),
-            '(' => depth += 1,
-            ')' if depth == 0 => return Some(at),
-            ')' => depth -= 1,
-            _ => {}
+/// Whether a text begins with a sign of a product or quotient and a number behind it, in brackets or not.
+pub(super) fn numbered(text: &str) -> bool {
+    const SIGNS: [&str; 7] = ["*", "/", "·", "×", "⋅", "\\cdot", "\\times"];
+    let behind = SIGNS.iter().find_map(|sign| text.strip_prefix(sign));
+    behind.is_some_and(|behind| {
+        let opened = [" ", "(", "{", "\\left", "\\frac", "\\,"];
+        let mut number = behind;
+        while let Some(rest) = opened.iter().find_map(|open| number.strip_prefix(open)) {
+            number = rest;
         }
-        if !c.is_whitespace() {
-            before = c;
-        }
-    }
-    None
+        number.starts_with(|c: char| c.is_ascii_digit())
+    })
 }
 
 /// The word at the start of a text, where it is short enough for a unit.

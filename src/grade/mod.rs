@@ -129,10 +129,10 @@ pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
         Symbols::open()
     };
     declare(&mut symbols, question);
-    let quantity = (!question.closed)
-        .then(|| read::quantity(expected, question))
-        .flatten();
-    let mut key = from_reading(read::expected(expected, &symbols)?, question);
+    let reading = read::expected(expected, &symbols)?;
+    let quantity = (!question.closed).then(|| read::quantity(expected, &reading, question));
+    let quantity = quantity.flatten();
+    let mut key = from_reading(reading, question);
     if let Some(reading) = quantity {
         let closed = Question {
             closed: true,

@@ -4,7 +4,7 @@
 //! students wrongly bring in, so that it is wrong rather than unreadable. A word that is no name is refused: read letter by
 //! letter it would be a formula nobody wrote.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Key, Question, declare};
 use crate::dimension;
@@ -212,19 +212,21 @@ fn mended(key: &Key, text: &str, fault: Fault) -> Result<Reading, Fault> {
     let split = reading.notes.iter().any(|n| n.remark == Remark::Letters);
     let named_quantity = measured && left.is_some();
     let known = |name: &Symbol| declared(key, name) || strange(name);
-    if !split && !named_quantity && reading.symbols().iter().all(known) {
-        return Ok(reading);
-    }
     // `v = \sqrt{2gh} = 14 m/s`: the number at the end is the answer.
     if measured && let Some(at) = text.rfind(['=', '≈']) {
         let sign = text[at..].chars().next().map_or(1, char::len_utf8);
         let last = format!("{}{}", " ".repeat(at + sign), &text[at + sign..]);
         if let Ok(reading) = formula::read(&last, &key.readable)
             && reading.symbols().is_empty()
-            && (text[..at].contains(['=', '≈']) || is_size(&text[..at]))
+            && (text[..at].contains(['=', '≈'])
+                || is_size(&text[..at])
+                || computes(&text[..at], &open))
         {
             return Ok(reading);
         }
+    }
+    if !split && !named_quantity && reading.symbols().iter().all(known) {
+        return Ok(reading);
     }
     // `v = 5 m/s`, where v is not declared and m is the unit.
     let named = left.filter(|name| !declared(key, name)).and_then(|name| {
@@ -260,6 +262,14 @@ fn direction(text: &str) -> Option<Fault> {
     };
     let hint = format!("which {what} counts as positive is told by the question");
     Some(*Fault::new(message, start, said.len()).hint(hint))
+}
+
+/// Whether a side is worked out in what follows, as in `\sqrt{2gh} = 14 m/s`; with one symbol it would be an equation for it.
+fn computes(side: &str, open: &Symbols) -> bool {
+    formula::read(side, open).is_ok_and(|reading| {
+        let split = |note: &Note| matches!(note.remark, Remark::Letters | Remark::Words);
+        reading.symbols().len() > 1 && !reading.notes.iter().any(split)
+    })
 }
 
 /// Whether a side is the size of something, as in `|v| = 5 m/s`.
@@ -346,8 +356,9 @@ pub(super) fn sizes<'a>(
     (!same.is_empty()).then(|| content.map(&|e| e.substitute(&same)))
 }
 
-/// A text as a quantity with a unit, where no undeclared symbol is needed to read it.
-pub(super) fn quantity(text: &str, question: &Question) -> Option<Reading> {
+/// A text as a quantity with a unit, where no undeclared symbol is needed to read it, or none but names of quantities in the
+/// `open` reading of it.
+pub(super) fn quantity(text: &str, open: &Reading, question: &Question) -> Option<Reading> {
     let mut symbols = Symbols::strict().briefly();
     declare(&mut symbols, question);
     let list = || {
@@ -361,9 +372,49 @@ pub(super) fn quantity(text: &str, question: &Question) -> Option<Reading> {
         true => None,
         false => formula::read(text, &symbols).ok(),
     };
-    direct().or_else(list).filter(|reading| {
+    let plain = direct().or_else(list).filter(|reading| {
         quantitative(reading) || reading.unit.is_some() && reading.symbols().is_empty()
-    })
+    });
+    plain.or_else(|| bounds(text, open, question))
+}
+
+/// A text that says of names alone which quantities they are, or lie between: `2 m < x < 3 m`, `v = 2 m/s; s = 4 m`.
+fn bounds(text: &str, open: &Reading, question: &Question) -> Option<Reading> {
+    let mut names = BTreeSet::new();
+    sides(&open.content, &mut |side| {
+        names.extend(side.expr().and_then(Expr::as_symbol).cloned())
+    });
+    if names.is_empty() || !text.contains(|c: char| c.is_ascii_digit()) {
+        return None;
+    }
+    let mut symbols = Symbols::strict().briefly();
+    declare(&mut symbols, question);
+    names.iter().for_each(|name| symbols.declare(name));
+    let reading = formula::read(text, &symbols).ok()?;
+    let mut units = false;
+    sides(&reading.content, &mut |side| {
+        units |= matches!(side, Content::Quantity(_));
+    });
+    (units && reading.symbols() == names && measured(&reading.content)).then_some(reading)
+}
+
+/// Whether every side of some relations is a name, a quantity or a number.
+fn measured(content: &Content) -> bool {
+    let mut all = matches!(content, Content::Relations(..) | Content::Joined(..));
+    sides(content, &mut |side| {
+        let plain = |e: &Expr| e.is_constant() || e.as_symbol().is_some();
+        all &= side.expr().is_some_and(plain);
+    });
+    all
+}
+
+/// Calls `visit` for every side of the relations in a content.
+fn sides(content: &Content, visit: &mut dyn FnMut(&Content)) {
+    match content {
+        Content::Relations(sides, _) => sides.iter().for_each(visit),
+        Content::Joined(_, parts) => parts.iter().for_each(|part| sides(part, visit)),
+        _ => {}
+    }
 }
 
 /// Whether a formula, with nothing before it that would be passed over, begins with a letter that is no declared name.
@@ -381,12 +432,14 @@ fn begins_unnamed(text: &str, question: &Question) -> bool {
 /// Whether an answer to a key that is a quantity is one too, or a bare number.
 pub(super) fn is_quantity(key: &Key, text: &str) -> bool {
     answer(key, text).is_ok_and(|reading| {
-        matches!(reading.content.answer(), Content::Quantity(_)) || {
-            let mut none = true;
-            let answer = reading.content.answer();
-            answer.each(&mut |e: &Expr| none &= e.is_constant());
-            none && !matches!(answer, Content::Relations(..))
-        }
+        matches!(reading.content.answer(), Content::Quantity(_))
+            || {
+                let mut none = true;
+                let answer = reading.content.answer();
+                answer.each(&mut |e: &Expr| none &= e.is_constant());
+                none && !matches!(answer, Content::Relations(..))
+            }
+            || measured(&reading.content)
     })
 }
 
