@@ -370,7 +370,7 @@ fn a_falsified_answer_is_refused_by_the_scene_followed_in_numbers() {
     let about = |ask: &Ask| {
         matches!(
             ask,
-            Ask::Maximum { .. } | Ask::Limit { .. } | Ask::Approximate { .. }
+            Ask::Maximum { .. } | Ask::Limit { .. } | Ask::Approximate { .. } | Ask::Turn { .. }
         )
     };
     let (refused, passed) = over_shipped(|tried, k, path, _, scene| {
@@ -403,6 +403,7 @@ fn a_falsified_answer_is_refused_by_the_scene_followed_in_numbers() {
                 let kind = match &question.expect("a question").ask {
                     Ask::Condition { .. } => "threshold",
                     Ask::Maximum { .. } => "largest value",
+                    Ask::Turn { .. } => "turn",
                     Ask::Limit { .. } | Ask::Approximate { .. } => "limit",
                     // Its sides are those of the file.
                     Ask::Show { .. } => continue,
@@ -418,7 +419,14 @@ fn a_falsified_answer_is_refused_by_the_scene_followed_in_numbers() {
         }
     });
     assert!(passed.is_empty(), "accepted:\n{}", passed.join("\n"));
-    for kind in ["threshold", "largest value", "limit", "value", "motion"] {
+    for kind in [
+        "threshold",
+        "largest value",
+        "limit",
+        "turn",
+        "value",
+        "motion",
+    ] {
         assert!(refused.contains_key(kind), "{refused:?}");
     }
 }

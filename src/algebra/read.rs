@@ -5,11 +5,11 @@ use num_traits::{One, Signed, Zero};
 
 use smallvec::SmallVec;
 
-use super::Stop;
 use super::element::{Den, Element};
 use super::field::{Field, Kind};
-use super::mono::{Mono, cmp_mono, exponent, mono_add, mono_of};
+use super::mono::{Mono, cmp_mono, exponent, mono_add, mono_is_one, mono_of};
 use super::poly::Poly;
+use super::{Sign, Stop};
 use crate::expr::number::product;
 use crate::expr::{Expr, Function, Int, Node, Rational, Symbol};
 
@@ -177,7 +177,7 @@ impl Field {
                 let exponent = self.read(exponent, depth)?;
                 match exponent.as_number() {
                     Some(value) => value,
-                    None => return Ok(self.opaque_power(base, exponent)),
+                    None => return self.power_of_symbols(base, exponent),
                 }
             }
         };
@@ -220,6 +220,37 @@ impl Field {
         let other = self.odd_root(&base, odd as u32)?;
         let other = self.pow(&other, over_odd)?;
         self.mul(&root, &other)
+    }
+
+    /// A power with symbols above. Of something positive, what is whole in the exponent comes apart: b b^(n − 1) is bⁿ, and
+    /// b^(2 n) the square of bⁿ.
+    fn power_of_symbols(&mut self, base: Element, exponent: Element) -> Result<Element, Stop> {
+        let constant = exponent.num.terms().find(|(mono, _)| mono_is_one(mono));
+        let constant = constant.map_or_else(Int::zero, |(_, value)| value.clone());
+        let rest = exponent.num.sub(&Poly::constant(constant.clone()));
+        let content = match rest.leading_is_negative() {
+            true => -rest.content(),
+            false => rest.content(),
+        };
+        let small = |k: &Int| k.as_i64().filter(|k| k.abs() <= MOST_POWER);
+        let whole = [small(&constant), small(&content)];
+        let is_whole = exponent.den.is_one() && self.sign_of(&base) == Some(Sign::Positive);
+        let ([Some(constant), Some(times)], true) = (whole, is_whole) else {
+            return Ok(self.opaque_power(base, exponent));
+        };
+        let rest = Element::from_poly(rest.div_int(&content));
+        let power = match base.as_number().map(root_of_number) {
+            Some((root, k)) => {
+                let power = self.opaque_power(self.number(&root), rest);
+                self.pow(&power, times * k)?
+            }
+            None => {
+                let power = self.opaque_power(base.clone(), rest);
+                self.pow(&power, times)?
+            }
+        };
+        let apart = self.pow(&base, constant)?;
+        self.mul(&power, &apart)
     }
 
     fn read_call(
@@ -341,4 +372,28 @@ fn is_high_power(e: &Expr) -> bool {
 fn whole(exponent: &Expr) -> Option<i64> {
     let k = exponent.as_number().filter(|k| k.is_integer())?;
     k.numer().as_i64().filter(|k| k.abs() < 1 << 40)
+}
+
+/// A positive number as a power of one that is at least 1 and no power itself: 1/4 is 2⁻².
+fn root_of_number(value: Rational) -> (Rational, i64) {
+    let (mut root, mut times) = match value < Rational::one() {
+        true => (value.recip(), -1),
+        false => (value, 1),
+    };
+    for k in [2, 3, 5, 7] {
+        while let Some(next) = exact_root(&root, k).filter(|next| *next != root) {
+            root = next;
+            times *= i64::from(k);
+        }
+    }
+    (root, times)
+}
+
+/// The k-th root, where it is a fraction.
+fn exact_root(value: &Rational, k: u32) -> Option<Rational> {
+    let of = |n: &Int| {
+        let root = Int::from(n.to_bigint().nth_root(k));
+        (root.pow(k) == *n).then_some(root)
+    };
+    Some(Rational::new_raw(of(value.numer())?, of(value.denom())?))
 }

@@ -134,16 +134,42 @@ impl Field {
     }
 
     /// What is of the first degree in a sine or cosine lies between its values at −1 and 1, whatever the angle: 1 − cos x ≥ 0.
+    /// Of a power of what is at most 1 it lies between those at 0 and at the highest that the exponent lets it be.
     fn by_bounds(&self, p: &Poly, depth: u32) -> Option<Sign> {
-        let is_bounded = |v: &usize| matches!(self.gens[*v].kind, Kind::Cos(_) | Kind::Sin(_));
-        let v = p.variables().into_iter().find(is_bounded)?;
+        let mut variables = p.variables().into_iter();
+        let (v, [low, high], open) = variables.find_map(|v| match &self.gens[v].kind {
+            Kind::Cos(_) | Kind::Sin(_) => {
+                Some((v, [Poly::constant(Int::from(-1)), Poly::one()], false))
+            }
+            Kind::Power(base, exponent) => {
+                Some((v, [Poly::zero(), self.highest(base, exponent)?], true))
+            }
+            _ => None,
+        })?;
         let parts = p.by_power(v);
         let [rest, slope] = parts.as_slice() else {
             return None;
         };
-        let ends = [rest.sub(slope), rest.add(slope)];
-        let [low, high] = ends.map(|end| self.sign_sub(&end, depth));
-        between([(low?, false), (high?, false)])
+        let at = |end: &Poly| Some(rest.add(&self.mul_poly(slope, end).ok()?));
+        let low = self.sign_sub(&at(&low)?, depth)?;
+        let high = self.sign_sub(&at(&high)?, depth)?;
+        between([(low, open), (high, false)])
+    }
+
+    /// What a power of something between 0 and 1 is at most: 1 where its exponent is not negative, the base from 1 on.
+    fn highest(&self, base: &Element, exponent: &Element) -> Option<Poly> {
+        let one = Element::from_poly(Poly::one());
+        let below = |x: &Element| self.add(x, &Element::from_poly(Poly::constant(Int::from(-1))));
+        let is_not_negative = |x: &Element| self.sign_of(x).is_some_and(Sign::is_not_negative);
+        let above = self.sub(&one, base).ok()?;
+        let lies_within = self.sign_of(base) == Some(Sign::Positive) && is_not_negative(&above);
+        if !lies_within || !base.den.is_one() {
+            return None;
+        }
+        match below(exponent).is_ok_and(|rest| is_not_negative(&rest)) {
+            true => Some(base.num.clone()),
+            false => is_not_negative(exponent).then(Poly::one),
+        }
     }
 
     /// What is of the first degree in an angle lies between its values at the ends of the angle's interval, which are
@@ -306,6 +332,8 @@ impl Field {
                 Some(q) if q.is_positive() && q < ratio(1, 2) => Known::Positive,
                 _ => Known::Unknown,
             },
+            // Whatever the exponent.
+            Kind::Power(base, _) if self.sign_of(base) == Some(Sign::Positive) => Known::Positive,
             Kind::Call(..) | Kind::Power(..) => Known::Unknown,
         }
     }

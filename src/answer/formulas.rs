@@ -539,7 +539,7 @@ fn clashes(at: &str, reason: String) -> Refused {
 }
 
 /// Dimension of an expression in the scene's parameters.
-pub(super) fn dimension_of(scene: &Scene, e: &Expr, at: &str) -> Result<Dimension, Refused> {
+pub fn dimension_of(scene: &Scene, e: &Expr, at: &str) -> Result<Dimension, Refused> {
     match dimension::of(e, &|name| dimension_of_parameter(scene, name)) {
         Ok(found) => Ok(found.unwrap_or_else(Dimension::none)),
         Err(clash) => Err(clashes(at, clash.message(&write_plain))),

@@ -39,7 +39,7 @@ pub fn fill(out: &mut Answer, of: &Expr, parameter: &Symbol, to: Option<&Expr>, 
             let at_root = to.is_zero() && side(parameter, to, domains) == Side::Above;
             at_root.then(|| by_powers(of, parameter, false, domains))?
         }),
-        None => by_powers(of, parameter, true, domains),
+        None => dying(of, parameter, domains).or_else(|| by_powers(of, parameter, true, domains)),
     };
     let Some(found) = found else {
         out.text.push(Sentence::words("the limit was not found"));
@@ -70,6 +70,60 @@ pub fn fill(out: &mut Answer, of: &Expr, parameter: &Symbol, to: Option<&Expr>, 
         }
     };
     out.text.push(words.into());
+}
+
+/// Far out, where the parameter stands in the exponents of one number between 0 and 1 alone: its power dies away, and what is
+/// left is a limit at zero of that power.
+fn dying(of: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Found> {
+    const POWER: &str = "power that dies away";
+    let mut base: Option<Expr> = None;
+    let rest = without_powers(of, parameter, &mut base, &Expr::symbol(POWER))?;
+    let base = base?;
+    let mut domains = domains.clone();
+    let is_positive = |e: &Expr| sign(e, &domains) == Seen::Proved(Sign::Positive);
+    let below = &Expr::one() - &base;
+    // Of what is above 1 the inverse dies away.
+    let rest = match sign(&below, &domains).side() {
+        Some(true) if is_positive(&base) => rest,
+        Some(false) => rest.put(POWER, &Expr::symbol(POWER).powi(-1)),
+        _ => return None,
+    };
+    let given = not_zero(&below, &domains).map(|_| sentence![&base, " ≠ 1"]);
+    domains.symbols.insert(POWER.into(), Domain::positive());
+    let name = Symbol::from(POWER);
+    let found = by_taylor(&rest, &name, &Expr::zero(), &domains)
+        .or_else(|| by_powers(&rest, &name, false, &domains))?;
+    Some(Found {
+        how: "found from the power, which dies away",
+        given: given.into_iter().chain(found.given).collect(),
+        ..found
+    })
+}
+
+/// A formula with a symbol for b^p, wherever the parameter p stands in an exponent k p + c of one base b; nothing where it
+/// stands elsewhere too, or where two bases do.
+fn without_powers(e: &Expr, p: &Symbol, base: &mut Option<Expr>, power: &Expr) -> Option<Expr> {
+    if !e.mentions(p) {
+        return Some(e.clone());
+    }
+    let Node::Power(b, exponent) = e.node() else {
+        return match e.as_symbol() {
+            Some(_) => None,
+            None => e.try_map_parts(|part| without_powers(part, p, base, power)),
+        };
+    };
+    if b.mentions(p) {
+        let inside = without_powers(b, p, base, power)?;
+        return (!exponent.mentions(p)).then(|| inside.power(exponent.clone()));
+    }
+    if base.get_or_insert_with(|| b.clone()) != b {
+        return None;
+    }
+    let slope = exponent.derivative(p);
+    let rest = tidy(&exponent.put(p, &Expr::zero()), &Domains::default()).ok()?;
+    let slope = tidy(&slope, &Domains::default()).ok()?;
+    slope.as_number()?;
+    Some(&power.power(slope) * &b.power(rest))
 }
 
 /// The polynomial in the distance that stands for a formula near a value; without an order, its leading term.
@@ -383,7 +437,9 @@ fn tried(
                 .evaluate(&point)?
                 .abs()
                 .max(stands.evaluate(&point)?.abs());
-            Some((gap.evaluate(&point)?.abs(), scale))
+            let left = gap.evaluate(&point)?.abs();
+            // Far out a power may be beyond all doubles.
+            left.is_finite().then_some((left, scale))
         };
         let (Some((first, scale)), Some((second, _))) =
             (left_out(1.0 / 128.0), left_out(1.0 / 128.0 / closer))

@@ -19,7 +19,7 @@ mod zeros;
 use std::collections::BTreeMap;
 use std::fmt;
 
-pub use formulas::{LONGEST, about, formulas};
+pub use formulas::{LONGEST, about, dimension_of, formulas};
 pub use graph::{Curve, Graph, graphs};
 
 use crate::dimension::Dimension;

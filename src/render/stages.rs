@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use serde_json::{Map, Value, json};
 
+use crate::dimension::{self, Dimension};
 use crate::expr::Point;
 use crate::numeric::Answer;
 use crate::numeric::follow::{
@@ -11,7 +12,7 @@ use crate::numeric::follow::{
     What, answer,
 };
 use crate::numeric::given::Freedom;
-use crate::scene::Scene;
+use crate::scene::{Ask, Scene};
 
 /// Names of the components of a body's state, with their units.
 const COMPONENTS: [(&str, &str); 6] = [
@@ -191,7 +192,14 @@ fn answers(
     for question in &scene.questions {
         let name = &question.name;
         let found = answer(scene, followed, question, at);
-        let unit = question.ask.dimension().spoken();
+        let kind = match &question.ask {
+            Ask::Turn { of, .. } => dimension::of(&of[0], &|name| kind_of(scene, name)),
+            ask => Ok(Some(ask.dimension())),
+        };
+        let unit = kind
+            .ok()
+            .flatten()
+            .map_or_else(String::new, |kind| kind.spoken());
         match found {
             Ok(Answer::Scalar(v)) => out.push((name.clone(), unit, Ok(v))),
             Ok(Answer::Vector([x, y])) => {
@@ -203,6 +211,14 @@ fn answers(
         }
     }
     out
+}
+
+/// The dimension of a parameter, or of what a question about motion asks for.
+fn kind_of(scene: &Scene, name: &str) -> Option<Dimension> {
+    let given = scene.parameters.iter().find(|p| *p.name == *name);
+    let asked = || scene.answering(name).filter(|q| q.ask.is_motion());
+    let given = given.map(|p| p.dimension.clone());
+    given.or_else(|| Some(asked()?.ask.dimension()))
 }
 
 /// The same as data.

@@ -1,6 +1,6 @@
 //! What is asked of a scene: of an impact, of a motion, of the answers; and the curves to be drawn. Types only.
 
-use super::FrictionEvent;
+use super::{FrictionEvent, Turns};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol, Vector};
 use crate::formula::Relation;
@@ -207,6 +207,17 @@ pub enum Ask {
         stiffness: Expr,
         /// How long the blow lasts \[s\].
         during: Expr,
+    },
+    /// What a formula of the answers of one turn comes to in the turn of any number, or its sum over the turns up to that one.
+    Turn {
+        /// The parameter that counts the turns, from 1.
+        number: Symbol,
+        /// The group that is repeated.
+        turns: Turns,
+        /// The formula in the answers of each turn that is written out.
+        of: Vec<Expr>,
+        /// Summed up.
+        total: bool,
     },
     /// Acceleration of a body along its own way, in a motion along a line.
     Acceleration {

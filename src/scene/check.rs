@@ -6,7 +6,7 @@
 use super::fault::{Fault, Span};
 use super::parameters::number_words;
 use super::proof::{Given, Zero, given, middle, sign, violation, zero};
-use super::{ALONE, Contact, Hinge, Scene, beside_friction, touch};
+use super::{ALONE, Ask, Contact, Hinge, Scene, beside_friction, touch};
 use crate::algebra::Sign;
 use crate::expr::{Expr, Function, Node, Symbol, Vector, dot, minus};
 use crate::interval::{Interval, Outcome, evaluate};
@@ -19,6 +19,8 @@ pub(super) enum Claim {
     Fraction(Expr),
     /// A coefficient of friction: 0 or greater.
     Friction(Expr),
+    /// A number of turns is whole, where it is given.
+    Whole(Symbol),
     /// The size of gravity: 0 or greater.
     Gravity(Expr),
     /// A tangential restitution: from -1 to 1.
@@ -81,8 +83,13 @@ pub(super) fn at_values(scene: &Scene, span: Span) -> Option<Fault> {
     let contacts = contacts.flat_map(|i| [Claim::Touch(i), Claim::Approach(i)]);
     let approaches = contacts.map(|claim| Claimed { span, claim });
     let given = given(scene);
+    let turns = scene.questions.iter().filter_map(|q| match &q.ask {
+        Ask::Turn { number, .. } => Some(Claim::Whole(number.clone())),
+        _ => None,
+    });
     unit_vectors
         .chain(approaches)
+        .chain(turns.map(|claim| Claimed { span, claim }))
         .find_map(|claimed| try_claim(scene, &claimed, &given).0)
 }
 
@@ -108,6 +115,17 @@ fn try_claim(scene: &Scene, claimed: &Claimed, given: &Given) -> (Option<Fault>,
             "a restitution is from 0 to 1",
             "0: no rebound, 1: no loss; for a symbol give \"domain\": {\"min\": 0, \"max\": 1}",
         ),
+        Claim::Whole(name) => {
+            let parameter = scene.parameters.iter().find(|p| p.name == *name);
+            let value = parameter.and_then(|p| p.value.as_ref());
+            match value.and_then(Expr::as_number).filter(|n| !n.is_integer()) {
+                None => Tried::Holds,
+                Some(value) => Tried::Refuted(
+                    format!("`{name}` counts turns, and {value} is no whole number"),
+                    String::from("give it a value such as 3, or none"),
+                ),
+            }
+        }
         Claim::Friction(mu) => bounded(
             violation(mu, scene, given, |v| v.high < 0.0),
             "a coefficient of friction is not negative",

@@ -53,7 +53,7 @@ pub use geometry::direction;
 pub use printed::{Print, Printed};
 pub use stage::{
     Carrier, Fall, FallEnd, Linkage, Lump, OneSided, Slide, SlideEnd, Spring, Stage, StageKind,
-    Strung, Turn, Until, Wind,
+    Strung, Turn, Turns, Until, Wind,
 };
 
 /// Longest text of a scene file, in bytes.
@@ -66,12 +66,16 @@ pub fn read(text: &str) -> Result<Scene, Faults> {
         if !faults.is_empty() {
             return Scene::default();
         }
-        let root = unrolled.as_ref().unwrap_or(root);
+        let (root, turns) = match &unrolled {
+            Some((root, turns)) => (root, turns.as_slice()),
+            None => (root, [].as_slice()),
+        };
         let Some(file) = <file::SceneFile as record::Read>::read(root, faults) else {
             return Scene::default();
         };
         let lone = stages::lone(&file).or_else(|| questions::with_parts(&file));
-        let (scene, all) = resolve::resolve(lone.as_ref().unwrap_or(&file), std::mem::take(faults));
+        let file = lone.as_ref().unwrap_or(&file);
+        let (scene, all) = resolve::resolve(file, turns, std::mem::take(faults));
         *faults = all;
         scene
     })
@@ -201,6 +205,8 @@ pub struct Scene {
     /// Impacts and motions one after the other, in the order of the file, where the scene tells them; hinges, contacts and
     /// blows then stand there. Empty for a scene of one impact.
     pub stages: Vec<Stage>,
+    /// Groups of stages that are repeated, in the order of the file.
+    pub turns: Vec<Turns>,
     /// Indices of the bodies whose centers are held by axles in all stages: the pulleys of strings.
     pub axles: Vec<usize>,
     /// How an incomplete statement or a missing figure is read, in words.

@@ -32,7 +32,8 @@ record! {
         latex: Option<Text>,
         /// Velocity just after of this body (its center of mass), or of this point of the body named in `of`.
         velocity: Option<Text>,
-        /// The body: to which the point of a velocity belongs, or of which the energy is asked (missing: of all).
+        /// The body: to which the point of a velocity belongs, or of which the energy is asked (missing: of all). Of a `turn`, a
+        /// formula of answers to questions of the group, such as "h_#".
         of: Option<Text>,
         /// Direction of the component asked of a velocity or an impulse, or in which momentum is balanced.
         along: Option<DirectionFile>,
@@ -120,6 +121,10 @@ record! {
         unless: Option<Vec<Text>>,
         /// What the equation to be proved says, in words.
         claim: Option<Text>,
+        /// The parameter that counts the turns of a repeated group: what is `of` in the turn of that number, whichever it is?
+        turn: Option<Text>,
+        /// The sum of `of` over all turns up to that one is asked.
+        total: Option<bool>,
         /// Name of the stage: which forces have an impulse in it, and why?
         impulsive: Option<Text>,
         /// A spring that a blow of constant force presses: what share of the blow does it take while the blow lasts?

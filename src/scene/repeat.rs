@@ -9,10 +9,15 @@ use super::fault::{Fault, Span};
 use super::file::RepeatFile;
 use super::json::{Entry, Node, Value};
 use super::record::Read;
+use super::stage::Turns;
 use super::stages::STAGES;
 
-/// The tree with its groups written out; `None` where it has none, or where one is faulty, which is reported.
-pub(super) fn unrolled<'t>(root: &Node<'t>, faults: &mut Vec<Fault>) -> Option<Node<'t>> {
+/// The tree with its groups written out, and where they stand; `None` where it has none, or where one is faulty, which is
+/// reported.
+pub(super) fn unrolled<'t>(
+    root: &Node<'t>,
+    faults: &mut Vec<Fault>,
+) -> Option<(Node<'t>, Vec<Turns>)> {
     let Value::Object(entries) = &root.value else {
         return None;
     };
@@ -25,13 +30,15 @@ pub(super) fn unrolled<'t>(root: &Node<'t>, faults: &mut Vec<Fault>) -> Option<N
     }
     let mut plain = Vec::new();
     let mut asked = Vec::new();
+    let mut groups = Vec::new();
     for node in listed {
         if inside(node, "repeat").is_none() {
             plain.push(turn(node, None));
             continue;
         }
         let turns = turns(node, plain.len(), faults)?;
-        for k in 1..=turns {
+        groups.push(turns);
+        for k in 1..=turns.times {
             if let Some(Value::List(stages)) = inside(node, "stages") {
                 plain.extend(stages.iter().map(|stage| turn(stage, Some(k))));
             }
@@ -64,14 +71,15 @@ pub(super) fn unrolled<'t>(root: &Node<'t>, faults: &mut Vec<Fault>) -> Option<N
             },
         });
     }
-    Some(Node {
+    let out = Node {
         span: root.span,
         value: Value::Object(out),
-    })
+    };
+    Some((out, groups))
 }
 
 /// How often a group happens; what is wrong with it is reported.
-fn turns(node: &Node<'_>, before: usize, faults: &mut Vec<Fault>) -> Option<usize> {
+fn turns(node: &Node<'_>, before: usize, faults: &mut Vec<Fault>) -> Option<Turns> {
     let count = faults.len();
     let group = RepeatFile::read(node, faults)?;
     let turns = group.repeat.text.parse::<usize>();
@@ -89,7 +97,7 @@ fn turns(node: &Node<'_>, before: usize, faults: &mut Vec<Fault>) -> Option<usiz
         _ => refuse(
             group.repeat.span,
             String::from("a group of stages is repeated a whole number of times"),
-            "write \"repeat\": 3; a number of turns that is a symbol is not supported",
+            "write \"repeat\": 3; a question \"h_n\": {\"turn\": \"n\", \"of\": \"h_#\"} goes on from there to any number of turns",
         ),
     }
     let stages = group.stages.iter().map(|stage| &stage.name);
@@ -103,7 +111,12 @@ fn turns(node: &Node<'_>, before: usize, faults: &mut Vec<Fault>) -> Option<usiz
             );
         }
     }
-    turns.ok().filter(|_| faults.len() == count)
+    let times = turns.ok().filter(|_| faults.len() == count)?;
+    Some(Turns {
+        first: before,
+        stages: group.stages.len(),
+        times,
+    })
 }
 
 /// What a field of an object holds.

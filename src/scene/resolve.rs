@@ -15,7 +15,8 @@ use super::geometry::turned;
 use super::place::Place;
 use super::record::{Formula, Map, Pair, Text};
 use super::{
-    Blow, BlowImpulse, Body, Force, Hinge, NamedPoint, Scene, Shape, parameters, plots, questions,
+    Blow, BlowImpulse, Body, Force, Hinge, NamedPoint, Scene, Shape, Turns, parameters, plots,
+    questions,
 };
 use crate::algebra;
 use crate::expr::{Expr, Vector, minus, plus};
@@ -40,8 +41,13 @@ pub(super) struct Resolver<'f> {
 }
 
 /// Puts the scene together and checks it; `faults` are those of the file's shape, to which more are added.
-pub(super) fn resolve(file: &SceneFile, mut faults: Vec<Fault>) -> (Scene, Vec<Fault>) {
+pub(super) fn resolve(
+    file: &SceneFile,
+    turns: &[Turns],
+    mut faults: Vec<Fault>,
+) -> (Scene, Vec<Fault>) {
     let mut scene = Scene {
+        turns: turns.to_vec(),
         title: text(&file.title),
         source: text(&file.source),
         statement: text(&file.statement),

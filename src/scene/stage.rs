@@ -9,6 +9,25 @@ use std::collections::BTreeMap;
 use super::{Ask, BlowImpulse, Body, Contact, ContactLaw, KnownQuantity, Question, Scene, Shape};
 use crate::expr::{Expr, Symbol, Vector, dot, minus};
 
+/// A group of stages that happens several times, one turn after the other, as the file writes it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Turns {
+    /// Index of the first stage of the first turn.
+    pub first: usize,
+    /// How many stages a turn has.
+    pub stages: usize,
+    /// How many turns are written out.
+    pub times: usize,
+}
+
+impl Turns {
+    /// The stages of a turn, by its number from 1.
+    pub fn turn(&self, number: usize) -> std::ops::Range<usize> {
+        let begin = self.first + (number - 1) * self.stages;
+        begin..begin + self.stages
+    }
+}
+
 /// One stage.
 #[derive(Clone, Debug)]
 pub struct Stage {
@@ -111,6 +130,24 @@ impl Body {
 }
 
 impl Scene {
+    /// The first turn of a repeated group as a scene of its own, which begins wherever one lets it.
+    pub fn turn(&self, turns: &Turns) -> Scene {
+        let range = turns.turn(1);
+        let mut out = self.clone();
+        let inside = |i: usize| range.contains(&i).then(|| i - range.start);
+        out.stages = self.stages[range.clone()].to_vec();
+        for stage in &mut out.stages {
+            stage.from = stage.from.and_then(inside);
+        }
+        out.questions.retain_mut(|q| {
+            let here = q.stage.map(inside);
+            q.stage = here.flatten();
+            here != Some(None)
+        });
+        out.turns = Vec::new();
+        out
+    }
+
     /// A scene of one impact as one of a single stage with this name, so that its outcomes can be told one after the other.
     pub fn staged(&self, name: &str) -> Scene {
         let mut out = self.clone();

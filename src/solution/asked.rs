@@ -23,6 +23,7 @@ pub(super) fn beyond_motion(solution: &mut Solution, scene: &Scene, answers: &[A
     let mut before: Option<&Ask> = None;
     // Questions about one form, told together.
     let mut forms: Vec<&str> = Vec::new();
+    let mut said_of_turns: Vec<Sentence> = Vec::new();
     for question in &scene.questions {
         // What happens in a stage stands where the stage is told.
         let in_stage = matches!(
@@ -39,9 +40,9 @@ pub(super) fn beyond_motion(solution: &mut Solution, scene: &Scene, answers: &[A
         for answer in &mut mine {
             as_it_stands(scene, &question.ask, answers, answer);
         }
-        let Some(first) = mine.first() else {
+        if mine.is_empty() {
             continue;
-        };
+        }
         let ask = &question.ask;
         let told = before.is_some_and(|before| goes_on(before, ask));
         if let Ask::Approximate { .. } = ask {
@@ -53,6 +54,18 @@ pub(super) fn beyond_motion(solution: &mut Solution, scene: &Scene, answers: &[A
                 continue;
             }
         }
+        if let (Ask::Turn { .. }, true) = (ask, told) {
+            // Why it is so for every turn stands with the first of them.
+            for a in &mut mine {
+                a.text.retain(|t| !said_of_turns.contains(t));
+            }
+        }
+        if let Ask::Turn { .. } = ask {
+            said_of_turns.extend(mine.iter().flat_map(|a| a.text.clone()));
+        }
+        let Some(first) = mine.first() else {
+            continue;
+        };
         match told {
             true => further(solution, ask, first),
             false => solution.section(0, heading(scene, ask, first)),

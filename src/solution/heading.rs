@@ -40,6 +40,7 @@ pub(super) fn goes_on(before: &Ask, ask: &Ask) -> bool {
                 ..
             },
         ) => (of, parameter, to) == (f, p, t),
+        (Ask::Turn { .. }, Ask::Turn { .. }) => true,
         _ => plain(before) && plain(ask),
     }
 }
@@ -51,6 +52,9 @@ pub(super) fn further(solution: &mut Solution, ask: &Ask, answer: &Answer) {
             Some(order) => format!("To order {order},"),
             None => String::from("The leading term is"),
         });
+    }
+    if let Ask::Turn { .. } = ask {
+        return;
     }
     let Some(section) = solution.sections.last_mut() else {
         return;
@@ -157,6 +161,13 @@ pub(super) fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> 
             "" => vec![say("To show: "), related(left, *relation, right)],
             claim => vec![say("To show: "), say(claim)],
         },
+        Ask::Turn { number, .. } => {
+            vec![
+                say("In turn "),
+                math(&Expr::symbol(number)),
+                say(", whichever it is"),
+            ]
+        }
         Ask::Unused(of) => vec![say("Data not needed for "), math(&Expr::symbol(of))],
         _ => vec![say(words::capital(&called(scene, &answer.words)))],
     }

@@ -427,12 +427,17 @@ pub fn tell(scene: &Scene) -> Result<Told, Refused> {
 
 /// The stages of a scene as [`tell`] has them, without what is asked and without a second look at them: what a picture needs.
 pub fn course(scene: &Scene) -> Result<Told, Refused> {
+    through(scene, None)
+}
+
+/// The same; what begins where the file begins begins with a state, where one is given.
+fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
     let mut stages: Vec<StageTold> = Vec::new();
     let mut told_as: Vec<Vec<usize>> = Vec::new();
     let mut ended = Vec::new();
     for stage in &scene.stages {
         let mut mine = Vec::new();
-        for (branch, mut before, given) in beginnings(stage, &stages, &told_as) {
+        for (branch, mut before, given) in beginnings(stage, &stages, &told_as, from) {
             let mut earlier = BTreeMap::new();
             for name in &stage.earlier {
                 match answer::earlier(scene, &stages, branch, name)? {
@@ -449,7 +454,7 @@ pub fn course(scene: &Scene) -> Result<Told, Refused> {
                     .kind
                     .formulas_mut(&mut |e| *e = tidy(e, &domains).unwrap_or_else(|_| e.clone()));
             }
-            if stage.from.is_none() && !stage.earlier.is_empty() {
+            if stage.from.is_none() && from.is_none() && !stage.earlier.is_empty() {
                 before = start(&placed.scene, &placed.start);
             }
             for open in before.open.keys() {
@@ -533,9 +538,16 @@ fn at_values(scene: &Scene, told: &StageTold) -> Option<Check> {
 type Beginning = (Option<(usize, usize)>, State, Vec<(String, Expr)>);
 
 /// The states a stage begins with, one for each way that leads to it.
-fn beginnings(stage: &Stage, stages: &[StageTold], told_as: &[Vec<usize>]) -> Vec<Beginning> {
+fn beginnings(
+    stage: &Stage,
+    stages: &[StageTold],
+    told_as: &[Vec<usize>],
+    begun: Option<&State>,
+) -> Vec<Beginning> {
     let Some(from) = stage.from else {
-        return vec![(None, start(&stage.scene, &stage.start), Vec::new())];
+        let state = begun.cloned();
+        let state = state.unwrap_or_else(|| start(&stage.scene, &stage.start));
+        return vec![(None, state, Vec::new())];
     };
     let mut out = Vec::new();
     for &parent in &told_as[from] {

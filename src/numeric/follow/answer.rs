@@ -8,7 +8,7 @@ use std::fmt;
 use super::impact::velocity_at;
 use super::{
     BodyState, Component, Course, Followed, Impact, Impulse, Lost, Open, Passed, Solid, What,
-    kinetic,
+    kinetic, turns,
 };
 use crate::expr::{Point, Symbol, Vector};
 use crate::numeric::Answer;
@@ -84,6 +84,19 @@ pub fn answer(
     question: &Question,
     values: &Point<f64>,
 ) -> Result<Answer<f64>, Unanswered> {
+    if let Ask::Turn {
+        number,
+        turns,
+        of,
+        total,
+    } = &question.ask
+    {
+        // Nothing that is followed depends on it, so the values may be without it.
+        let given = scene.parameters.iter().find(|p| p.name == *number);
+        let given = given.and_then(|p| p.value.as_ref()?.evaluate(values));
+        let number = values.values.get(number).copied().or(given);
+        return turns::answer(scene, followed, turns, (&of[0], *total), number, values);
+    }
     let course = scene.course();
     let alone = (!scene.has_stages()).then_some(0);
     let index = question.stage.or(alone).ok_or(Unanswered::NotANumber)?;

@@ -38,6 +38,7 @@ mod motion;
 mod outline;
 mod passage;
 mod state;
+mod turns;
 mod wind;
 
 #[cfg(test)]
@@ -105,15 +106,20 @@ pub fn follow(scene: &Scene, values: &Point<f64>) -> Result<Followed, Undefined>
     let solids = solids(scene, values)?;
     let values = with_angles(values);
     let start = start(scene, &solids, &values)?;
+    Ok(through(scene, solids, &start, &values))
+}
+
+/// Follows the stages of a scene from a beginning.
+fn through(scene: &Scene, solids: Vec<Solid>, start: &State, values: &Point<f64>) -> Followed {
     let course = scene.course();
     let mut followed = Followed {
         solids,
         stages: Vec::new(),
     };
     for stage in course.iter() {
-        let values = with_earlier(scene, &followed, stage, &values);
+        let values = with_earlier(scene, &followed, stage, values);
         let before = match stage.from {
-            None => changed(stage, &start, &values),
+            None => changed(stage, start, &values),
             Some(j) => match &followed.stages[j] {
                 Ok(passed) => Ok(passed.after.clone()),
                 Err(_) => Err(Lost {
@@ -129,7 +135,7 @@ pub fn follow(scene: &Scene, values: &Point<f64>) -> Result<Followed, Undefined>
         }
         followed.stages.push(passed);
     }
-    Ok(followed)
+    followed
 }
 
 /// Values of the parameters, and of the answers to earlier stages that a stage uses.

@@ -7,6 +7,7 @@ pub(super) mod answers;
 mod impact;
 mod motion;
 mod told;
+mod turn;
 
 use std::collections::HashMap;
 
@@ -92,6 +93,7 @@ static KINDS: &[Kind] = kinds! {
         angle(clockwise at),
         position(along when at),
         reaction(along when),
+        turn(of total),
         share(),
         impulsive(),
         describe(),
@@ -136,7 +138,7 @@ fn fields(q: &QuestionFile) -> impl Iterator<Item = (&'static str, bool)> {
     macro_rules! given {
         ($($field:ident)*) => { [$((stringify!($field), q.$field.is_some())),*] };
     }
-    given!(at of along clockwise on system unknowns when about with holds over tends to order unless claim)
+    given!(at of along clockwise on system unknowns when about with holds over tends to order unless claim total)
         .into_iter()
 }
 
@@ -290,6 +292,7 @@ pub(super) fn of_stages(r: &mut Resolver<'_>, scene: &mut Scene, homes: &HashMap
             symbols.add(&name.text, &["", "_x", "_y"]);
         }
     }
+    turn::live(scene);
 }
 
 fn question(name: &Text, q: &QuestionFile, ask: Ask) -> Question {

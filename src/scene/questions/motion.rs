@@ -1,6 +1,6 @@
 //! Questions about stages: forces, times, ways, places, and what happens in words.
 
-use super::{answers, told};
+use super::{answers, told, turn};
 use crate::scene::fault::Fault;
 use crate::scene::formulas::{Quantity, Symbols};
 use crate::scene::question_file::QuestionFile;
@@ -46,7 +46,11 @@ pub(super) fn ask(
     .chain([&q.position, &q.angular_momentum])
     .find_map(Option::as_ref);
     let Some(subject) = named.or(of_body) else {
-        return Some((None, of_all(base, symbols, q)?));
+        let ask = match &q.turn {
+            Some(number) => turn::ask(base, symbols, scene, number, q),
+            None => of_all(base, symbols, q),
+        };
+        return Some((None, ask?));
     };
     let stage = if of_body.is_some() {
         q.at.as_ref()

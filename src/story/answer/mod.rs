@@ -4,6 +4,7 @@
 
 mod motion;
 mod reached;
+mod turns;
 
 use std::collections::BTreeSet;
 use std::iter::successors;
@@ -180,6 +181,12 @@ fn one(
             let answer = in_words(scene, stages, question, stage, earlier);
             Ok(answer.into_iter().collect())
         }
+        Ask::Turn {
+            number,
+            turns,
+            of,
+            total,
+        } => turns::answer(scene, stages, question, (number, turns, of, *total)).map(|a| vec![a]),
         // Those about formulas have been answered before.
         _ => stage.map_or_else(
             || Ok(Vec::new()),
@@ -202,14 +209,7 @@ pub(super) fn earlier(
         return Ok(Ok(Expr::symbol(name)));
     };
     if let Ask::Value { formula, .. } = &question.ask {
-        let mut known = Known::new();
-        for part in formula.symbols() {
-            match earlier(scene, stages, branch, &part)? {
-                Ok(value) => _ = known.insert(part, value),
-                Err(why) => return Ok(Err(why)),
-            }
-        }
-        return Ok(Ok(formula.substitute(&known)));
+        return put(scene, stages, branch, formula);
     }
     let way: Vec<(usize, usize)> = successors(branch, |(stage, _)| stages[*stage].branch).collect();
     let all = one(scene, stages, question, &[])?;
@@ -225,6 +225,23 @@ pub(super) fn earlier(
     };
     let value = found.and_then(Answer::formula).cloned();
     Ok(value.ok_or_else(|| format!("it needs {name}, which is not determined")))
+}
+
+/// A formula with what the answers in it stand for, or why it is open.
+fn put(
+    scene: &Scene,
+    stages: &[StageTold],
+    branch: Option<(usize, usize)>,
+    formula: &Expr,
+) -> Result<Result<Expr, String>, Refused> {
+    let mut known = Known::new();
+    for part in formula.symbols() {
+        match earlier(scene, stages, branch, &part)? {
+            Ok(value) => _ = known.insert(part, value),
+            Err(why) => return Ok(Err(why)),
+        }
+    }
+    Ok(Ok(formula.substitute(&known)))
 }
 
 /// An answer in sentences; `None` where it needs a stage and names none.

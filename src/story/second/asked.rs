@@ -24,6 +24,10 @@ const OTHERS: usize = 6;
 /// How much closer, three times over, a parameter comes to what it tends to, and to that near which something stands for a
 /// formula.
 const CLOSER: [f64; 2] = [1e-2, 1e-1];
+/// Half of the first number of turns at which a limit is looked at.
+const FAR: f64 = 25.0;
+/// How many turns of a repeated group are followed.
+const TURNS: u32 = 6;
 /// Relative difference of what was followed that the integrator may have made.
 const NOISE: f64 = 1e-8;
 
@@ -53,8 +57,9 @@ impl Asked<'_> {
         let formulas = question.ask.formulas().into_iter();
         let mut about = formulas.flat_map(|formula| self.needs(formula));
         let is_threshold = question.stage.is_some() && matches!(question.ask, Ask::Friction { .. });
+        let is_turn = matches!(question.ask, Ask::Turn { .. });
         let asks_motion =
-            (self.is_of_motion(question) || is_threshold) && answer.formula().is_some();
+            (self.is_of_motion(question) || is_threshold || is_turn) && answer.formula().is_some();
         let mut is_asked = asks_motion;
         if !asks_motion && !about.any(|q| self.is_of_motion(q)) {
             return None;
@@ -63,6 +68,7 @@ impl Asked<'_> {
         let here = |seen: &&Seen| self.happens(seen, &uses, question, answer);
         for seen in self.second.points.iter().filter(here) {
             let held = match &question.ask {
+                Ask::Turn { number, .. } => Some(self.repeats(seen, question, number, answer)),
                 Ask::Condition { .. } => self.tips(seen, question, answer),
                 Ask::Friction { contact, event } => {
                     self.turns(seen, question, (*contact, *event), answer)
@@ -123,6 +129,27 @@ impl Asked<'_> {
             Some(told) => Held::Same([told, found], size),
             None => Held::Unseen,
         })
+    }
+
+    /// Whether an answer for the turn of any number is what comes of it, turn after turn, in each of the first ones.
+    fn repeats(&self, seen: &Seen, question: &Question, number: &Symbol, answer: &Answer) -> Held {
+        let mut point = seen.point.clone();
+        for turn in 1..=TURNS {
+            point.values.insert(number.clone(), f64::from(turn));
+            let told = answer
+                .formula()
+                .and_then(|formula| formula.evaluate(&point));
+            let found = follow::answer(self.scene, &seen.followed, question, &point);
+            let (Some(told), Ok(Found::Scalar(found))) = (told, found) else {
+                return Held::Unseen;
+            };
+            let gap = (told - found).abs();
+            if gap.is_nan() || gap > NOISE * told.abs().max(found.abs()) {
+                let apart = format!("in turn {turn} it is {told:.9} here and {found:.9} there");
+                return Held::So(false, apart);
+            }
+        }
+        Held::So(true, String::new())
     }
 
     /// Whether both sides of an identity are the same number, or those of an inequality stand as told.
@@ -360,6 +387,10 @@ impl Asked<'_> {
         let gap = |distance: f64| {
             let here = seen.point.values.get(&near.parameter)?.abs();
             let value = match &near.to {
+                // Of turns whole numbers are followed, and few.
+                None if self.counts_turns(&near.parameter) => {
+                    FAR * (distance.ln() / CLOSER[0].ln()).exp2().round()
+                }
                 None => here / distance,
                 Some(to) => {
                     let to = to.evaluate(&seen.point)?;
@@ -390,6 +421,12 @@ impl Asked<'_> {
         let gaps: Vec<String> = gaps.iter().map(|(gap, _)| format!("{gap:.3e}")).collect();
         let how = format!("closer and closer by it is apart by {}", gaps.join(", "));
         Some(Held::So(nears.any(|nears| nears), how))
+    }
+
+    /// Whether a parameter is the number of a turn.
+    fn counts_turns(&self, name: &Symbol) -> bool {
+        let mut asks = self.scene.questions.iter().map(|q| &q.ask);
+        asks.any(|ask| matches!(ask, Ask::Turn { number, .. } if number == name))
     }
 }
 
