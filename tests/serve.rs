@@ -256,6 +256,47 @@ fn a_film_shows_both_sides_of_an_impact_and_a_wrong_answer_beside_the_right_one(
     let mut heights = foot.map(|p| p[1].as_f64().expect("a height"));
     assert!(heights.all(|y| y < 0.05) && !standing.is_empty());
     assert!(server.post("describe", &json!({"name": STICK})).json()["film"].is_null());
+    // An answer is shown in a film, and to a question.
+    for (other, asked) in [
+        (
+            "film",
+            json!({"name": STICK, "quantity": "omega", "answer": "v/l"}),
+        ),
+        (
+            "quantity",
+            json!({"name": STICK, "film": true, "answer": "v/l"}),
+        ),
+    ] {
+        let refused = server.post("describe", &asked);
+        assert_eq!(refused.status, 400);
+        let said = refused.json()["error"]["message"].to_string();
+        assert!(said.contains(&format!("needs \\\"{other}\\\"")), "{said}");
+    }
+}
+
+#[test]
+fn a_film_has_the_strings_of_its_stages_with_what_carries_their_ends() {
+    let server = server();
+    let asked = json!({"name": "more/load-on-a-movable-pulley.json", "film": true});
+    let film = &server.post("describe", &asked).json()["film"];
+    let ends: Vec<Vec<Option<&str>>> = film["strings"]
+        .as_array()
+        .expect("strings")
+        .iter()
+        .map(|s| {
+            let ends = s["ends"].as_array().expect("two ends");
+            ends.iter().map(|e| e["body"].as_str()).collect()
+        })
+        .collect();
+    // From the weight over the fixed pulley, down and up again to the ceiling; the load hangs on the axle.
+    let carried = [
+        [Some("weight"), None],
+        [Some("block"), None],
+        [Some("block"), None],
+        [Some("block"), Some("load")],
+    ];
+    assert_eq!(ends, carried);
+    assert!(!film["standing"].as_array().expect("lines").is_empty());
 }
 
 #[test]

@@ -109,7 +109,7 @@ pub fn exercise(sheet: &Sheet, solution: String) -> Result<Exercise, String> {
         match item {
             Ok(item) => exercise.items.push(Item {
                 latex: answer.latex.clone(),
-                unit: no_one(answer.dimension.si()),
+                unit: no_one(answer.unit(scene)),
                 ..item
             }),
             Err(why) => exercise.left_out.push(format!("{}: {why}", answer.name)),

@@ -4,6 +4,7 @@
 //! body keeps its velocity and spin; what turns about a resting point of a support goes on about it, and what moves as one
 //! stays together. The motion itself is that of [`crate::numeric::follow()`].
 
+use super::motion::{stand_in, surroundings};
 use super::plane::{Pair, ahead, cross, dot, left, minus, plus, size, times, turned};
 use super::pose::{Pose, posed};
 use super::sheet::{Ink, Sheet};
@@ -38,6 +39,28 @@ pub struct Film {
     pub claimed: Vec<Moment>,
     /// What stands still where bodies are met or held, as lines through points \[m\].
     pub standing: Vec<Vec<Pair>>,
+    /// Strings that are taut in a stage.
+    pub strings: Vec<Taut>,
+}
+
+/// A piece of string that is taut in a stage.
+#[derive(Clone, Debug)]
+pub struct Taut {
+    /// Index of the stage.
+    pub stage: usize,
+    /// Its two ends.
+    pub ends: [End; 2],
+}
+
+/// Where a string ends.
+#[derive(Clone, Debug)]
+pub struct End {
+    /// The body that carries it along, by index; `None` where it stays.
+    pub body: Option<usize>,
+    /// Where it is \[m\]: from the center of that body, in its frame where it turns with it.
+    pub at: Pair,
+    /// Whether it turns with the body; the string leaves the rim of a pulley in the same direction all the time.
+    pub turns: bool,
 }
 
 /// Values a scene is shown at: those given, and for the others some at which its bodies touch and approach each other, and
@@ -74,20 +97,24 @@ pub fn shown_at(scene: &Scene) -> Point<f64> {
 /// The film of a scene at the values it is drawn at. `claim` is the name of a question about the last impact, and the value of
 /// its answer in SI units as somebody has it.
 pub fn film(scene: &Scene, claim: Option<(&str, [f64; 2])>) -> Film {
-    let values = representative(scene);
+    let values = Values {
+        point: shown_at(scene),
+    };
     let Ok(followed) = follow::follow(scene, &values.point) else {
         return Film::default();
     };
     let course = scene.course();
-    let told: Option<Vec<&Passed>> = followed.stages.iter().map(|s| s.as_ref().ok()).collect();
-    let (Some(told), Some(poses)) = (told, posed(scene, &values)) else {
+    // Up to the first stage that does not get to its end.
+    let told = followed.stages.iter().map_while(|s| s.as_ref().ok());
+    let told: Vec<&Passed> = told.collect();
+    let Some(poses) = posed(scene, &values) else {
         return Film::default();
     };
     let impact = |k: usize| match told.get(k) {
         Some(passed) if matches!(passed.what, What::Impact(_)) => Some((*passed, &course[k])),
         _ => None,
     };
-    let (first, last) = (impact(0), impact(told.len().wrapping_sub(1)));
+    let (first, last) = (impact(0), impact(course.len().wrapping_sub(1)));
     let before = first.and_then(|(passed, stage)| {
         Going::new(
             &followed,
@@ -114,6 +141,9 @@ pub fn film(scene: &Scene, claim: Option<(&str, [f64; 2])>) -> Film {
                 .then(|| after.claimed(&asked.ask, value, &values))
                 .flatten()
         });
+    let stages = told.iter().copied().zip(course.iter()).enumerate();
+    let drawn = stages.filter_map(|(k, stage)| drawn(k, stage, &values, &poses));
+    let drawn: Vec<_> = drawn.collect();
     let all: Vec<&Going> = [&before, &after, &claimed].into_iter().flatten().collect();
     let time = seconds(&all, &poses);
     let shown = |going: &Option<Going>, from: f64| {
@@ -124,25 +154,58 @@ pub fn film(scene: &Scene, claim: Option<(&str, [f64; 2])>) -> Film {
         before: shown(&before, -time),
         after: shown(&after, 0.0),
         claimed: shown(&claimed, 0.0),
-        standing: standing(&told, &course, &values, &poses),
+        standing: drawn.iter().flat_map(|d| d.0.clone()).collect(),
+        strings: drawn.into_iter().flat_map(|d| d.1).collect(),
     }
 }
 
-/// What stands still at the impacts of a scene, drawn to one scale that has room for `all`.
-fn standing(told: &[&Passed], course: &[Stage], values: &Values, all: &[Pose]) -> Vec<Vec<Pair>> {
-    let impacts = told.iter().zip(course);
-    let impacts = impacts.filter(|(passed, _)| matches!(passed.what, What::Impact(_)));
-    let drawn = impacts.filter_map(|(passed, stage)| {
-        let values = placed(stage, values, &passed.before);
-        let poses = posed(&stage.scene, &values)?;
-        let stage = spanning(&stage.scene, &values, poses, all)?;
-        let mut sheet = Sheet::default();
-        stage.fixed(&mut sheet, &[]);
-        let place = |line: Vec<Pair>| line.into_iter().map(|p| stage.place(p)).collect();
-        let lines = sheet.lines(Ink::Ground).into_iter();
-        Some(lines.map(place).collect::<Vec<Vec<Pair>>>())
+/// What stands still in a stage and the strings that are taut in it, drawn to a scale that has room for `all`.
+fn drawn(
+    index: usize,
+    (passed, stage): (&Passed, &Stage),
+    values: &Values,
+    all: &[Pose],
+) -> Option<(Vec<Vec<Pair>>, Vec<Taut>)> {
+    let scene = match passed.what {
+        What::Impact(_) => stage.scene.clone(),
+        What::Motion(_) => stand_in(&stage.scene, &stage.kind),
+    };
+    let [begin, end] = [&passed.before, &passed.after].map(|s| placed(stage, values, s));
+    let (poses, last) = (posed(&scene, &begin)?, posed(&scene, &end)?);
+    let canvas = spanning(&scene, &begin, poses.clone(), all)?;
+    let mut sheet = Sheet::default();
+    let body = stage.kind.moved().first().copied().unwrap_or(0);
+    surroundings(&canvas, &mut sheet, &stage.kind, &poses[body], &last[body])?;
+    let strands = canvas.strands(&stage.kind, &poses)?;
+    for strand in &strands {
+        canvas.strand(&mut sheet, strand, false);
+    }
+    let place = |line: Vec<Pair>| line.into_iter().map(|p| canvas.place(p)).collect();
+    let standing = sheet.lines(Ink::Ground).into_iter().map(place).collect();
+    let end = |(body, at): (Option<usize>, Pair)| match body {
+        None => End {
+            body,
+            at,
+            turns: false,
+        },
+        Some(b) => {
+            let (arm, turns) = (
+                minus(at, poses[b].center),
+                scene.bodies[b].shape.radius().is_none(),
+            );
+            let at = if turns {
+                turned(arm, -poses[b].angle)
+            } else {
+                arm
+            };
+            End { body, at, turns }
+        }
+    };
+    let strings = strands.into_iter().chain(canvas.tied()).map(|strand| Taut {
+        stage: index,
+        ends: strand.ends.map(end),
     });
-    drawn.flatten().collect()
+    Some((standing, strings.collect()))
 }
 
 /// Bodies that keep their velocities and spins.

@@ -23,6 +23,7 @@ mod pose;
 mod quantity;
 mod sheet;
 mod stage;
+mod strand;
 mod support;
 mod svg;
 mod tikz;
@@ -30,7 +31,7 @@ mod values;
 mod way;
 mod words;
 
-pub use film::{Film, Moment, film, shown_at};
+pub use film::{End, Film, Moment, Taut, film, shown_at};
 pub use label::Label;
 pub(crate) use panel::framed;
 pub use tikz::{COLORS, escaped, node};

@@ -6,24 +6,20 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::Course;
-use super::fixture::hatched;
 use super::label::Label;
 use super::marks::centers;
 use super::place::Spot;
-use super::plane::{Pair, ahead, apart, bearing, cross, dot, left, minus, polar, size, unit};
+use super::plane::{Pair, ahead, apart, bearing, minus, polar, size, unit};
 use super::pose::{Look, Pose, posed};
 use super::sheet::{Ink, Line, SIZE, SMALL, Sheet, arc};
 use super::stage::{Stage, spanning};
 use super::values::Values;
 use super::way::Gone;
 use crate::expr::Expr;
-use crate::scene::{Ask, Body, FallEnd, Hinge, Scene, Slide, SlideEnd, StageKind, Turn, Until};
+use crate::scene::{Ask, Body, FallEnd, Hinge, Scene, SlideEnd, StageKind, Turn, Until};
 
 /// Shortest length that is marked, in pixels.
 const SHORTEST: f64 = 8.0;
-
-/// Half the length of the ceiling that a string is fastened to, in pixels.
-const FASTENED: f64 = 12.0;
 
 /// The scene as it is drawn: a point that is turned about is a hinge here, so that its support is seen.
 pub fn stand_in(scene: &Scene, kind: &StageKind) -> Scene {
@@ -87,18 +83,22 @@ pub fn motion(scene: &Scene, values: &Values, course: &Course) -> Option<Sheet> 
         let points: Vec<Pair> = flown.iter().map(|pose| stage.px(pose.center)).collect();
         trail(sheet, &points);
     }
-    if let StageKind::Slide(slide) = kind {
-        strings(&stage, sheet, slide, &begin, end, &gone.driven)?;
+    let mut last = begin.clone();
+    last[gone.body] = end.clone();
+    for (b, pose) in &gone.driven {
+        last[*b] = pose.clone();
+    }
+    if !matches!(kind, StageKind::Slide(_)) {
+        for strand in stage.strands(kind, &begin)? {
+            stage.strand(sheet, &strand, true);
+        }
+    }
+    for strand in stage.strands(kind, &last)? {
+        stage.strand(sheet, &strand, false);
     }
     for (b, pose) in &gone.driven {
         broken(&stage, sheet, &begin[*b]);
         stage.body(sheet, pose, [0.0, 0.0]);
-    }
-    if let (StageKind::Turn(turn), Look::Dot) = (kind, &from.look)
-        && let Some(about) = stage.spot(&turn.about)
-    {
-        sheet.segment(about, stage.px(from.center), Line::dashed(Ink::Body), 1.0);
-        sheet.segment(about, stage.px(end.center), Line::thin(Ink::Body), 1.0);
     }
     stage.body(sheet, end, [0.0, 0.0]);
     for (b, pose) in &gone.carried {
@@ -133,14 +133,14 @@ fn is_rolled_over(pose: &Pose, end: &Pose) -> bool {
 }
 
 /// What a motion goes along: fixed bodies, the surface under a slide, a string that is slack during a fall.
-fn surroundings(
+pub(super) fn surroundings(
     stage: &Stage,
     sheet: &mut Sheet,
     kind: &StageKind,
     from: &Pose,
     end: &Pose,
 ) -> Option<()> {
-    stage.fixed(sheet, &[]);
+    stage.fixed(sheet);
     if let StageKind::Slide(slide) = kind
         && let along = stage.values.pair(&slide.along)?
         && !slide.level
@@ -191,9 +191,6 @@ fn measures(stage: &Stage, sheet: &mut Sheet, course: &Course, gone: &Gone, poin
         }
         StageKind::Wind(wind) => {
             if let Some(pole) = stage.spot(&wind.around) {
-                for at in [*first, *last] {
-                    sheet.segment(pole, at, Line::thin(Ink::Body), 1.0);
-                }
                 beside(sheet, pole, *last, Label::formula(&wind.to, stage.scene));
             }
         }
@@ -218,76 +215,6 @@ fn broken(stage: &Stage, sheet: &mut Sheet, pose: &Pose) {
             sheet.path(outline, closed, Line::dashed(Ink::Body), 1.0);
         }
     }
-}
-
-/// The strings at the end of a motion: straight from each body to the rim of its pulley, and between two pulleys.
-fn strings(
-    stage: &Stage,
-    sheet: &mut Sheet,
-    slide: &Slide,
-    begin: &[Pose],
-    end: &Pose,
-    driven: &[(usize, Pose)],
-) -> Option<()> {
-    for string in &slide.strings {
-        let hung = string.under.unwrap_or(string.to[0]);
-        let other = driven.iter().find(|(b, _)| *b == hung)?;
-        let radius = |b: usize| {
-            let radius = stage.scene.bodies[b].shape.radius()?;
-            stage.values.of(radius)
-        };
-        let legs = [
-            (end, &slide.along, string.over[0], None),
-            (
-                &other.1,
-                &string.along,
-                string.over[string.over.len() - 1],
-                string.under,
-            ),
-        ];
-        let mut feet = Vec::new();
-        for (pose, along, pulley, under) in legs {
-            let along = stage.values.pair(along)?;
-            let along = unit(along);
-            let center = begin.get(pulley)?.center;
-            let arm = minus(center, pose.center);
-            let far = dot(arm, along);
-            // The parts at a movable pulley run along its rim on either side, first the one that leads to the other pulley.
-            let aside = match under {
-                None => vec![0.0],
-                Some(under) => {
-                    let (own, rim) = (radius(under)?, radius(pulley)?);
-                    let across = cross(along, arm);
-                    let off = |a: f64| ((a - across).abs() - rim).abs();
-                    let first = if off(own) <= off(-own) { own } else { -own };
-                    vec![first, -first]
-                }
-            };
-            for (k, a) in aside.into_iter().enumerate() {
-                let from = ahead(pose.center, left(along), a);
-                let ends = [from, ahead(from, along, far)].map(|p| stage.px(p));
-                sheet.segment(ends[0], ends[1], Line::thin(Ink::Body), 1.0);
-                if k == 0 {
-                    feet.push(ends[1]);
-                    continue;
-                }
-                // The other part is fastened there.
-                let d = [0, 1].map(|k| ends[1][k] - ends[0][k]);
-                let back = unit(d);
-                let [low, high] =
-                    [-FASTENED, FASTENED].map(|half| ahead(ends[1], left(back), half));
-                hatched(sheet, low, high, back);
-            }
-        }
-        if string.over.len() > 1 {
-            sheet.segment(feet[0], feet[1], Line::thin(Ink::Body), 1.0);
-        }
-        if let Some((_, load)) = driven.iter().find(|(b, _)| *b == string.to[0]) {
-            let ends = [other.1.center, load.center].map(|p| stage.px(p));
-            sheet.segment(ends[0], ends[1], Line::thin(Ink::Body), 1.0);
-        }
-    }
-    Some(())
 }
 
 /// The angle a rotation goes through, at the point it turns about.

@@ -57,7 +57,7 @@ fn all_bodies(stage: &Stage, sheet: &mut Sheet, moment: Moment, velocity: &[Pair
     let asides: Vec<Pair> = (0..stage.poses.len())
         .map(|i| stage.aside(i, moment, velocity))
         .collect();
-    stage.fixed(sheet, &asides);
+    stage.fixed(sheet);
     for (pose, aside) in stage.poses.iter().zip(&asides) {
         stage.body(sheet, pose, *aside);
     }

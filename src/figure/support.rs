@@ -6,7 +6,7 @@
 use super::fixture::{edge, hatched, peg, spring, stop, support, wheel};
 use super::place::Room;
 use super::plane::{
-    Pair, ahead, apart, cross, dot, left, minus, opposite, plus, right, size, times, unit,
+    Pair, ahead, apart, cross, dot, left, minus, opposite, right, size, times, unit,
 };
 use super::pose::{Look, Pose};
 use super::sheet::{Ink, Line, Sheet};
@@ -14,51 +14,29 @@ use super::stage::{DOT, PEG, Stage, THICK};
 use crate::expr::Vector;
 use crate::scene::{Body, Support};
 
-/// Length of a string that is fastened nobody knows where, in pixels.
-const STRING: f64 = 66.0;
-
 impl Stage<'_> {
-    /// Draws what does not move; `asides` tells how far each body is drawn from its place.
-    pub fn fixed(&self, sheet: &mut Sheet, asides: &[Pair]) {
+    /// Draws what does not move, and the strings.
+    pub fn fixed(&self, sheet: &mut Sheet) {
         let hints = &self.scene.figure;
-        let aside = |b: usize| asides.get(b).copied().unwrap_or([0.0, 0.0]);
-        for contact in &self.scene.contacts {
-            let [a, b] = contact.bodies;
-            let (fixed, other) = match (self.scene.bodies.get(a), self.scene.bodies.get(b)) {
-                (Some(x), Some(_)) if x.is_fixed() => (a, b),
-                (Some(_), Some(y)) if y.is_fixed() => (b, a),
-                (Some(_), Some(_)) if hints.string(&contact.name).is_some() => {
-                    // It is tied to a particle, and to where it leaves a body with an outline, such as a pulley.
-                    let end = |i: usize| match self.scene.bodies[i].is_particle() {
-                        true => self.poses.get(i).map(|pose| pose.center),
-                        false => self.values.pair(&contact.at),
-                    };
-                    if let [Some(from), Some(to)] = [a, b].map(end) {
-                        sheet.segment(self.px(from), self.px(to), Line::thin(Ink::Body), 1.0);
-                    }
-                    continue;
-                }
+        let is_fixed = |i: usize| self.scene.bodies.get(i).is_some_and(Body::is_fixed);
+        for strand in self.tied() {
+            self.strand(sheet, &strand, false);
+        }
+        let strings = |name: &str| hints.string(name).is_some();
+        for contact in self.scene.contacts.iter().filter(|c| !strings(&c.name)) {
+            let (other, sign) = match contact.bodies {
+                [a, b] if is_fixed(a) => (b, 1.0),
+                [a, b] if is_fixed(b) => (a, -1.0),
                 _ => continue,
             };
-            let Some(at) = self.values.pair(&contact.at) else {
-                continue;
-            };
-            let given = contact.normal.as_ref().and_then(|n| self.values.pair(n));
-            let sign = if fixed == a { 1.0 } else { -1.0 };
-            let normal = given.map(|n| times(n, sign));
-            match hints.string(&contact.name) {
-                Some(end) => self.string(sheet, at, aside(other), end.as_ref(), normal),
-                None => self.standing(sheet, &contact.name, at, normal, other),
-            }
-        }
-        for (i, body) in self.scene.bodies.iter().enumerate() {
-            if let (Some(end), Some(pose)) = (hints.string(&body.name), self.poses.get(i)) {
-                self.string(sheet, pose.center, aside(i), end.as_ref(), None);
+            if let Some(at) = self.values.pair(&contact.at) {
+                let normal = contact.normal.as_ref().and_then(|n| self.values.pair(n));
+                let normal = normal.map(|n| times(n, sign));
+                self.standing(sheet, &contact.name, at, normal, other);
             }
         }
         for hinge in &self.scene.hinges {
             let [a, b] = hinge.bodies;
-            let is_fixed = |i: usize| self.scene.bodies.get(i).is_some_and(Body::is_fixed);
             let other = if is_fixed(a) { b } else { a };
             if !is_fixed(a) && !is_fixed(b) {
                 continue;
@@ -279,42 +257,6 @@ impl Stage<'_> {
             [top[0] - 18.0, top[1]],
             [0.0, 1.0],
         );
-    }
-
-    /// A taut string and what it is fastened to.
-    fn string(
-        &self,
-        sheet: &mut Sheet,
-        at: Pair,
-        aside: Pair,
-        end: Option<&Vector>,
-        normal: Option<Pair>,
-    ) {
-        let from = self.px(at);
-        let from = plus(from, aside);
-        let n = normal.unwrap_or([0.0, 1.0]);
-        let to = end
-            .and_then(|v| self.spot(v))
-            .or_else(|| self.hook(from, n))
-            .unwrap_or(ahead(from, n, STRING));
-        let line = Line {
-            width: 1.1,
-            ..Line::of(Ink::Body)
-        };
-        sheet.segment(from, to, line, 2.0);
-        let up = to[1] >= from[1];
-        let back = [0.0, if up { 1.0 } else { -1.0 }];
-        let half = if up { 18.0 } else { -18.0 };
-        hatched(sheet, [to[0] + half, to[1]], [to[0] - half, to[1]], back);
-    }
-
-    /// The named point that lies in the direction of a string, where its hook must be.
-    fn hook(&self, from: Pair, n: Pair) -> Option<Pair> {
-        let mut points = self.scene.points.iter().filter_map(|p| self.spot(&p.at));
-        points.find(|p| {
-            let d = minus(*p, from);
-            dot(d, n) > 2.0 * DOT && cross(d, n).abs() < 1.0
-        })
     }
 
     /// What stands where a body is touched, and which way it faces.

@@ -186,7 +186,7 @@ fn a_pulley_of_a_string_stands_on_a_support_where_no_hinge_tells_of_it() {
         let values = values::representative(scene);
         let stage = stage::stage(scene, &values).expect("a place on paper");
         let mut sheet = Sheet::default();
-        stage.fixed(&mut sheet, &[]);
+        stage.fixed(&mut sheet);
         let hinged = |b: usize| scene.hinges.iter().any(|h| h.bodies.contains(&b));
         for axle in scene.axles.iter().filter(|p| !hinged(**p)) {
             let at = stage.px(stage.poses[*axle].center);
@@ -289,7 +289,7 @@ fn no_body_crosses_a_support() {
             continue;
         };
         let mut sheet = Sheet::default();
-        stage.fixed(&mut sheet, &[]);
+        stage.fixed(&mut sheet);
         for (from, to, back) in &sheet.grounds {
             let d = [to[0] - from[0], to[1] - from[1]];
             for p in stage.poses.iter().flat_map(|p| {

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use super::plane::{Pair, ahead, dot, minus, opposite, right, size, turned};
 use crate::dimension::Dimension;
 use crate::domain::Domain;
-use crate::expr::{Expr, Point, Symbol, Vector};
+use crate::expr::{Expr, Point, Symbol, Vector, ratio};
 use crate::scene::{Body, Parameter, Scene, Shape};
 
 /// Values of all symbols of a scene.
@@ -173,8 +173,10 @@ fn choices(scene: &Scene, parameter: &Parameter, earlier: usize) -> Vec<f64> {
         masses
     } else if is(0, 0, 0) {
         vec![0.5, 0.25, 1.5, -0.5]
+    } else if is(0, 1, -2) {
+        vec![9.81]
     } else {
-        let size = [1.0, 0.6, 0.8, 0.5][earlier % 4];
+        let size = [1.0, 0.6, 0.8, 0.5][earlier % 4] * pace(scene, dimension);
         vec![size, -size, 3.0 * size, 0.2 * size]
     };
     let fitting: Vec<f64> = wanted
@@ -185,6 +187,19 @@ fn choices(scene: &Scene, parameter: &Parameter, earlier: usize) -> Vec<f64> {
         vec![middle(&domain)]
     } else {
         fitting
+    }
+}
+
+/// How large a quantity is where things weigh: within a meter a fall takes a third of a second.
+fn pace(scene: &Scene, dimension: &Dimension) -> f64 {
+    let is_acceleration = |p: &Parameter| p.dimension == Dimension::new(0, 1, -2);
+    let per_second = [(1, 0.3), (-1, 4.0), (-2, 10.0)];
+    let found = per_second
+        .iter()
+        .find(|(power, _)| dimension.time == ratio(*power, 1));
+    match scene.parameters.iter().any(is_acceleration) {
+        true => found.map_or(1.0, |(_, size)| *size),
+        false => 1.0,
     }
 }
 

@@ -31,6 +31,9 @@ pub(super) struct Field {
     pub kind: Kind,
     /// What it is for.
     pub what: String,
+    /// Other fields without which it says nothing.
+    #[serde(default)]
+    pub needs: Vec<&'static str>,
 }
 
 /// What a field may hold; each kind carries the option of the command line it becomes.

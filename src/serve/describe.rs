@@ -94,7 +94,10 @@ fn film(scene: &Scene, shown: &Point<f64>, filmed: &Filmed) -> Value {
         each.map(|(time, poses)| json!({"time": time, "poses": poses}))
             .collect::<Vec<_>>()
     };
+    let end = |e: &figure::End| json!({"body": e.body.map(|b| &scene.bodies[b].name), "at": e.at, "turns": e.turns});
+    let string = |s: &figure::Taut| json!({"stage": s.stage, "ends": s.ends.each_ref().map(end)});
     json!({
+        "strings": film.strings.iter().map(string).collect::<Vec<_>>(),
         "bodies": scene.bodies.iter().map(|b| &b.name).collect::<Vec<_>>(),
         "before": part(&film.before),
         "after": part(&film.after),

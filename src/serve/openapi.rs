@@ -41,7 +41,11 @@ pub(super) fn document() -> Value {
 fn post(command: &Command) -> Value {
     let mut fields = scene_fields();
     fields.extend(command.fields.iter().map(|f| (f.name, schema(f))));
-    let mut request = body(object(&fields, command.sceneless));
+    let mut schema = object(&fields, command.sceneless);
+    for field in command.fields.iter().filter(|f| !f.needs.is_empty()) {
+        schema["dependentRequired"][field.name] = json!(field.needs);
+    }
+    let mut request = body(schema);
     if command.name == "grade" {
         request["content"]["application/jsonl"] = json!({"schema": {
             "type": "string",

@@ -97,8 +97,14 @@ pub(super) fn job(
         None => return Err(Bad::new("", "\"scene\" or \"name\" is missing")),
     }
     let mut gives = command.gives;
+    let given = |name: &str| fields.get(name).filter(|v| !v.is_null());
     for field in &command.fields {
-        if let Some(value) = fields.get(field.name).filter(|v| !v.is_null()) {
+        if let Some(value) = given(field.name) {
+            let is_off = |name: &&&str| given(name).is_none_or(|v| *v == Value::Bool(false));
+            if let Some(other) = field.needs.iter().find(is_off) {
+                let message = format!("\"{}\" needs \"{other}\" beside it", field.name);
+                return Err(Bad::new(below("", field.name), message));
+            }
             put(&mut job, field, value)?;
             if let ("format", Value::String(word)) = (field.name, value) {
                 gives = match word.as_str() {
@@ -110,7 +116,7 @@ pub(super) fn job(
             }
         }
     }
-    if fields.get("format").is_none_or(Value::is_null) {
+    if given("format").is_none() {
         let always = command.always.iter().map(ToString::to_string);
         job.arguments.extend(always);
     }

@@ -57,20 +57,21 @@ export async function showFilm() {
 // Parts of the film: where every body is from one time to another.
 function made(about, solved) {
   const { before, after, claimed, bodies: names } = about.film;
-  const free = (name, samples, other) => ({ name, poses: new Map(), moving: names, samples, other, time: samples.at(-1).time });
+  const free = (name, stage, samples, other) => ({ name, stage, poses: new Map(), moving: names, samples, other, time: samples.at(-1).time });
   const parts = [];
   let note = "";
-  if (before.length) parts.push(free("before the impact", before));
-  for (const stage of solved.stages) {
+  if (before.length) parts.push(free("before the impact", 0, before));
+  for (const [k, stage] of solved.stages.entries()) {
     if (stage.lost) { note = `${stage.name}: ${stage.reason}`; break; }
     const poses = new Map(stage.bodies.map((b) => [b.name, pose(b.before)]));
     const moves = (stage.samples?.length ?? 0) > 1;
     if (stage.kind !== "impact" && !moves) { note = `${stage.name}: its course in time is not known`; break; }
-    parts.push({ name: stage.name, poses, moving: stage.moving ?? [], samples: stage.samples ?? [], time: moves ? stage.samples.at(-1).time : 0 });
+    parts.push({ name: stage.name, stage: k, poses, moving: stage.moving ?? [], samples: stage.samples ?? [], time: moves ? stage.samples.at(-1).time : 0 });
   }
   if (!note && after.length) {
-    if (!solved.stages.length) parts.push({ ...free("impact", [after[0]]), time: 0 });
-    parts.push(free("after the impact", after, claimed.length ? claimed : null));
+    const end = Math.max(0, solved.stages.length - 1);
+    if (!solved.stages.length) parts.push({ ...free("impact", end, [after[0]]), time: 0 });
+    parts.push(free("after the impact", end, after, claimed.length ? claimed : null));
     if (claim) note = claimed.length
       ? `After the impact: full lines, the right motion; broken lines, that of ${claim.quantity} = ${claim.answer}.`
       : `${claim.quantity} is not a velocity or a spin just after the last impact, so your answer has no motion of its own; the right one is shown.`;
@@ -90,7 +91,7 @@ function made(about, solved) {
     return first ? pose(first.bodies?.find((b) => b.name === name)?.before) : (before.at(-1) ?? after[0])?.poses[k];
   };
   const bodies = about.outlines.map((o) => ({ ...o, from: from(o.body) }));
-  return { bodies, parts, length, note, standing: about.film.standing };
+  return { bodies, parts, length, note, standing: about.film.standing, strings: about.film.strings };
 }
 
 const pose = (b) => (b && [b.x, b.y, b.angle].every(Number.isFinite) ? [b.x, b.y, b.angle] : null);
@@ -126,6 +127,17 @@ function moved(body, to) {
     to[0] + c * (px - x) - s * (py - y), to[1] + s * (px - x) + c * (py - y)]));
 }
 
+// Where a string ends at a time: at rest, or carried along by a body.
+function end({ body, at: [x, y], turns }, part, time) {
+  if (body === null) return [x, y];
+  const [px, py, angle] = place(part, body, time) ?? film.bodies.find((b) => b.body === body).from;
+  const [c, s] = turns ? [Math.cos(angle), Math.sin(angle)] : [1, 0];
+  return [px + c * x - s * y, py + s * x + c * y];
+}
+
+// The strings that are taut in a part of the film.
+const strings = (part, time) => film.strings.filter((s) => s.stage === part.stage).map((s) => s.ends.map((e) => end(e, part, time)));
+
 // Shows a moment of the film.
 function at(moment) {
   const part = film.parts.find((p) => moment <= p.end) ?? film.parts.at(-1);
@@ -137,19 +149,20 @@ function at(moment) {
   svg.setAttribute("role", "img");
   svg.setAttribute("aria-label", `${part.name}, ${digits(time)} s`);
   const thick = Math.max(film.box[2] / 150, film.box[3] / 80);
-  const standing = [[film.standing, "standing"]];
+  const taut = [[strings(part, time), "string"]];
   const begin = film.bodies.map((body) => [body.lines, "begin"]);
   const now = film.bodies.map((body) => [moved(body, place(part, body.body, time)), "now"]);
   const other = part.other ? film.bodies.map((body) => [moved(body, place(part, body.body, time, part.other)), "claimed"]) : [];
-  for (const [lines, when] of [...standing, ...begin, ...now, ...other]) {
+  for (const [lines, when] of [...taut, ...begin, ...now, ...other, [film.standing, "standing"]]) {
     for (const line of lines) {
-      const kind = when === "standing" ? "polyline" : line.length === 1 ? "circle" : "polygon";
+      const isOpen = when === "standing" || when === "string";
+      const kind = isOpen ? "polyline" : line.length === 1 ? "circle" : "polygon";
       const shape = document.createElementNS(SPACE, kind);
       if (line.length === 1) {
         for (const [name, value] of [["cx", line[0][0]], ["cy", -line[0][1]], ["r", 3 * thick]]) shape.setAttribute(name, value);
       } else shape.setAttribute("points", line.map(([x, y]) => `${x},${-y}`).join(" "));
       shape.setAttribute("class", when);
-      shape.setAttribute("stroke-width", thick * (when === "standing" ? 0.7 : line.length === 2 ? 2.5 : 1));
+      shape.setAttribute("stroke-width", thick * (isOpen ? 0.7 : line.length === 2 ? 2.5 : 1));
       svg.append(shape);
     }
   }

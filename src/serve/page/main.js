@@ -109,10 +109,11 @@ $("stage").addEventListener("change", () => {
   if (bench.panel === "accuracy") openPanel("accuracy");
 });
 $("tabs").addEventListener("keydown", (event) => {
-  const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-  if (!step) return;
+  const at = PANELS.indexOf(bench.panel);
+  const to = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: -1 }[event.key];
+  if (to === undefined) return;
   event.preventDefault();
-  openPanel(PANELS.at((PANELS.indexOf(bench.panel) + step) % PANELS.length), true);
+  openPanel(PANELS.at(to % PANELS.length), true);
   remember();
 });
 

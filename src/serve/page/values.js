@@ -50,6 +50,7 @@ function row(p) {
   const unit = make("span", { class: "unit" });
   // An angle in radians is told in degrees as well.
   const measure = () => {
+    slider.setAttribute("aria-valuetext", p.unit === "1" ? box.value : `${box.value} ${p.unit}`);
     const inDegrees = p.unit === "rad" && box.value.trim() && Number.isFinite(Number(box.value));
     const words = p.unit === "1" ? "" : p.unit.replaceAll("^2", "²").replaceAll("^3", "³");
     unit.textContent = inDegrees ? `rad ≈ ${Math.round((Number(box.value) * 1800) / Math.PI) / 10}°` : words;
@@ -64,7 +65,6 @@ function row(p) {
   slider.addEventListener("input", () => {
     // The step of a slider leaves digits of no meaning behind.
     box.value = bench.values[p.name] = String(Number(Number(slider.value).toPrecision(10)));
-    slider.setAttribute("aria-valuetext", `${box.value} ${p.unit}`);
     measure();
     valuesChanged();
   });
