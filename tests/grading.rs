@@ -324,8 +324,12 @@ fn a_line_of_a_batch_is_the_grade_as_data() {
         let id = serde_json::json!({"line": line});
         let mut text = String::new();
         carom::render::grade::line(&mut text, &id, 1, &grade, &cells[1]);
-        let read: serde_json::Value = serde_json::from_str(&text).expect("JSON");
-        let mut data = carom::render::grade::json(Some(&id), &grade, &cells[1]);
+        let mut read: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        let told = read
+            .as_object_mut()
+            .and_then(|fields| fields.shift_remove("id"));
+        assert_eq!(told, Some(id));
+        let mut data = carom::render::grade::json(&grade, &cells[1]);
         if let Some(error) = data.get_mut("error") {
             error["line"] = serde_json::json!(1);
         }

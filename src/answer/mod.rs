@@ -34,7 +34,7 @@ const ROOT: &str = "\u{1}root";
 pub type Known = BTreeMap<Symbol, Expr>;
 
 /// One thing that was checked.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct Check {
     /// Stable name of the kind of check.
     pub kind: &'static str,
@@ -53,7 +53,7 @@ impl Check {
 }
 
 /// The answer to a question, or to one component of it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Answer {
     /// Name of the question.
     pub question: String,
@@ -205,21 +205,10 @@ impl Answer {
     ) -> Answer {
         Answer {
             question: question.name.clone(),
-            told: None,
-            worlds: Vec::new(),
             name: name.to_string(),
             latex,
             words: words.into(),
-            form: Form::Words,
-            range: Vec::new(),
-            stated: None,
-            put_in: Vec::new(),
-            text: Vec::new(),
-            dimension: Dimension::none(),
-            assumptions: Vec::new(),
-            discarded: Vec::new(),
-            near: Vec::new(),
-            checks: Vec::new(),
+            ..Answer::default()
         }
     }
 

@@ -137,7 +137,7 @@ pub fn run(args: &GradeArgs) -> Result<u8, Failure> {
     };
     print(&match args.format {
         Format::Text => render::grade::text(&grade, answer),
-        Format::Json => pretty(&render::grade::json(None, &grade, answer)),
+        Format::Json => pretty(&render::grade::json(&grade, answer)),
     })?;
     Ok(match grade.verdict {
         Verdict::Equivalent => 0,

@@ -76,13 +76,14 @@ impl Verdict {
 }
 
 /// How a verdict is known.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, serde::Serialize)]
 pub struct Proof {
     /// Stable name: `identity`, `modular`, `counterexample`, `solutions`, `kind`, `dimension`, `tolerance`, `branch`, `none`.
     pub kind: &'static str,
     /// The same in words.
     pub words: String,
     /// Largest probability of error, where the proof is probabilistic.
+    #[serde(rename = "error_bound", skip_serializing_if = "Option::is_none")]
     pub bound: Option<f64>,
 }
 
@@ -97,7 +98,7 @@ impl Proof {
 }
 
 /// A point at which two formulas differ, in words.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, serde::Serialize)]
 pub struct Apart {
     /// The point.
     pub at: String,
@@ -122,7 +123,7 @@ impl Apart {
 }
 
 /// One thing found out about a wrong answer.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, serde::Serialize)]
 pub struct Diagnosis {
     /// Stable code.
     pub code: &'static str,

@@ -305,7 +305,7 @@ pub fn json(scene: &Scene, table: &Table, judged: &Judged, shown: &[Shown]) -> V
         "energy_gained": judged.at_values.as_ref().map(|v| v.gain),
         "jams": judged.at_values.as_ref().map(|v| v.jams),
         "cases": cases,
-        "checks": judged.checks.iter().map(|c| json!({"kind": c.kind, "words": c.words, "holds": c.holds})).collect::<Vec<_>>(),
+        "checks": judged.checks,
         "verified": holds && shown.iter().all(|s| s.told.is_proved()),
     })
 }

@@ -1,141 +1,67 @@
 //! Grades for programs (JSON) and for people.
 
-use serde_json::{Map, Value, json};
+use serde::Serialize;
+use serde_json::{Value, json};
 
 use crate::formula::Fault;
 use crate::grade::steps::{Line, Status, Worked};
-use crate::grade::{Diagnosis, Grade, Verdict};
+use crate::grade::{Apart, Diagnosis, Grade, Proof, Verdict};
+
+/// A grade as it is written for programs.
+#[derive(Serialize)]
+struct Written<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    id: Option<&'a Value>,
+    verdict: &'static str,
+    reward: Option<u8>,
+    proof: &'a Proof,
+    note: &'static str,
+    #[serde(skip_serializing_if = "<[String]>::is_empty")]
+    assumed: &'a [String],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    counterexample: &'a Option<Apart>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<Value>,
+    #[serde(skip_serializing_if = "<[Diagnosis]>::is_empty")]
+    diagnosis: &'a [Diagnosis],
+    read_as: Option<String>,
+    symbols: Vec<String>,
+}
+
+impl<'a> Written<'a> {
+    /// `text` is the formula an error speaks of: its places are told in characters.
+    fn of(id: Option<&'a Value>, grade: &'a Grade, text: &str) -> Written<'a> {
+        Written {
+            id,
+            verdict: grade.verdict.word(),
+            reward: grade.verdict.reward(),
+            proof: &grade.proof,
+            note: grade.note,
+            assumed: &grade.assumed,
+            counterexample: &grade.counterexample,
+            error: grade.error.as_ref().map(|fault| error(fault, text)),
+            diagnosis: &grade.diagnosis,
+            read_as: grade.read_as(),
+            symbols: grade.symbols().iter().map(|s| s.to_string()).collect(),
+        }
+    }
+}
 
 /// A grade as data. `text` is the formula an error speaks of: its places are told in characters.
-pub fn json(id: Option<&Value>, grade: &Grade, text: &str) -> Value {
-    let mut out = Map::new();
-    if let Some(id) = id {
-        out.insert("id".into(), id.clone());
-    }
-    out.insert("verdict".into(), json!(grade.verdict.word()));
-    out.insert("reward".into(), json!(grade.verdict.reward()));
-    let mut proof = Map::new();
-    proof.insert("kind".into(), json!(grade.proof.kind));
-    proof.insert("words".into(), json!(grade.proof.words));
-    if let Some(bound) = grade.proof.bound {
-        proof.insert("error_bound".into(), json!(bound));
-    }
-    out.insert("proof".into(), Value::Object(proof));
-    out.insert("note".into(), json!(grade.note));
-    if !grade.assumed.is_empty() {
-        out.insert("assumed".into(), json!(grade.assumed));
-    }
-    if let Some(c) = &grade.counterexample {
-        out.insert(
-            "counterexample".into(),
-            json!({"at": c.at, "yours": c.yours, "expected": c.expected}),
-        );
-    }
-    if let Some(fault) = &grade.error {
-        out.insert("error".into(), error(fault, text));
-    }
-    if !grade.diagnosis.is_empty() {
-        out.insert(
-            "diagnosis".into(),
-            grade.diagnosis.iter().map(diagnosis).collect(),
-        );
-    }
-    out.insert("read_as".into(), json!(grade.read_as()));
-    out.insert(
-        "symbols".into(),
-        grade.symbols().iter().map(|s| s.to_string()).collect(),
-    );
-    Value::Object(out)
+pub fn json(grade: &Grade, text: &str) -> Value {
+    json!(Written::of(None, grade, text))
 }
 
-/// The same as [`json()`] with an `id`, appended to `out` as one line; a batch spends no time on building values. An error
-/// tells the number of its line, from 1.
+/// The same with an `id`, appended to `out` as one line; a batch spends no time on building values. An error tells the number
+/// of its line, from 1.
 pub fn line(out: &mut String, id: &Value, number: u64, grade: &Grade, text: &str) {
-    out.push_str("{\"id\":");
-    match id {
-        Value::String(text) => quoted(out, text),
-        other => out.push_str(&other.to_string()),
+    let mut written = Written::of(Some(id), grade, text);
+    if let Some(error) = &mut written.error {
+        error["line"] = json!(number);
     }
-    out.push_str(",\"verdict\":\"");
-    out.push_str(grade.verdict.word());
-    out.push_str("\",\"reward\":");
-    out.push_str(match grade.verdict.reward() {
-        Some(1) => "1",
-        Some(_) => "0",
-        None => "null",
-    });
-    out.push_str(",\"proof\":{\"kind\":");
-    quoted(out, grade.proof.kind);
-    out.push_str(",\"words\":");
-    quoted(out, &grade.proof.words);
-    if let Some(bound) = grade.proof.bound {
-        out.push_str(",\"error_bound\":");
-        out.push_str(&json!(bound).to_string());
-    }
-    out.push_str("},\"note\":");
-    quoted(out, grade.note);
-    if !grade.assumed.is_empty() {
-        out.push_str(",\"assumed\":");
-        list(out, &mut grade.assumed.iter().map(String::as_str));
-    }
-    if let Some(c) = &grade.counterexample {
-        out.push_str(",\"counterexample\":{\"at\":");
-        quoted(out, &c.at);
-        out.push_str(",\"yours\":");
-        quoted(out, &c.yours);
-        out.push_str(",\"expected\":");
-        quoted(out, &c.expected);
-        out.push('}');
-    }
-    if let Some(fault) = &grade.error {
-        out.push_str(",\"error\":");
-        let mut fault = error(fault, text);
-        fault["line"] = json!(number);
-        out.push_str(&fault.to_string());
-    }
-    if !grade.diagnosis.is_empty() {
-        out.push_str(",\"diagnosis\":");
-        out.push_str(&Value::Array(grade.diagnosis.iter().map(diagnosis).collect()).to_string());
-    }
-    out.push_str(",\"read_as\":");
-    match &grade.read_as() {
-        Some(read) => quoted(out, read),
-        None => out.push_str("null"),
-    }
-    out.push_str(",\"symbols\":");
-    list(out, &mut grade.symbols().iter().map(|s| &**s));
-    out.push_str("}\n");
-}
-
-/// A text in quotes.
-fn quoted(out: &mut String, text: &str) {
-    // Plain characters need no escape; nearly all texts are made of them.
-    if text
-        .bytes()
-        .all(|b| b >= 0x20 && b != b'"' && b != b'\\' && b < 0x7f)
-    {
-        out.push('"');
-        out.push_str(text);
-        out.push('"');
-    } else {
-        out.push_str(&Value::from(text).to_string());
-    }
-}
-
-/// Texts as an array.
-fn list(out: &mut String, texts: &mut dyn Iterator<Item = &str>) {
-    out.push('[');
-    for (i, text) in texts.enumerate() {
-        if i > 0 {
-            out.push(',');
-        }
-        quoted(out, text);
-    }
-    out.push(']');
-}
-
-fn diagnosis(d: &Diagnosis) -> Value {
-    json!({"code": d.code, "message": d.message, "hint": d.hint})
+    // Texts and numbers can always be written.
+    out.push_str(&serde_json::to_string(&written).unwrap_or_default());
+    out.push('\n');
 }
 
 /// Longest message of a fault, in characters.
@@ -303,7 +229,7 @@ pub fn steps_json(worked: &Worked) -> Value {
                 "status": word.to_lowercase(),
                 "follows_from": cause,
                 "words": more,
-                "diagnosis": line.diagnosis.iter().map(diagnosis).collect::<Vec<_>>(),
+                "diagnosis": line.diagnosis,
             })
         })
         .collect();

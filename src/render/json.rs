@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::latex;
-use crate::answer::{Answer, Check, Form, Matrix};
+use crate::answer::{Answer, Form, Matrix};
 use crate::derive::{Derivation, Equation};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, write_plain};
@@ -56,7 +56,7 @@ fn stage(scene: &Scene, s: &StageTold) -> Value {
         "energy": s.energy.as_ref().map(|[a, b]| json!({"before": write_plain(a), "after": write_plain(b)})),
         "bodies": bodies,
         "assumptions": plain(&s.assumptions),
-        "checks": s.checks.iter().map(check).collect::<Vec<_>>(),
+        "checks": s.checks,
     })
 }
 
@@ -97,7 +97,7 @@ fn impact(scene: &Scene, told: &Told, impact: &Case) -> Value {
     out.extend(equations(scene, derivation));
     out.extend(object(json!({
         "assumptions": super::assumptions(scene, derivation, proof),
-        "checks": proof.scene.iter().map(check).collect::<Vec<_>>(),
+        "checks": proof.scene,
         "admissible": super::possible::json(scene, possible),
         "verified": told.is_proved(),
     })));
@@ -231,14 +231,8 @@ fn answer(scene: &Scene, told: &Told, a: &Answer) -> Value {
     out.insert("dimension".into(), json!(a.dimension.plain()));
     out.insert("unit".into(), json!(a.unit(scene)));
     out.insert("assumptions".into(), json!(assumptions));
-    let checks: Vec<Value> = a.checks.iter().map(check).collect();
-    out.insert("checks".into(), json!(checks));
+    out.insert("checks".into(), json!(a.checks));
     Value::Object(out)
-}
-
-/// A check as data.
-pub fn check(check: &Check) -> Value {
-    json!({"kind": check.kind, "words": check.words, "holds": check.holds})
 }
 
 fn equation(scene: &Scene, derivation: &Derivation, equation: &Equation) -> Value {

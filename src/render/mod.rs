@@ -35,7 +35,7 @@ use crate::formula::{Symbols, is_hidden, trimmed, visible};
 use crate::numeric::{self, Answered};
 use crate::scene::Scene;
 pub use crate::solution::assumptions;
-use crate::solution::{Detail, Solution, is_safe_latex};
+use crate::solution::{Solution, is_safe_latex};
 
 /// Lines, and characters of a line, that are told of what is wrong.
 const SCREEN: (usize, usize) = (100, 400);
@@ -142,18 +142,8 @@ pub fn naming(scene: &Scene) -> Solution {
         }
     }
     Solution {
-        title: String::new(),
-        source: String::new(),
-        statement: String::new(),
-        detail: Detail::Normal,
         names,
-        meanings: BTreeMap::new(),
-        sections: Vec::new(),
-        steps: Vec::new(),
-        scopes: Vec::new(),
-        needs: Vec::new(),
-        assumptions: Vec::new(),
-        mode: None,
+        ..Solution::default()
     }
 }
 

@@ -44,21 +44,5 @@ pub fn text(scene: &Scene, findings: &[Finding], total: usize) -> String {
 
 /// Findings as data.
 pub fn json(scene: &Scene, findings: &[Finding]) -> Value {
-    let list: Vec<Value> = findings
-        .iter()
-        .map(|f| {
-            json!({
-                "where": f.place,
-                "kind": f.kind,
-                "printed": f.printed,
-                "holds": f.holds,
-                "only_where": f.only_where,
-                "carom": f.carom,
-                "because": f.because,
-                "explained": f.explained,
-                "caught_by": f.caught_by,
-            })
-        })
-        .collect();
-    json!({"title": scene.title, "source": scene.source, "printed": list})
+    json!({"title": scene.title, "source": scene.source, "printed": findings})
 }

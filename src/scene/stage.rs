@@ -29,7 +29,7 @@ impl Turns {
 }
 
 /// One stage.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Stage {
     /// Name.
     pub name: String,
@@ -53,16 +53,8 @@ impl Stage {
     /// The one impact of a scene without stages, as its only stage; it has no name.
     pub fn alone(scene: &Scene) -> Stage {
         Stage {
-            name: String::new(),
-            from: None,
-            start: Vec::new(),
-            kind: StageKind::Impact {
-                one_sided: Vec::new(),
-                supposed: None,
-            },
-            places: Vec::new(),
-            earlier: Vec::new(),
             scene: scene.clone(),
+            ..Stage::default()
         }
     }
 
@@ -111,6 +103,16 @@ impl Stage {
         let mut own = self.scene.questions.iter();
         let own = own.find(|q| q.name == question.name);
         &own.unwrap_or(question).ask
+    }
+}
+
+/// An impact in which no support or string may let go.
+impl Default for StageKind {
+    fn default() -> StageKind {
+        StageKind::Impact {
+            one_sided: Vec::new(),
+            supposed: None,
+        }
     }
 }
 

@@ -41,18 +41,19 @@ use crate::scene::{ContactLaw, Mode, Scene};
 use crate::story::{Case, Told};
 
 /// How much is shown.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, clap::ValueEnum)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default, clap::ValueEnum)]
 pub enum Detail {
     /// The answers with their key equations.
     Brief,
     /// What a good textbook shows.
+    #[default]
     Normal,
     /// Every line of algebra.
     Full,
 }
 
 /// A worked solution.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Solution {
     /// Heading.
     pub title: String,

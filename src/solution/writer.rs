@@ -115,12 +115,9 @@ impl<'a> Writer<'a> {
                 detail,
                 names,
                 meanings,
-                sections: Vec::new(),
-                steps: Vec::new(),
-                scopes: Vec::new(),
-                needs: Vec::new(),
                 assumptions,
                 mode: super::decided(scene),
+                ..Solution::default()
             },
             depth: 0,
             within: String::new(),

@@ -63,9 +63,8 @@ pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
             ..StageTold::new(&stage, before, after)
         }],
         answers,
-        readings: Vec::new(),
-        unused: Vec::new(),
         ended: contradiction.into_iter().collect(),
+        ..Told::default()
     };
     if told.answers.len() > first {
         for (i, check) in second::held(scene, &told) {

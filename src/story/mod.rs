@@ -49,7 +49,7 @@ pub enum Part {
 
 /// Where all bodies are and how they move, by index of body. A component that is not determined is a symbol of
 /// its field `open`; a formula in which one occurs has no value.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct State {
     /// Symbols of components that are not determined, with the reason.
     pub open: BTreeMap<Symbol, String>,
@@ -226,7 +226,7 @@ impl Step {
 }
 
 /// A stage, worked out; the only stage of a scene that is one impact has no name.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct StageTold {
     /// Name; where an earlier impact has several outcomes, with the one it goes on from.
     pub name: String,
@@ -282,27 +282,9 @@ impl StageTold {
         StageTold {
             name: stage.name.clone(),
             placed: stage.clone(),
-            earlier: BTreeMap::new(),
-            branch: None,
-            given: Vec::new(),
-            needs: Vec::new(),
-            time: None,
-            way: None,
-            turned: None,
-            acceleration: None,
-            tensions: Vec::new(),
-            steps: Vec::new(),
             before,
             after,
-            kept: Vec::new(),
-            cases: Vec::new(),
-            energy: None,
-            kinetic: None,
-            inertia: None,
-            work: Vec::new(),
-            words: Vec::new(),
-            assumptions: Vec::new(),
-            checks: Vec::new(),
+            ..StageTold::default()
         }
     }
 }
@@ -316,7 +298,7 @@ pub(crate) fn line(
 }
 
 /// A scene, told: its stages, or the one impact that it is.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Told {
     /// The stages.
     pub stages: Vec<StageTold>,
@@ -499,10 +481,9 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
     }
     Ok(Told {
         stages,
-        answers: Vec::new(),
         readings: scene.readings.clone(),
-        unused: Vec::new(),
         ended,
+        ..Told::default()
     })
 }
 

@@ -25,9 +25,10 @@ use crate::laws;
 use crate::scene::{Ask, ContactLaw, FrictionEvent, Print, Printed, Scene};
 
 /// The finding about one printed thing.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default, serde::Serialize)]
 pub struct Finding {
     /// Where it is printed.
+    #[serde(rename = "where")]
     pub place: String,
     /// `formula`, `number`, `equation`, `claim`, `matrix`.
     pub kind: &'static str,
@@ -347,12 +348,7 @@ impl<'a> Desk<'a> {
             place: printed.place.clone(),
             kind,
             printed: text,
-            holds: None,
-            only_where: None,
-            carom: String::new(),
-            because: String::new(),
-            explained: None,
-            caught_by: None,
+            ..Finding::default()
         };
         let outcome = match &printed.what {
             Print::Formula { item, text } => self.formula(printed, item, text, &mut finding),

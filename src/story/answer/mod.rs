@@ -74,7 +74,7 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
         answers,
         readings: scene.readings.clone(),
         unused,
-        ended: Vec::new(),
+        ..Told::default()
     })
 }
 
