@@ -212,7 +212,7 @@ impl Work<'_> {
         let raw = self.raw(formula, with);
         out.checks.push(Check::new(
             "identity",
-            "with the results substituted, the difference is zero in the normal form",
+            "with the results substituted, the difference is identically zero",
             is_zero(&(&raw.substitute(self.known) - &value), &self.scene.domains),
         ));
         out.put_in.push((raw, value.clone(), SUBSTITUTED));
@@ -481,7 +481,7 @@ pub(super) fn identity(left: &Expr, right: &Expr, domains: &Domains) -> Check {
         Equality::Same {
             how: How::Identity { .. },
         } => {
-            let words = "identity: the difference is zero in the normal form";
+            let words = "identity: the difference is identically zero";
             (words.into(), Some(true))
         }
         Equality::Same {

@@ -171,7 +171,7 @@ fn over_positive(
     ));
     out.checks.push(Check::new(
         "identity",
-        "the derivative at that place is zero in the normal form",
+        "the derivative at that place is identically zero",
         best.proved.then_some(true),
     ));
     let at_best = |e: &Expr| put(e, best.value.clone());

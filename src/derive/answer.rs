@@ -234,11 +234,7 @@ impl Work<'_> {
                 Asked::Linear(vec![("", counted)])
             }
             Ask::Impulse { from, on, along } => {
-                let (place, second) = match from {
-                    ImpulseAt::Contact(c) => (Place::Contact(*c), scene.contacts[*c].bodies[1]),
-                    ImpulseAt::Hinge(h) => (Place::Hinge(*h), scene.hinges[*h].bodies[1]),
-                    ImpulseAt::Blow(b) => (Place::Blow(*b), scene.blows[*b].body),
-                };
+                let (place, second) = Place::of(scene, *from);
                 let impulse = laws::impulse_at(scene, &self.g, place);
                 let impulse = match *on == second {
                     true => impulse,

@@ -492,7 +492,12 @@ pub fn unicode_name(name: &str) -> String {
         if !parts.index.starts_with(|c: char| c.is_ascii_digit()) {
             out.push('_');
         }
-        out.push_str(&parts.index);
+        // Words side by side would read as one.
+        let apart = parts.pieces.iter().any(|p| p.chars().count() > 2);
+        match apart {
+            true => out.push_str(&parts.pieces.join(",")),
+            false => out.push_str(&parts.index),
+        }
     }
     let (primes, raised) = parts.marks.split_once('^').unwrap_or((&parts.marks, ""));
     out.push_str(&primes.replace('\'', "′"));

@@ -19,7 +19,7 @@ pub use quantity::{Affine, Linear, Quantity};
 pub use words::{body_list, describe, place as place_name};
 
 use crate::expr::{Expr, Vector};
-use crate::scene::{BlowImpulse, Condition, ContactLaw, KnownQuantity, Scene};
+use crate::scene::{BlowImpulse, Condition, ContactLaw, ImpulseAt, KnownQuantity, Scene};
 
 /// One scalar that is not known before the equations are solved.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -125,6 +125,17 @@ pub enum Place {
     Hinge(usize),
     /// Point where a blow acts.
     Blow(usize),
+}
+
+impl Place {
+    /// Where an impulse that is asked for acts, and the body on which the laws count it.
+    pub fn of(scene: &Scene, from: ImpulseAt) -> (Place, usize) {
+        match from {
+            ImpulseAt::Contact(c) => (Place::Contact(c), scene.contacts[c].bodies[1]),
+            ImpulseAt::Hinge(h) => (Place::Hinge(h), scene.hinges[h].bodies[1]),
+            ImpulseAt::Blow(b) => (Place::Blow(b), scene.blows[b].body),
+        }
+    }
 }
 
 /// The numbers of a scene in one number type.

@@ -339,7 +339,8 @@ pub fn is_plain(inner: &[Math]) -> bool {
 pub(super) struct Style {
     /// A minus sign in front; plus and minus between two.
     pub signs: [&'static str; 3],
-    pub brackets: [&'static str; 2],
+    /// A sum in brackets.
+    pub brackets: fn(&str) -> String,
     /// Between a component and its unit vector.
     pub space: &'static str,
     pub units: [&'static str; 3],
@@ -348,7 +349,7 @@ pub(super) struct Style {
 
 const UNICODE: Style = Style {
     signs: ["−", " + ", " − "],
-    brackets: ["(", ")"],
+    brackets: |inner| format!("({inner})"),
     space: " ",
     units: ["î", "ĵ", "k̂"],
     zero: "0",
@@ -356,7 +357,7 @@ const UNICODE: Style = Style {
 
 const LATEX: Style = Style {
     signs: ["-", " + ", " - "],
-    brackets: ["\\left(", "\\right)"],
+    brackets: |inner| format!("\\left({inner}\\right)"),
     space: "\\,",
     units: ["\\hat{\\imath}", "\\hat{\\jmath}", "\\hat{k}"],
     zero: "0",
@@ -374,11 +375,12 @@ impl Style {
                 (false, true) => minus,
             });
             if let Some(e) = size {
-                let [open, close] = match e.node() {
-                    Node::Sum(_) => self.brackets,
-                    _ => [""; 2],
+                let size = match e.node() {
+                    Node::Sum(_) => (self.brackets)(&expr(&e)),
+                    _ => expr(&e),
                 };
-                text.push_str(&format!("{open}{}{close}{}", expr(&e), self.space));
+                text.push_str(&size);
+                text.push_str(self.space);
             }
             text.push_str(self.units[axis]);
         }

@@ -13,7 +13,12 @@ pub use crate::figure::escape;
 /// The contents of a `<math>` element.
 pub fn formula(solution: &Solution, math: &[Math]) -> String {
     let mut out = String::new();
-    for m in math {
+    let is_op = |m: &Math| matches!(m, Math::Op(_));
+    for (i, m) in math.iter().enumerate() {
+        // Factors side by side.
+        if i > 0 && !is_op(m) && !is_op(&math[i - 1]) {
+            out.push_str(THIN);
+        }
         match m {
             Math::Expr(e) => out.push_str(&expr(solution, e)),
             Math::Factor(e) if needs_brackets(e) => out.push_str(&brackets(&expr(solution, e))),
@@ -40,8 +45,8 @@ pub fn formula(solution: &Solution, math: &[Math]) -> String {
 
 const MATHML: Style = Style {
     signs: ["<mo>−</mo>", "<mo>+</mo>", "<mo>−</mo>"],
-    brackets: ["<mrow><mo>(</mo>", "<mo>)</mo></mrow>"],
-    space: "<mspace width=\"0.17em\"></mspace>",
+    brackets,
+    space: THIN,
     units: [
         "<mover accent=\"true\"><mi>ı</mi><mo>^</mo></mover>",
         "<mover accent=\"true\"><mi>ȷ</mi><mo>^</mo></mover>",
@@ -50,8 +55,24 @@ const MATHML: Style = Style {
     zero: "<mn>0</mn>",
 };
 
+/// A thin space, as between factors.
+const THIN: &str = "<mspace width=\"0.17em\"></mspace>";
+
+/// Brackets grow around what is tall; those that could grow are wider, and stand off.
 fn brackets(inner: &str) -> String {
-    format!("<mrow><mo>(</mo>{inner}<mo>)</mo></mrow>")
+    let is_tall = ["<mfrac", "<msqrt", "stretchy=\"true\""]
+        .iter()
+        .any(|tall| inner.contains(tall));
+    let [open, close] = ["(", ")"].map(|c| format!("<mo stretchy=\"{is_tall}\">{c}</mo>"));
+    format!("<mrow>{open}{inner}{close}</mrow>")
+}
+
+/// A slanted capital that leans over what comes next.
+fn leans(base: &str) -> bool {
+    let letter = base
+        .strip_prefix("<mi>")
+        .and_then(|l| l.strip_suffix("</mi>"));
+    letter.is_some_and(|l| l.len() == 1 && "FNPTVWXYZ".contains(l))
 }
 
 fn quantity(name: &Name) -> String {
@@ -76,6 +97,7 @@ fn quantity(name: &Name) -> String {
 
 fn scripts(base: &str, sub: &str, sup: &str) -> String {
     match (sub.is_empty(), sup.is_empty()) {
+        (true, true) if leans(base) => format!("{base}<mspace width=\"0.08em\"></mspace>"),
         (true, true) => base.to_string(),
         (false, true) => format!("<msub>{base}{sub}</msub>"),
         (true, false) => format!("<msup>{base}{sup}</msup>"),
@@ -152,11 +174,7 @@ fn product(solution: &Solution, factors: &[Expr], alone: bool) -> String {
     for (i, factor) in factors.iter().enumerate() {
         if i > 0 {
             let digits = matches!(factor.node(), Node::Number(_));
-            out.push_str(if digits {
-                "<mo>·</mo>"
-            } else {
-                "<mspace width=\"0.13em\"></mspace>"
-            });
+            out.push_str(if digits { "<mo>·</mo>" } else { THIN });
         }
         out.push_str(&one(solution, factor));
     }
@@ -216,7 +234,7 @@ fn call(solution: &Solution, function: Function, argument: &Expr, power: &str) -
     let bare = argument.as_symbol().is_some();
     let inner = expr(solution, argument);
     let inner = if bare {
-        format!("<mspace width=\"0.13em\"></mspace>{inner}")
+        format!("{THIN}{inner}")
     } else {
         brackets(&inner)
     };

@@ -1,28 +1,22 @@
 //! A balance of angular momentum written out: why this point, which impulses have no moment about it, then H in vectors.
 
 use super::balance::Outside;
-use super::words::{self, name, say};
+use super::words::{self, fill, name, set, vector};
 use super::{Claim, Inline, Math, Writer};
-use crate::expr::{Expr, Vector};
+use crate::expr::{Expr, Vector, cross};
 use crate::laws::Place;
 
 impl Writer<'_> {
     /// Which system, about which point, and why other impulses do not appear.
     pub(super) fn angular_reason(&mut self, system: &[usize], about: Place) {
-        let at = match (about, system) {
-            (Place::Center(b), [only]) if b == *only => String::from("its center of mass"),
-            _ => words::at(self.scene, about),
-        };
+        let at = words::about(self.scene, system, about);
         let whom = words::bodies(self.scene, system);
         let mut text = if system.len() > 1 {
             format!("Take {whom} together and balance angular momentum about {at}.")
         } else {
             format!("Balance angular momentum of {whom} about {at}.")
         };
-        if let Some(internal) = self.internal_words(system) {
-            text.push(' ');
-            text.push_str(&internal);
-        }
+        text.push_str(&self.internal_words(system));
         let outside = self.outside(system, Some(about));
         let mut silent = Vec::new();
         let mut through = Vec::new();
@@ -35,28 +29,23 @@ impl Writer<'_> {
                 through.push(place);
             }
         }
-        if let [one] = silent.as_slice() {
-            text.push_str(&format!(
-                " The impulse at {one} acts there and has no moment."
-            ));
-        } else if !silent.is_empty() {
-            text.push_str(&format!(
-                " The impulses at {} act there and have no moment.",
-                words::listed(&silent)
-            ));
-        }
-        if let [one] = through.as_slice() {
-            text.push_str(&format!(
-                " The impulse at {one} passes through it and has no moment about it."
-            ));
-        } else if !through.is_empty() {
-            text.push_str(&format!(
-                " The impulses at {} pass through it and have no moment about it.",
-                words::listed(&through)
-            ));
+        for (places, one, several) in [
+            (
+                silent,
+                "acts there and has no moment.",
+                "act there and have no moment.",
+            ),
+            (
+                through,
+                "passes through it and has no moment about it.",
+                "pass through it and have no moment about it.",
+            ),
+        ] {
+            text.push_str(&words::impulses_at(&places, one, several));
         }
         if outside.is_empty() {
-            text.push_str(" No impulse acts on it from outside.");
+            let them = if system.len() > 1 { "them" } else { "it" };
+            text.push_str(&format!(" No impulse acts on {them} from outside."));
         }
         self.say(&text);
     }
@@ -75,7 +64,7 @@ impl Writer<'_> {
             .into_iter()
             .filter(|x| !x.moment.is_zero())
             .collect();
-        let h = |mark| name("H", &index, mark, true);
+        let h = |mark| vector("H", &index, mark);
         let before: Vec<(Vector, Expr)> = system
             .iter()
             .map(|&b| {
@@ -89,11 +78,11 @@ impl Writer<'_> {
         if at_rest {
             let whom = words::capital(&words::bodies(self.scene, system));
             let is = if system.len() == 1 { "is" } else { "are" };
-            self.text(vec![
-                say(format!("{whom} {is} at rest before, so ")),
-                Inline::Math(vec![h("-"), Math::Op("="), Math::Expr(Expr::zero())]),
-                say("."),
-            ]);
+            let zero = Inline::Math(set("# = #", [h("-"), Expr::zero().into()]));
+            self.text(fill(
+                "# # at rest before, so #.",
+                [whom.into(), is.into(), zero],
+            ));
         }
         if self.motion_words(system) {
             self.say(&match outside.is_empty() {
@@ -104,16 +93,12 @@ impl Writer<'_> {
         let mut law = vec![h("-")];
         for x in &outside {
             let q = words::point(self.scene, x.place);
-            law.extend([
-                Math::Op("+"),
-                name("r", &format!("{q}/{o}"), "", true),
-                Math::Op("×"),
-                name("P", &q, "", true),
-            ]);
+            let arm = vector("r", &format!("{q}/{o}"), "");
+            law.extend(set("+ # × #", [arm, vector("P", &q, "")]));
         }
-        law.extend([Math::Op("="), h("+")]);
+        law.extend(set("= #", [h("+")]));
         self.show(law, None);
-        self.definition(system, about, name("H", &index, "", true));
+        self.definition(system, about, vector("H", &index, ""));
         if !at_rest {
             self.momentum_line(
                 system,
@@ -143,19 +128,16 @@ impl Writer<'_> {
             let spins = !self.scene.bodies[b].is_particle() && !self.inertia_vanishes(b);
             let moves = !arm.iter().all(Expr::is_zero) && !self.vanishes(&self.g.mass(b).clone());
             if moves {
-                sum.push(vec![
-                    name("r", &format!("{c}/{o}"), "", true),
-                    Math::Op("×"),
-                    Math::Factor(self.g.mass(b).clone()),
-                    name("v", &c, "", true),
-                ]);
+                let arm = vector("r", &format!("{c}/{o}"), "");
+                let mass = Math::Factor(self.g.mass(b).clone());
+                sum.push(set("# × # #", [arm, mass, vector("v", &c, "")]));
             }
             if spins {
                 sum.push(vec![self.inertia_name(b), words::spin(self.scene, b, "")]);
             }
         }
         if !sum.is_empty() {
-            let mut math = vec![h, Math::Op("=")];
+            let mut math = set("# =", [h]);
             math.extend(sum.join(&Math::Op("+")));
             self.show(math, None);
         }
@@ -166,17 +148,14 @@ impl Writer<'_> {
         let [o, q] = [about, x.place].map(|place| words::point(self.scene, place));
         let arm = self.arm(&self.g.place(x.place).clone(), about);
         let raw = &arm[0] * &x.impulse[1] - &arm[1] * &x.impulse[0];
-        let math = vec![
-            name("r", &format!("{q}/{o}"), "", true),
-            Math::Op("×"),
-            name("P", &q, "", true),
-            Math::Op("="),
-            Math::Brackets(vec![Math::Vector(arm)]),
-            Math::Op("×"),
-            Math::Brackets(vec![Math::Vector(x.impulse.clone())]),
-            Math::Op("="),
+        let parts = [
+            vector("r", &format!("{q}/{o}"), ""),
+            vector("P", &q, ""),
+            arm.into(),
+            x.impulse.clone().into(),
             Math::Along(x.moment.clone()),
         ];
+        let math = set("# × # = (#) × (#) = #", parts);
         let id = self.step(
             Vec::new(),
             vec![Claim::new(raw, x.moment.clone())],
@@ -209,51 +188,36 @@ impl Writer<'_> {
         symbol: Math,
         reason: &str,
     ) {
-        let mut math = vec![symbol, Math::Op("=")];
+        let mut pieces = Vec::new();
         let mut raw = Vec::new();
-        let mut pieces = 0;
         for (&b, (v, w)) in system.iter().zip(motion) {
             let mass = self.g.mass(b).clone();
             let arm = self.arm(&self.g.place(Place::Center(b)).clone(), about);
             let moves = !v.iter().all(Expr::is_zero) && !arm.iter().all(Expr::is_zero);
+            raw.push(&mass * cross(&arm, v));
             if moves && !mass.is_zero() {
-                if pieces > 0 {
-                    math.push(Math::Op("+"));
-                }
-                math.extend([
-                    Math::Brackets(vec![Math::Vector(arm.clone())]),
-                    Math::Op("×"),
-                    Math::Factor(mass.clone()),
-                    Math::Brackets(vec![Math::Vector(v.clone())]),
-                ]);
-                pieces += 1;
+                let parts = [arm.into(), Math::Factor(mass), v.clone().into()];
+                pieces.push(set("(#) × # (#)", parts));
             }
-            raw.push(&mass * &(&arm[0] * &v[1] - &arm[1] * &v[0]));
             if !self.scene.bodies[b].is_particle() && !self.inertia_vanishes(b) && !w.is_zero() {
                 let inertia = self.g.inertia(b).clone();
                 let inertia = self.tidy(&inertia);
-                if pieces > 0 {
-                    math.push(Math::Op("+"));
-                }
-                math.extend([
-                    Math::Factor(inertia.clone()),
-                    Math::Brackets(vec![Math::Along(w.clone())]),
-                ]);
+                let turns = [Math::Factor(inertia.clone()), Math::Along(w.clone())];
+                pieces.push(set("# (#)", turns));
                 raw.push(&inertia * w);
-                pieces += 1;
             }
         }
         let left = Expr::sum(raw);
         let value = self.tidy(&left);
         // I ω alone is the value already.
-        if pieces == 1
-            && system.len() == 1
-            && matches!(math.last(), Some(Math::Brackets(b)) if matches!(b.as_slice(), [Math::Along(_)]))
-        {
-            math.truncate(2);
-            pieces = 0;
+        let spins =
+            |piece: &Vec<Math>| matches!(piece.as_slice(), [Math::Factor(_), Math::Brackets(_)]);
+        if system.len() == 1 && pieces.len() == 1 && pieces.iter().all(spins) {
+            pieces.clear();
         }
-        if pieces > 0 {
+        let mut math = set("# =", [symbol]);
+        if !pieces.is_empty() {
+            math.extend(pieces.join(&Math::Op("+")));
             math.push(Math::Op("="));
         }
         math.push(Math::Along(value.clone()));

@@ -1,9 +1,9 @@
 //! Quantities that follow from what the blocks determine: velocities of points, components, energies, equations asked for.
 
-use super::words::{self, name, say};
+use super::words::{self, say, vector};
 use super::{Claim, Detail, Line, Math, Part, Writer, full_sentence};
 use crate::answer::{Answer, Form};
-use crate::expr::{Expr, Symbol, Vector};
+use crate::expr::{Expr, Symbol, Vector, dot, minus};
 use crate::laws::{self, Place};
 use crate::scene::{Ask, EnergyWhen, ImpulseAt, Question};
 
@@ -108,71 +108,41 @@ impl Writer<'_> {
         let carrier = link.map_or(Place::Center(body), |l| l.at);
         let base = words::point(self.scene, carrier);
         let from = self.g.place(carrier).clone();
-        let raw = [&at[0] - &from[0], &at[1] - &from[1]];
-        let arm = self.tidy_vector(&raw);
+        let arm = self.tidy_vector(&minus(at, &from));
         let center = words::center(self.scene, body);
         let forms = self.reduced.velocity_of(&self.g, body, at);
         let v = [0, 1].map(|axis| {
             let raw = self.form(&forms[axis]);
             self.tidy(&raw)
         });
-        let still = link.is_some_and(|l| {
-            self.scene.bodies[l.to].is_fixed() && {
-                let before = self.g.velocity_before(l.to, &from);
-                before.iter().all(Expr::is_zero)
-            }
-        });
+        let still = link.is_some_and(|l| self.stands(l.to, l.at));
         let particle = self.scene.bodies[body].is_particle();
         let turns = !arm.iter().all(Expr::is_zero) && !particle;
-        let mut math = vec![name("v", point, "+", true), Math::Op("=")];
-        if !still && (turns || base != point) {
-            math.push(name("v", &base, "+", true));
-            if turns {
-                math.push(Math::Op("+"));
-            }
+        let of = || vector("v", point, "+");
+        let carried = (!still && (turns || base != point)).then(|| vector("v", &base, "+"));
+        let round = turns.then(|| {
+            let r = vector("r", &format!("{point}/{base}"), "");
+            words::set("# × #", [words::spin(self.scene, body, "+"), r])
+        });
+        let terms = carried.map(|v| vec![v]).into_iter().chain(round);
+        let mut math = words::set("# =", [of()]);
+        math.extend(terms.collect::<Vec<_>>().join(&Math::Op("+")));
+        if turns && still {
+            let put_in = [Math::Along(self.spin_after(body)), arm.into()];
+            math.extend(words::set("= (#) × (#)", put_in));
         }
-        if turns {
-            math.extend([
-                words::spin(self.scene, body, "+"),
-                Math::Op("×"),
-                name("r", &format!("{point}/{base}"), "", true),
-            ]);
-            math.push(Math::Op("="));
-            if still {
-                math.extend([
-                    Math::Brackets(vec![Math::Along(self.spin_after(body))]),
-                    Math::Op("×"),
-                    Math::Brackets(vec![Math::Vector(arm)]),
-                    Math::Op("="),
-                ]);
-            }
-        } else if math.len() > 2 {
-            math.push(Math::Op("="));
-        }
-        math.push(Math::Vector(v.clone()));
+        math.extend((math.len() > 2).then_some(Math::Op("=")));
+        math.push(v.clone().into());
+        let whom = words::capital(&words::body(self.scene, body));
         match along {
             None => {
-                let symbols: Vec<Expr> = answers.iter().map(|a| Expr::symbol(&a.name)).collect();
-                let claims = symbols
-                    .into_iter()
-                    .zip(&v)
-                    .filter(|(s, value)| s != *value)
-                    .map(|(left, right)| Claim::new(left, right.clone()))
-                    .collect();
-                let lead = if turns && still {
-                    format!(
-                        "{} turns about {base}:",
-                        words::capital(&words::body(self.scene, body))
-                    )
-                } else if turns {
-                    format!(
-                        "{} is rigid:",
-                        words::capital(&words::body(self.scene, body))
-                    )
-                } else {
-                    String::from("In components,")
+                let lead = match (turns, still) {
+                    (true, true) => format!("{whom} turns about {base}:"),
+                    (true, false) => format!("{whom} is rigid:"),
+                    _ => String::from("In components,"),
                 };
-                let id = self.step(Vec::new(), claims, "velocities of a rigid body: v + ω × r");
+                let reason = "velocities of a rigid body: v + ω × r";
+                let id = self.step(Vec::new(), fresh(answers, &v), reason);
                 // How the center moves may have been told with the joint.
                 let told = Symbol::from(format!("motion of {body}"));
                 if point != center || !self.told.contains(&told) {
@@ -182,15 +152,11 @@ impl Writer<'_> {
                 self.values(&v, answers, None);
             }
             Some(d) => {
-                let raw = &v[0] * &d[0] + &v[1] * &d[1];
                 if turns {
-                    self.say(&format!(
-                        "{} is rigid:",
-                        words::capital(&words::body(self.scene, body))
-                    ));
+                    self.say(&format!("{whom} is rigid:"));
                     self.show(math, None);
                 }
-                self.component(d, name("v", point, "+", true), raw, answers);
+                self.component(d, of(), dot(&v, d), answers);
             }
         }
     }
@@ -201,11 +167,7 @@ impl Writer<'_> {
             return;
         };
         let symbol = Expr::symbol(&answer.name);
-        let product = vec![
-            whole,
-            Math::Op("·"),
-            Math::Brackets(vec![Math::Vector(d.clone())]),
-        ];
+        let product = words::set("# · (#)", [whole, d.clone().into()]);
         let claim = Claim::new(symbol.clone(), raw.clone());
         // A component that has a name already needs no line of its own.
         if raw.size() <= NAMED {
@@ -227,49 +189,23 @@ impl Writer<'_> {
     }
 
     fn impulse(&mut self, from: ImpulseAt, on: usize, along: Option<&Vector>, answers: &[Answer]) {
-        let (place, second) = match from {
-            ImpulseAt::Contact(c) => (Place::Contact(c), self.scene.contacts[c].bodies[1]),
-            ImpulseAt::Hinge(h) => (Place::Hinge(h), self.scene.hinges[h].bodies[1]),
-            ImpulseAt::Blow(b) => (Place::Blow(b), self.scene.blows[b].body),
-        };
-        let sign = if on == second {
-            Expr::one()
-        } else {
-            Expr::from(-1)
-        };
+        let (place, second) = Place::of(self.scene, from);
+        let sign = Expr::from(if on == second { 1 } else { -1 });
         let forms = laws::impulse_at(self.scene, &self.g, place);
         let v = [0, 1].map(|axis| &sign * &self.form(&forms[axis]));
         let v = self.tidy_vector(&v);
-        let q = words::point(self.scene, place);
-        match along {
-            Some(d) => {
-                let raw = &v[0] * &d[0] + &v[1] * &d[1];
-                let raw = self.tidy(&raw);
-                self.component(d, name("P", &q, "", true), raw, answers);
-            }
-            None => {
-                let symbols: Vec<Expr> = answers.iter().map(|a| Expr::symbol(&a.name)).collect();
-                let claims: Vec<Claim> = symbols
-                    .into_iter()
-                    .zip(&v)
-                    .filter(|(s, value)| s != *value)
-                    .map(|(left, right)| Claim::new(left, right.clone()))
-                    .collect();
-                if !claims.is_empty() {
-                    let id = self.step(Vec::new(), claims, "components of the impulse");
-                    self.say("In components,");
-                    self.show(
-                        vec![
-                            name("P", &q, "", true),
-                            Math::Op("="),
-                            Math::Vector(v.clone()),
-                        ],
-                        Some(id),
-                    );
-                }
-                self.values(&v, answers, None);
-            }
+        let whole = vector("P", &words::point(self.scene, place), "");
+        if let Some(d) = along {
+            let raw = self.tidy(&dot(&v, d));
+            return self.component(d, whole, raw, answers);
         }
+        let claims = fresh(answers, &v);
+        if !claims.is_empty() {
+            let id = self.step(Vec::new(), claims, "components of the impulse");
+            self.say("In components,");
+            self.show(words::set("# = #", [whole, v.clone().into()]), Some(id));
+        }
+        self.values(&v, answers, None);
     }
 
     fn energy(&mut self, when: EnergyWhen, of: Option<usize>, answers: &[Answer]) {
@@ -476,4 +412,12 @@ impl Writer<'_> {
             }
         }
     }
+}
+
+/// Claims of the components that go by another name than their own.
+fn fresh(answers: &[Answer], v: &Vector) -> Vec<Claim> {
+    let symbols = answers.iter().map(|a| Expr::symbol(&a.name));
+    let all = symbols.zip(v).filter(|(symbol, value)| symbol != *value);
+    all.map(|(left, right)| Claim::new(left, right.clone()))
+        .collect()
 }

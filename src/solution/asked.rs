@@ -4,10 +4,10 @@
 use super::heading::{because, further, goes_on, heading};
 use super::known::{known, number, worth_telling};
 use super::near::near;
-use super::neat::tidied;
+use super::neat::{alike, tidied};
 use super::opening::NUMBERS;
 use super::sentence::{called, full_sentence, sentence};
-use super::words::{self, say};
+use super::words::{self, fill, say};
 use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Solution};
 use crate::answer::{Answer, Form};
 use crate::expr::{Expr, Symbol};
@@ -120,13 +120,10 @@ fn slope(
     if at.as_symbol() != Some(p) || !vanishes || slope.size() > READABLE {
         return false;
     }
-    solution.text(vec![
-        say("It is largest where its derivative with respect to "),
-        words::formula(at),
-        say(" vanishes:"),
-    ]);
+    let lead = "It is largest where its derivative with respect to # vanishes:";
+    solution.text(fill(lead, [words::formula(at)]));
     let math = words::related(&slope, "=", &Expr::zero());
-    solution.push(Part::Display(vec![Line { math, step: None }]));
+    solution.display(vec![Line::plain(math)]);
     true
 }
 
@@ -150,10 +147,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     let plain = |e: &Expr| e.as_number().is_some();
     let stated = answer.stated.iter();
     for (left, relation, right) in stated.filter(|(l, _, r)| !plain(l) || !plain(r)) {
-        lines.push(Line {
-            math: words::related(left, relation.sign(), right),
-            step: None,
-        });
+        lines.push(Line::plain(words::related(left, relation.sign(), right)));
     }
     // The name of the answer comes first, so that what shows the answer is a claim about it. A parameter that is asked for keeps
     // its name.
@@ -173,9 +167,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     }
     let named_step = defined.or_else(|| shown.clone());
     let found = found(scene, ask, answer, [&shown, &named_step], fresh);
-    if !lines.is_empty() {
-        solution.push(Part::Display(lines));
-    }
+    solution.display(lines);
     if !found.is_empty() {
         solution.push(Part::Result(found));
     }
@@ -225,20 +217,20 @@ fn moment_of_momentum(scene: &Scene, b: usize, about: Option<&str>) -> Option<Li
     let about = about?;
     let body = &scene.bodies[b];
     let c = words::center(scene, b);
-    let mut math = vec![words::name("H", about, "", true), Math::Op("=")];
+    let mut math = words::set("# =", [words::vector("H", about, "")]);
     if about != body.name {
-        math.extend([
-            words::name("r", &format!("{c}/{about}"), "", true),
-            Math::Op("×"),
-            Math::Factor(body.mass.clone()),
-            words::name("v", &c, "", true),
-        ]);
+        let arm = words::vector("r", &format!("{c}/{about}"), "");
+        let mass = Math::Factor(body.mass.clone());
+        math.extend(words::set(
+            "# × # #",
+            [arm, mass, words::vector("v", &c, "")],
+        ));
     }
     if !body.is_particle() {
         math.extend((math.len() > 2).then_some(Math::Op("+")));
         math.extend([words::name("I", &c, "", false), words::spin(scene, b, "")]);
     }
-    Some(Line { math, step: None })
+    Some(Line::plain(math))
 }
 
 /// What an answer rests on beyond what the whole solution does, which is told at its end.
@@ -309,7 +301,13 @@ fn identity(
             continue;
         }
         let mut forms = vec![raw, value];
-        forms.dedup();
+        forms.dedup_by(|later, one| {
+            let same = alike(later, one);
+            if same {
+                *one = *later;
+            }
+            same
+        });
         forms.retain(|f| *f != asked && f.size() <= READABLE);
         for (i, form) in forms.into_iter().enumerate() {
             let mut math = vec![Math::Op("="), Math::Expr(form.clone())];
@@ -523,12 +521,46 @@ fn by_reason(all: Vec<Sentence>) -> Vec<Sentence> {
         let reason = one.0.iter().rposition(opens).map(|at| &one.0[at..]);
         match (out.last_mut(), reason) {
             (Some(before), Some(reason)) if before.0.ends_with(reason) => {
-                before.0.truncate(before.0.len() - reason.len());
-                before.0.push(Piece::Words(String::from(" and ")));
-                before.0.extend(one.0);
+                let (own, reason) = (before.0.len() - reason.len(), reason.to_vec());
+                before.0.truncate(own);
+                match between(&before.0, &one.0) {
+                    Some(chain) => before.0 = [chain, reason].concat(),
+                    None => {
+                        before.0.push(Piece::Words(String::from(" and ")));
+                        before.0.extend(one.0);
+                    }
+                }
             }
             _ => out.push(one),
         }
     }
     out
+}
+
+/// Two lower or upper limits of one quantity as a chain, a ≤ x ≤ b.
+fn between(one: &[Piece], two: &[Piece]) -> Option<Vec<Piece>> {
+    let sides = |all: &[Piece]| match all {
+        [
+            Piece::Formula(large),
+            Piece::Words(sign),
+            Piece::Formula(small),
+            ..,
+        ] => (sign == " ≥ ").then(|| (large.clone(), small.clone())),
+        _ => None,
+    };
+    let ((a, b), (c, d)) = (sides(one)?, sides(two)?);
+    let [low, middle, high] = match (a == d, b == c) {
+        (true, _) => [b, a, c],
+        (_, true) => [d, b, a],
+        _ => return None,
+    };
+    let at_most = || Piece::Words(String::from(" ≤ "));
+    let formula = Piece::Formula;
+    Some(vec![
+        formula(low),
+        at_most(),
+        formula(middle),
+        at_most(),
+        formula(high),
+    ])
 }

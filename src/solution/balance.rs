@@ -1,7 +1,7 @@
 //! Balances written out as the book does: the system and the reason first, then vectors, cross products, and the scalar line.
 
 use super::block::AXES;
-use super::words::{self, name, say};
+use super::words::{self, fill, set, vector};
 use super::{Claim, Detail, Math, Writer};
 use crate::derive::Equation;
 use crate::expr::{Expr, Symbol, Vector};
@@ -142,19 +142,10 @@ impl Writer<'_> {
             .collect()
     }
 
-    pub(super) fn internal_words(&self, system: &[usize]) -> Option<String> {
+    /// Which impulses act within a system.
+    pub(super) fn internal_words(&self, system: &[usize]) -> String {
         let inside = self.inside(system);
-        let (subject, verb) = if inside.len() == 1 {
-            ("The impulse", "is")
-        } else {
-            ("The impulses", "are")
-        };
-        (!inside.is_empty()).then(|| {
-            format!(
-                "{subject} at {} {verb} internal to this system.",
-                words::listed(&inside)
-            )
-        })
+        words::impulses_at(&inside, "is internal.", "are internal.")
     }
 
     /// How the bodies move just after, in vectors, where joints leave only their spins free; whether there was anything to tell.
@@ -175,7 +166,6 @@ impl Writer<'_> {
             let v = self.velocity_after(b);
             let whom = words::body(self.scene, b);
             let still = self.stands(link.to, link.at);
-            let mut math = vec![name("v", &c, "+", true), Math::Op("=")];
             let there = words::at(self.scene, link.at);
             let body = &self.scene.bodies[b];
             let hinged = matches!(link.at, Place::Hinge(_));
@@ -185,42 +175,32 @@ impl Writer<'_> {
                 false => "Just after,",
             };
             let lead = if still && body.is_particle() {
-                format!("{when} {whom} is at rest at {there}:")
+                format!("{when} {whom} is at rest at {there}")
             } else if still {
-                format!("{when} {whom} turns about {there}:")
+                format!("{when} {whom} turns about {there}")
             } else {
                 let to = words::body(self.scene, link.to);
-                format!("{when} {whom} moves with {to} at {there}:")
+                format!("{when} {whom} moves with {to} at {there}")
             };
-            if !still {
-                math.push(name("v", &at, "+", true));
-            }
-            if !arm.iter().all(Expr::is_zero) && !self.scene.bodies[b].is_particle() {
-                if !still {
-                    math.push(Math::Op("+"));
-                }
-                math.extend([
-                    words::spin(self.scene, b, "+"),
-                    Math::Op("×"),
-                    name("r", &format!("{c}/{at}"), "", true),
-                ]);
-            }
+            let carried = (!still).then(|| vec![vector("v", &at, "+")]);
+            let turns = !arm.iter().all(Expr::is_zero) && !body.is_particle();
+            let round = turns.then(|| {
+                let r = vector("r", &format!("{c}/{at}"), "");
+                set("# × #", [words::spin(self.scene, b, "+"), r])
+            });
+            let terms: Vec<Vec<Math>> = carried.into_iter().chain(round).collect();
+            let mut math = set("# =", [vector("v", &c, "+")]);
+            math.extend(terms.join(&Math::Op("+")));
             // Of a body hinged at its center of mass nothing stands between the name and the value.
-            if math.len() > 2 {
-                math.push(Math::Op("="));
-            }
-            math.push(Math::Vector(v.clone()));
+            math.extend((!terms.is_empty()).then_some(Math::Op("=")));
+            math.push(v.clone().into());
             let spin = laws::Unknown::Spin(b);
             if self.d.names.is_reversed(spin) {
-                let symbol = Expr::symbol(self.d.names.plain(spin));
-                let lead = lead.strip_suffix(':').unwrap_or(&lead).to_string();
-                self.text(vec![
-                    say(format!("{lead}; with ")),
-                    words::formula(&symbol),
-                    say(" counted clockwise,"),
-                ]);
+                let symbol = words::formula(&Expr::symbol(self.d.names.plain(spin)));
+                let text = fill("#; with # counted clockwise,", [lead.into(), symbol]);
+                self.text(text);
             } else {
-                self.say(&lead);
+                self.say(&format!("{lead}:"));
             }
             let mut claims = Vec::new();
             for (axis, value) in v.iter().enumerate() {
@@ -232,12 +212,8 @@ impl Writer<'_> {
             let id = self.step(Vec::new(), claims, "the joint leaves only the spin free");
             if !self.scene.bodies[b].is_particle() {
                 let w = self.spin_after(b);
-                let math = vec![
-                    words::spin(self.scene, b, "+"),
-                    Math::Op("="),
-                    Math::Along(w),
-                ];
-                self.show(math, None);
+                let spin = words::spin(self.scene, b, "+");
+                self.show(set("# = #", [spin, Math::Along(w)]), None);
             }
             self.show(math, Some(id));
         }
@@ -250,10 +226,7 @@ impl Writer<'_> {
             words::bodies(self.scene, system),
             super::block::direction(along)
         );
-        if let Some(internal) = self.internal_words(system) {
-            text.push(' ');
-            text.push_str(&internal);
-        }
+        text.push_str(&self.internal_words(system));
         let d = along.vector();
         let outside = self.outside(system, None);
         let mut silent = Vec::new();
@@ -263,14 +236,9 @@ impl Writer<'_> {
                 silent.push(words::at(self.scene, x.place));
             }
         }
-        if let [one] = silent.as_slice() {
-            text.push_str(&format!(" The impulse at {one} is perpendicular to it."));
-        } else if !silent.is_empty() {
-            text.push_str(&format!(
-                " The impulses at {} are perpendicular to it.",
-                words::listed(&silent)
-            ));
-        }
+        let [one, several] =
+            ["is", "are"].map(|be| format!("{be} perpendicular to that direction."));
+        text.push_str(&words::impulses_at(&silent, &one, &several));
         self.say(&text);
     }
 
@@ -318,10 +286,7 @@ impl Writer<'_> {
             "Balance linear momentum of {}.",
             words::bodies(self.scene, system)
         );
-        if let Some(internal) = self.internal_words(system) {
-            text.push(' ');
-            text.push_str(&internal);
-        }
+        text.push_str(&self.internal_words(system));
         self.say(&text);
         let mut math = Vec::new();
         for o in &outside {
@@ -338,35 +303,27 @@ impl Writer<'_> {
             } else if !math.is_empty() {
                 math.push(Math::Op("+"));
             }
-            math.push(name("P", &q, "", true));
+            math.push(vector("P", &q, ""));
         }
         if math.is_empty() {
-            math.push(Math::Expr(Expr::zero()));
+            math.push(Expr::zero().into());
         }
         math.push(Math::Op("="));
-        for (i, &b) in system.iter().enumerate() {
-            if i > 0 {
-                math.push(Math::Op("+"));
-            }
+        let changes = system.iter().map(|&b| {
             let c = words::center(self.scene, b);
-            math.push(Math::Factor(self.g.mass(b).clone()));
-            math.push(Math::Brackets(vec![
-                name("v", &c, "+", true),
-                Math::Op("−"),
-                name("v", &c, "-", true),
-            ]));
-        }
+            let [after, before] = ["+", "-"].map(|mark| vector("v", &c, mark));
+            let mass = Math::Factor(self.g.mass(b).clone());
+            set("# (# − #)", [mass, after, before])
+        });
+        let changes: Vec<Vec<Math>> = changes.collect();
+        math.extend(changes.join(&Math::Op("+")));
         self.show(math, None);
         // With the values of the velocities put in.
         let mut sides = Vec::new();
         for axis in [0, 1] {
-            let right = system.iter().map(|&b| {
-                let before = self.g.before(b).0[axis].clone();
-                (b, before)
-            });
-            let right: Vec<(usize, Expr)> = right.collect();
             let mut total = Vec::new();
-            for (b, before) in right {
+            for &b in system {
+                let before = self.g.before(b).0[axis].clone();
                 let after = self.velocity_after(b)[axis].clone();
                 let change = self.tidy(&(after - before));
                 total.push(self.g.mass(b) * &change);

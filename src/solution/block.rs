@@ -1,11 +1,11 @@
 //! Blocks of equations: which question they answer, which law each line is, and how they are solved.
 
-use super::words::{self, say};
+use super::words::{self, fill, say};
 use super::{Claim, Detail, Inline, Line, Math, Part, Writer};
 use crate::derive::{Block, Equation};
 use crate::expr::{Expr, Symbol};
 use crate::laws::{Direction, Law, Place, Unknown};
-use crate::scene::{Ask, EnergyWhen, ImpulseAt, KnownQuantity, Question};
+use crate::scene::{Ask, ContactLaw, EnergyWhen, KnownQuantity, Question};
 
 /// Above this many equations in a block the balances are not written out in vectors.
 const WRITTEN_OUT: usize = 3;
@@ -64,7 +64,7 @@ impl Writer<'_> {
     }
 
     /// The heading of a question: what it asks for, and its symbol.
-    fn heading(&self, question: &Question) -> Vec<Inline> {
+    pub(super) fn heading(&self, question: &Question) -> Vec<Inline> {
         let body = |b: usize| words::body(self.scene, b);
         if question.hidden {
             return vec![say("The motion just after")];
@@ -78,17 +78,8 @@ impl Writer<'_> {
             },
             Ask::Spin { body: b, .. } => format!("Angular velocity of {}", body(*b)),
             Ask::Impulse { from, on, .. } => {
-                let name = match from {
-                    ImpulseAt::Contact(c) => &self.scene.contacts[*c].name,
-                    ImpulseAt::Hinge(h) => &self.scene.hinges[*h].name,
-                    ImpulseAt::Blow(i) => &self.scene.blows[*i].name,
-                };
-                let noun = match from {
-                    ImpulseAt::Contact(_) => "contact",
-                    ImpulseAt::Hinge(_) => "hinge",
-                    ImpulseAt::Blow(_) => "blow",
-                };
-                format!("Impulse at {} on {}", words::place(name, noun), body(*on))
+                let at = words::at(self.scene, Place::of(self.scene, *from).0);
+                format!("Impulse at {at} on {}", body(*on))
             }
             Ask::Energy { when, of } => {
                 let whose = of.map_or(String::new(), |b| format!(" of {}", body(b)));
@@ -101,23 +92,19 @@ impl Writer<'_> {
                     },
                 }
             }
-            Ask::Balance { system, along } => {
-                let text = format!("Linear momentum of {}", words::bodies(self.scene, system));
-                return vec![
-                    say(text + " along "),
-                    Inline::Math(vec![Math::Vector(along.clone())]),
-                ];
+            Ask::Balance { system, .. } => {
+                format!("Linear momentum of {}", words::bodies(self.scene, system))
             }
             Ask::Matrix { .. } => String::from("Matrix form"),
             // About other answers: no block of equations is solved for it.
             _ => String::new(),
         };
         match &question.ask {
-            Ask::Velocity { along: Some(d), .. } | Ask::Impulse { along: Some(d), .. } => {
-                vec![
-                    say(text + " along "),
-                    Inline::Math(vec![Math::Vector(d.clone())]),
-                ]
+            Ask::Velocity { along: Some(d), .. }
+            | Ask::Impulse { along: Some(d), .. }
+            | Ask::Balance { along: d, .. } => {
+                let along = Inline::Math(vec![d.clone().into()]);
+                fill("# along #", [say(text), along])
             }
             _ => vec![say(text)],
         }
@@ -135,14 +122,10 @@ impl Writer<'_> {
             return;
         } else {
             let unknowns: Vec<Inline> = self.symbols(&block.unknowns);
-            let mut text = vec![say(format!(
-                "{} equations determine the {} unknowns ",
-                words::capital(&words::count(n)),
-                words::count(n)
-            ))];
-            text.extend(unknowns);
-            text.push(say("."));
-            self.text(text);
+            let count = words::count(n);
+            let [many, same] = [say(words::capital(&count)), say(count)];
+            let lead = fill("# equations determine the # unknowns ", [many, same]);
+            self.text([lead, unknowns, vec![say(".")]].concat());
             for equation in &block.equations {
                 self.balance(equation, n <= WRITTEN_OUT);
             }
@@ -186,11 +169,22 @@ impl Writer<'_> {
             Law::AngularMomentum { system, about } => format!(
                 "angular momentum of {} about {}",
                 words::bodies(self.scene, system),
-                words::at(self.scene, *about)
+                words::about(self.scene, system, *about)
             ),
             Law::Restitution(c) => {
                 let at = words::at(self.scene, Place::Contact(*c));
-                format!("restitution at {at}")
+                let contact = &self.scene.contacts[*c];
+                let rebounds = !matches!(&contact.law, ContactLaw::Frictionless { restitution } if restitution.is_zero());
+                match self.scene.figure.string(&contact.name) {
+                    Some(_) if !rebounds => match words::place(&contact.name, "string") {
+                        letter if letter == contact.name => {
+                            format!("constant length of the string {letter}")
+                        }
+                        string => format!("constant length of {string}"),
+                    },
+                    _ if !rebounds => format!("no rebound at {at}"),
+                    _ => format!("restitution at {at}"),
+                }
             }
             Law::Sticking(c, axis) => format!(
                 "sticking at {} along {}",
@@ -255,10 +249,8 @@ impl Writer<'_> {
             let mut earlier = earlier(blocks);
             earlier.retain(|u| !self.zero.contains(u));
             if !earlier.is_empty() && blocks[0].equations.len() == 1 {
-                let mut text = vec![say("With ")];
-                text.extend(self.symbols(&earlier));
-                text.push(say(" from above,"));
-                self.text(text);
+                let known = self.symbols(&earlier);
+                self.text([vec![say("With ")], known, vec![say(" from above,")]].concat());
             } else if blocks[0].equations.len() > 1 && !lead.is_empty() {
                 self.say(lead);
             }
@@ -312,15 +304,38 @@ impl Writer<'_> {
                 }
                 self.push(Part::Result(answers.into_iter().map(|(_, l)| l).collect()));
             }
+            self.comes_later(blocks, &shown);
         }
         let zero = pairs.iter().filter(|(_, value)| value.is_zero());
         self.zero.extend(zero.map(|(u, _)| *u));
         for divisor in &divisors {
-            self.text(vec![
-                say("This divides by "),
-                words::formula(divisor),
-                say(", which must not be zero."),
-            ]);
+            let divisor = [words::formula(divisor)];
+            self.text(fill("This divides by #, which must not be zero.", divisor));
+        }
+    }
+
+    /// Says of impulses that results are written with, and that are not found yet, what they are and that they come.
+    fn comes_later(&mut self, blocks: &[&Block], shown: &[Expr]) {
+        let known = earlier(blocks);
+        let found = blocks.iter().flat_map(|b| &b.unknowns).chain(&known);
+        let found: Vec<&str> = found.map(|u| self.d.names.plain(*u)).collect();
+        let all = self.d.blocks.iter().flat_map(|b| &b.unknowns);
+        for (u, name) in all.map(|u| (u, self.d.names.plain(*u))) {
+            let is_used = shown.iter().any(|e| e.mentions(name));
+            let symbol = Symbol::from(name);
+            if !is_used || found.contains(&name) || self.told.contains(&symbol) {
+                continue;
+            }
+            let place = match u {
+                Unknown::Normal(c) | Unknown::Contact(c, _) => Place::Contact(*c),
+                Unknown::Hinge(h, _) => Place::Hinge(*h),
+                _ => continue,
+            };
+            let [of, at] = [
+                words::formula(&Expr::symbol(&symbol)),
+                say(words::at(self.scene, place)),
+            ];
+            self.text(fill("# is the impulse at #, found below.", [of, at]));
         }
     }
 

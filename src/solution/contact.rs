@@ -1,7 +1,7 @@
 //! What a contact or a known velocity says of the motion just after: restitution along the normal, the relation of rigid
 //! bodies for the touching points, and where a normal passes through a center of mass.
 
-use super::words::{self, name, say};
+use super::words::{self, say, set, vector};
 use super::{Inline, Math, Writer};
 use crate::expr::{Expr, Symbol};
 use crate::laws::Place;
@@ -34,31 +34,27 @@ impl Writer<'_> {
         let mut math = Vec::new();
         let of = match point {
             Some((name, _)) => {
-                math.extend(self.rigid(known.body, name));
+                math.push(self.rigid(known.body, name));
                 format!(
                     "the velocity of {} on {body}",
                     words::place(name, "contact")
                 )
             }
             None if is_center && centers => {
-                let mut both = vec![name("v", &center, "+", true)];
-                if let Some(to) = to {
-                    let other = words::center(scene, *to);
-                    both.extend([Math::Op("−"), name("v", &other, "+", true)]);
-                    both = vec![Math::Brackets(both)];
-                }
-                math.extend(both);
+                let own = vector("v", &center, "+");
+                math = match to {
+                    Some(to) => {
+                        let other = words::center(scene, *to);
+                        set("(# − #)", [own, vector("v", &other, "+")])
+                    }
+                    None => vec![own],
+                };
                 format!("the velocity of {body}{from}")
             }
             None => return self.say(&format!("The given velocity of {body}{from}:")),
         };
         let along = self.tidy_vector(along);
-        math.extend([
-            Math::Op("·"),
-            Math::Brackets(vec![Math::Vector(along)]),
-            Math::Op("="),
-            Math::Expr(known.value.clone()),
-        ]);
+        math.extend(set("· (#) = #", [along.into(), (&known.value).into()]));
         self.say(&format!("A component of {of} just after is given:"));
         self.show(math, None);
     }
@@ -107,7 +103,7 @@ impl Writer<'_> {
         let flipped = moving == [one];
         let (from, to) = if flipped { (two, one) } else { (one, two) };
         let (first, second) = (words::body(self.scene, from), words::body(self.scene, to));
-        let mut normal = vec![name("n", "", "", true)];
+        let mut normal = vec![vector("n", "", "")];
         if let Some(n) = self.scene.contacts[c].normal.clone() {
             let n = if flipped { n.map(|x| -x) } else { n };
             let n = self.tidy_vector(&n);
@@ -170,29 +166,25 @@ impl Writer<'_> {
         let indices = [from, to].map(index);
         let both = moving == 2;
         let relative = |mark| {
-            let mut math = vec![name("v", &indices[1], mark, true)];
-            if both {
-                math.extend([Math::Op("−"), name("v", &indices[0], mark, true)]);
-                return Math::Brackets(math);
+            let [one, two] = [1, 0].map(|i| vector("v", &indices[i], mark));
+            match both {
+                true => set("(# − #)", [one, two]).remove(0),
+                false => one,
             }
-            math.remove(0)
         };
-        let n = || name("n", "", "", true);
-        let mut math = vec![relative("+"), Math::Op("·"), n(), Math::Op("=")];
+        let n = || vector("n", "", "");
+        let mut math = set("# · # =", [relative("+"), n()]);
         let turns = |index: &String| index.starts_with(at.as_str());
         // Of a single point the relation of rigid bodies stands in the same line.
         if !both && turns(&indices[1]) {
-            math.extend(self.rigid(to, &at));
-            math.extend([Math::Op("·"), n(), Math::Op("=")]);
+            math.extend(set("# · # =", [self.rigid(to, &at), n()]));
         }
         if restitution.is_zero() {
-            math.push(Math::Expr(Expr::zero()));
+            math.push(Expr::zero().into());
         } else {
             math.push(Math::Op("−"));
-            if !restitution.is_one() {
-                math.push(Math::Factor(restitution.clone()));
-            }
-            math.extend([relative("-"), Math::Op("·"), n()]);
+            math.extend((!restitution.is_one()).then(|| Math::Factor(restitution.clone())));
+            math.extend(set("# · #", [relative("-"), n()]));
         }
         self.show(math, None);
         for (b, index) in [to, from].into_iter().zip(indices.iter().rev()) {
@@ -218,21 +210,20 @@ impl Writer<'_> {
     }
 
     /// `(v + ω × r)` just after for the touching point of a body, from its center of mass or from the joint it turns about.
-    pub(super) fn rigid(&self, b: usize, point: &str) -> [Math; 1] {
+    pub(super) fn rigid(&self, b: usize, point: &str) -> Math {
         let link = self.reduction.tree.iter().find(|l| l.body == b).copied();
         let carrier = link.map_or(Place::Center(b), |l| l.at);
         let base = words::point(self.scene, carrier);
-        let mut whole = Vec::new();
-        if !link.is_some_and(|l| self.stands(l.to, l.at)) {
-            whole.extend([name("v", &base, "+", true), Math::Op("+")]);
-        }
-        let arm = format!("{point}/{base}");
-        whole.extend([
-            words::spin(self.scene, b, "+"),
-            Math::Op("×"),
-            name("r", &arm, "", true),
-        ]);
-        [Math::Brackets(whole)]
+        let [carried, arm] = [
+            vector("v", &base, "+"),
+            vector("r", &format!("{point}/{base}"), ""),
+        ];
+        let spin = words::spin(self.scene, b, "+");
+        let mut whole = match link.is_some_and(|l| self.stands(l.to, l.at)) {
+            true => set("(# × #)", [spin, arm]),
+            false => set("(# + # × #)", [carried, spin, arm]),
+        };
+        whole.remove(0)
     }
 
     /// The velocity just after of the touching point of a body along the normal, (v + ω × r) · n.
@@ -244,17 +235,12 @@ impl Writer<'_> {
         let forms = self.reduced.velocity_of(&self.g, b, &at);
         let v = [0, 1].map(|axis| self.form(&forms[axis]));
         let along = self.tidy(&(&v[0] * &n[0] + &v[1] * &n[1]));
-        let n = || name("n", "", "", true);
-        let mut math = vec![
-            name("v", index, "+", true),
-            Math::Op("·"),
-            n(),
-            Math::Op("="),
-        ];
-        math.extend(self.rigid(b, &self.scene.contacts[c].name));
-        math.extend([Math::Op("·"), n()]);
+        let n = || vector("n", "", "");
+        let mut math = set("# · # =", [vector("v", index, "+"), n()]);
+        let rigid = self.rigid(b, &self.scene.contacts[c].name);
+        math.extend(set("# · #", [rigid, n()]));
         if along.size() <= READABLE {
-            math.extend([Math::Op("="), Math::Expr(along)]);
+            math.extend(set("= #", [along.into()]));
         }
         self.show(math, None);
     }

@@ -1,7 +1,7 @@
 //! The algebra of a block line by line: earlier results substituted, unknowns eliminated one after another, values put back.
 
-use super::words::{self, say};
-use super::{Inline, Math, Writer};
+use super::Writer;
+use super::words::{self, fill};
 use crate::derive::Block;
 use crate::expr::Expr;
 use crate::laws::Unknown;
@@ -36,22 +36,26 @@ impl Writer<'_> {
         }
         if put_in {
             self.say("With the earlier results substituted,");
+        }
+        if let ([(coeffs, rhs)], [_]) = (rows.as_slice(), block.unknowns.as_slice()) {
+            // Where a sign at most stands before the unknown, the result is the next line.
+            let [factor, opposite] = [coeffs[0].clone(), -&coeffs[0]];
+            if factor.is_one() || opposite.is_one() {
+                return;
+            }
+            if put_in {
+                let row = rows[0].clone();
+                self.row_line(&block.unknowns, &row, "earlier results substituted");
+            }
+            if !rhs.is_zero() {
+                self.text(fill("Dividing by #,", [words::formula(&factor)]));
+            }
+            return;
+        }
+        if put_in {
             for row in rows.clone() {
                 self.row_line(&block.unknowns, &row, "earlier results substituted");
             }
-        }
-        if let ([(coeffs, rhs)], [u]) = (rows.as_slice(), block.unknowns.as_slice()) {
-            if !coeffs[0].is_one() && !rhs.is_zero() {
-                let symbol = Expr::symbol(self.d.names.plain(*u));
-                let quotient = rhs / &coeffs[0];
-                self.text(vec![
-                    say("Dividing by "),
-                    words::formula(&coeffs[0]),
-                    say(","),
-                ]);
-                self.claim(symbol, quotient, "dividing by the coefficient");
-            }
-            return;
         }
         self.forward(block, rows);
     }
@@ -107,11 +111,7 @@ impl Writer<'_> {
             }
             rows = next;
             left = others;
-            self.text(vec![
-                say("Solve for "),
-                Inline::Math(vec![Math::Expr(named.clone())]),
-                say(":"),
-            ]);
+            self.text(fill("Solve for #:", [words::formula(&named)]));
             self.claim(named, right, "solved for one unknown");
         }
         if let Some(row) = rows.first().cloned()

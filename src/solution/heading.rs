@@ -1,7 +1,7 @@
 //! The heading of a question beyond the motion: what it asks in a line, and where it goes on under the one before.
 
 use super::sentence::called;
-use super::words::{self, say};
+use super::words::{self, fill, say};
 use super::{Inline, Math, Solution};
 use crate::answer::Answer;
 use crate::expr::Expr;
@@ -59,12 +59,15 @@ pub(super) fn further(solution: &mut Solution, ask: &Ask, answer: &Answer) {
     let Some(section) = solution.sections.last_mut() else {
         return;
     };
-    if let Some(Inline::Text(lead)) = section.heading.first_mut() {
-        *lead = lead.replace("quantity", "quantities");
+    for piece in &mut section.heading {
+        if let Inline::Text(words) = piece {
+            *words = words.replace("quantity", "quantities");
+            *words = words.replace(" and ", ", ");
+        }
     }
     section
         .heading
-        .extend([say(", "), words::formula(&Expr::symbol(&answer.name))]);
+        .extend([say(" and "), words::formula(&Expr::symbol(&answer.name))]);
 }
 
 /// What is asked, in a line.
@@ -78,57 +81,35 @@ pub(super) fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> 
             vec![say(words::capital(&called(scene, meaning)))]
         }
         Ask::Value { with, .. } if with.is_empty() => {
-            vec![say("Derived quantity "), math(&Expr::symbol(&answer.name))]
+            fill("Derived quantity #", [math(&Expr::symbol(&answer.name))])
         }
         Ask::Value { formula, with, .. } => {
-            let mut out = vec![math(formula)];
-            out.push(say(" at "));
-            out.extend(words::values(with));
-            out
+            let lead = fill("# at ", [math(formula)]);
+            [lead, words::values(with)].concat()
         }
-        Ask::Condition {
-            parameter,
-            left,
-            relation: Relation::Equal,
-            right,
-            ..
-        } => vec![
-            say("For which "),
-            math(&Expr::symbol(parameter)),
-            say(" is "),
-            related(left, Relation::Equal, right),
-            say("?"),
-        ],
         Ask::Condition {
             parameter,
             left,
             relation,
             right,
             ..
-        } => vec![
-            say("For which "),
-            math(&Expr::symbol(parameter)),
-            say(" does "),
-            related(left, *relation, right),
-            say(" hold?"),
-        ],
+        } => {
+            let form = match relation {
+                Relation::Equal => "For which # is #?",
+                _ => "For which # does # hold?",
+            };
+            let of = math(&Expr::symbol(parameter));
+            fill(form, [of, related(left, *relation, right)])
+        }
         Ask::Maximum { of, over } => {
-            let mut out = vec![say("Largest value of "), math(of), say(" over ")];
-            out.extend(words::symbols(over, " and "));
-            out
+            let lead = fill("Largest value of # over ", [math(of)]);
+            [lead, words::symbols(over, " and ")].concat()
         }
         Ask::Limit { of, parameter, to } => {
             let p = Math::Expr(Expr::symbol(parameter));
-            let end = match to {
-                Some(to) => Math::Expr(to.clone()),
-                None => Math::Op("∞"),
-            };
-            vec![
-                say("Limit of "),
-                math(of),
-                say(" as "),
-                Inline::Math(vec![p, Math::Op("→"), end]),
-            ]
+            let end = to.as_ref().map_or(Math::Op("∞"), Math::from);
+            let tends = Inline::Math(words::set("# → #", [p, end]));
+            fill("Limit of # as #", [math(of), tends])
         }
         Ask::Approximate {
             of,
@@ -136,14 +117,14 @@ pub(super) fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> 
             to,
             order,
         } => {
-            let mut out = vec![math(of)];
-            if to.is_zero() {
-                out.extend([say(" for small "), math(&Expr::symbol(parameter))]);
-            } else {
-                let near = [Math::Expr(Expr::symbol(parameter)), Math::Op("≈")];
-                let near = near.into_iter().chain([Math::Expr(to.clone())]);
-                out.extend([say(" for "), Inline::Math(near.collect())]);
-            }
+            let p = Expr::symbol(parameter);
+            let mut out = match to.is_zero() {
+                true => fill("# for small #", [math(of), math(&p)]),
+                false => {
+                    let near = Inline::Math(words::related(&p, "≈", to));
+                    fill("# for #", [math(of), near])
+                }
+            };
             match order {
                 Some(0) => {}
                 Some(order) => out.push(say(format!(", to order {order}"))),
@@ -162,13 +143,9 @@ pub(super) fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> 
             claim => vec![say("To show: "), say(claim)],
         },
         Ask::Turn { number, .. } => {
-            vec![
-                say("In turn "),
-                math(&Expr::symbol(number)),
-                say(", whichever it is"),
-            ]
+            fill("In turn #, whichever it is", [math(&Expr::symbol(number))])
         }
-        Ask::Unused(of) => vec![say("Data not needed for "), math(&Expr::symbol(of))],
+        Ask::Unused(of) => fill("Data not needed for #", [math(&Expr::symbol(of))]),
         _ => vec![say(words::capital(&called(scene, &answer.words)))],
     }
 }

@@ -199,6 +199,13 @@ pub struct Line {
     pub step: Option<String>,
 }
 
+impl Line {
+    /// An equation that no step claims.
+    pub fn plain(math: Vec<Math>) -> Line {
+        Line { math, step: None }
+    }
+}
+
 /// A piece of a sentence.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Inline {
@@ -225,6 +232,36 @@ pub enum Math {
     Op(&'static str),
     /// Something in brackets.
     Brackets(Vec<Math>),
+}
+
+impl From<String> for Inline {
+    fn from(words: String) -> Inline {
+        Inline::Text(words)
+    }
+}
+
+impl From<&str> for Inline {
+    fn from(words: &str) -> Inline {
+        Inline::Text(words.to_owned())
+    }
+}
+
+impl From<Expr> for Math {
+    fn from(e: Expr) -> Math {
+        Math::Expr(e)
+    }
+}
+
+impl From<&Expr> for Math {
+    fn from(e: &Expr) -> Math {
+        Math::Expr(e.clone())
+    }
+}
+
+impl From<Vector> for Math {
+    fn from(v: Vector) -> Math {
+        Math::Vector(v)
+    }
 }
 
 /// A quantity with a letter, an index and a mark.

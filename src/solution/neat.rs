@@ -24,7 +24,17 @@ pub(super) fn neat(scene: &Scene, e: &Expr) -> Expr {
             Expr::sum(each)
         }
         Node::Product(factors) => product(scene, factors),
-        Node::Power(base, exponent) => neat(scene, base).power(exponent.clone()),
+        Node::Power(base, exponent) => {
+            let base = neat(scene, base);
+            let even = exponent
+                .as_number()
+                .and_then(whole)
+                .is_some_and(|n| n % 2 == 0);
+            match even && base.is_negative() {
+                true => (-base).power(exponent.clone()),
+                false => base.power(exponent.clone()),
+            }
+        }
         _ => e.clone(),
     }
 }

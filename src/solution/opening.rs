@@ -3,7 +3,7 @@
 
 use super::neat::{alike, tidied};
 use super::rough;
-use super::words::{self, say};
+use super::words::{self, fill, say, set};
 use super::{Claim, Detail, Inline, Line, Math, Part, Slot, Solution, Writer};
 use crate::expr::{Expr, Symbol, dot, minus};
 use crate::scene::{Body, Scene, Shape};
@@ -90,22 +90,19 @@ pub(super) fn composites(solution: &mut Solution, scene: &Scene) {
         let why = "moment of inertia of the parts about the common center of mass: I + m d²";
         let step = solution.step(Vec::new(), vec![claim], why);
         let place = body.center.each_ref().map(|e| tidied(scene, e));
-        solution.text(vec![
-            say(format!(
-                "The parts of {} have their common center of mass at ",
-                words::body(scene, b)
-            )),
-            match place.iter().all(Expr::is_zero) {
-                true => say("the origin"),
-                false => Inline::Math(vec![Math::Vector(place)]),
-            },
-            say("; each adds its own moment of inertia and its mass times the square of its distance from there:"),
-        ]);
-        let mut math = vec![words::name("I", &c, "", false), Math::Op("=")];
+        let there = match place.iter().all(Expr::is_zero) {
+            true => say("the origin"),
+            false => Inline::Math(vec![place.into()]),
+        };
+        solution.text(fill(
+            "The parts of # have their common center of mass at #; each adds its own moment of inertia and its mass times the square of its distance from there:",
+            [say(words::body(scene, b)), there],
+        ));
+        let mut math = set("# =", [words::name("I", &c, "", false)]);
         if !alike(&raw, &whole) {
-            math.extend([Math::Expr(raw), Math::Op("=")]);
+            math.extend(set("# =", [raw.into()]));
         }
-        math.push(Math::Expr(whole));
+        math.push(whole.into());
         solution.push(Part::Display(vec![Line {
             math,
             step: Some(step),
@@ -131,7 +128,7 @@ impl Writer<'_> {
             self.text(statement);
         }
         if self.detail() == Detail::Brief {
-            return;
+            return self.given_after();
         }
         if let Some(text) = words::meant(self.scene, false) {
             self.text(text);
@@ -189,18 +186,14 @@ impl Writer<'_> {
                 text.push(say("; "));
             }
             let c = words::center(self.scene, b);
-            text.push(Inline::Math(vec![
-                words::name("v", &c, "-", true),
-                Math::Op("="),
-                Math::Vector(body.velocity.clone()),
-            ]));
+            let v = [words::vector("v", &c, "-"), body.velocity.clone().into()];
+            text.push(Inline::Math(set("# = #", v)));
             if !body.is_particle() && !body.spin.is_zero() {
-                text.push(say(" and "));
-                text.push(Inline::Math(vec![
+                let w = [
                     words::spin(self.scene, b, "-"),
-                    Math::Op("="),
                     Math::Along(body.spin.clone()),
-                ]));
+                ];
+                text.extend(fill(" and #", [Inline::Math(set("# = #", w))]));
             }
         }
         if text.len() > 1 {

@@ -36,6 +36,12 @@ impl Solution {
         })
     }
 
+    /// Whether these sentences stand there already.
+    pub(super) fn says(&self, text: &[Inline]) -> bool {
+        let mut parts = self.sections.iter().flat_map(|s| &s.parts);
+        parts.any(|part| matches!(part, Part::Text(told) if told == text))
+    }
+
     pub(super) fn text(&mut self, text: Vec<Inline>) {
         self.push(Part::Text(text));
     }
@@ -60,6 +66,13 @@ impl Solution {
 
     pub(super) fn say(&mut self, text: &str) {
         self.text(vec![say(text)]);
+    }
+
+    /// Equations, one a line; nothing where there are none.
+    pub(super) fn display(&mut self, lines: Vec<Line>) {
+        if !lines.is_empty() {
+            self.push(Part::Display(lines));
+        }
     }
 
     /// Takes away the line of the open section that gives a symbol its value, where the box that comes next tells it again;

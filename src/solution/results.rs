@@ -109,7 +109,7 @@ impl Writer<'_> {
             all.into_iter().any(|u| *self.d.names.plain(*u) == **name)
         };
         // An unknown that a block solves for is told there.
-        wanted.retain(|d| !unknown(&d.name) || self.detail() == Detail::Brief);
+        wanted.retain(|d| !unknown(&d.name));
         wanted.reverse();
         if wanted.is_empty() {
             return;
@@ -273,7 +273,9 @@ impl Writer<'_> {
                 .iter()
                 .any(|pair| pair.contains(name));
             let positive = *domain == crate::domain::Domain::positive();
-            if in_pair || positive || (domain.low.is_none() && domain.high.is_none()) {
+            // What an earlier stage has found is no condition.
+            let is_found = !self.scene.parameters.iter().any(|p| p.name == *name);
+            if is_found || in_pair || positive || (domain.low.is_none() && domain.high.is_none()) {
                 continue;
             }
             let sign = |open: bool| if open { "<" } else { "≤" };

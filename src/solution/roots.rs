@@ -1,6 +1,6 @@
 //! Long roots that formulas share get a letter, told before its first use.
 
-use super::words::{self, say};
+use super::words::{self, fill};
 use super::{Claim, Line, Meaning, Part, Writer};
 use crate::expr::{Expr, Node, Symbol};
 
@@ -35,11 +35,8 @@ impl Writer<'_> {
             // Its square is a sum, and so breaks over lines.
             let square = Claim::new(symbol.powi(2), radicand(&root));
             let id = self.step(Vec::new(), vec![square.clone()], "the square of the root");
-            self.text(vec![
-                say("Let "),
-                words::formula(&symbol),
-                say(" be the positive root of"),
-            ]);
+            let lead = "Let # be the positive root of";
+            self.text(fill(lead, [words::formula(&symbol)]));
             let math = words::related(&square.left, "=", &square.right);
             let step = Some(id);
             self.push(Part::Display(vec![Line { math, step }]));

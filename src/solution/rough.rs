@@ -1,7 +1,7 @@
 //! A contact with friction in a worked solution: its law, what it does in the case that is told, and why each of its two
 //! conditions holds.
 
-use super::words::{self, say};
+use super::words::{self, fill, say};
 use super::{Inline, Writer};
 use crate::expr::{Expr, dot};
 use crate::scene::{Contact, ContactLaw, Decided, Hypothesis, Mode, Scene};
@@ -21,19 +21,15 @@ fn decided(scene: &Scene) -> Option<(&Contact, &Decided)> {
 pub(super) fn law(scene: &Scene) -> Option<Vec<Inline>> {
     let (at, decided) = decided(scene)?;
     let law = &decided.law;
-    let mut text = vec![
-        say(format!(
-            "The contact at {} is rough, with coefficient of friction ",
-            words::place(&at.name, "contact")
-        )),
-        words::formula(&law.mu),
-        say(" and coefficient of restitution "),
-        words::formula(&law.restitution),
-    ];
+    let at = say(words::place(&at.name, "contact"));
+    let [mu, e] = [&law.mu, &law.restitution].map(words::formula);
+    let mut text = fill(
+        "The contact at # is rough, with coefficient of friction # and coefficient of restitution #",
+        [at, mu, e],
+    );
     if let Hypothesis::ChatterjeeRuina { tangential } = &law.hypothesis {
-        text.push(say(" along the normal, "));
-        text.push(words::formula(tangential));
-        text.push(say(" along the surface"));
+        let both = [words::formula(tangential)];
+        text.extend(fill(" along the normal and # along the surface", both));
     }
     let name = law.hypothesis.name();
     text.push(say(format!(" ({name}’s hypothesis).")));
@@ -53,7 +49,7 @@ impl Writer<'_> {
             Mode::Slides => "it slides to the end",
             Mode::Sticks => "it sticks",
             Mode::SticksInCompression if !self.slips_before(contact) => {
-                "nothing slides at the contact, from the first to the last"
+                "nothing slides at the contact at any time"
             }
             Mode::SticksInCompression => "it stops sliding during compression, and sticks",
             Mode::SticksInRestitution => "it stops sliding during restitution, and sticks",
@@ -89,27 +85,22 @@ impl Writer<'_> {
             return;
         };
         let (e, mode) = (&decided.law.restitution, decided.mode);
-        let words = decided.conditions[index].words;
-        let text = match words {
-            "no slip after" => vec![say(format!(
-                "{} does not slip just after:",
-                words::capital(&at)
-            ))],
-            "restitution" if e.is_zero() => {
-                vec![say(format!("{} does not rebound:", words::capital(&at)))]
+        let [here, begins] = [say(&at), say(words::capital(&at))];
+        let text = match decided.conditions[index].words {
+            "no slip after" => fill("# does not slip just after:", [begins]),
+            "restitution" if e.is_zero() => fill("# does not rebound:", [begins]),
+            "restitution" => {
+                let parts = [begins, words::formula(e)];
+                fill("# rebounds at # times its speed of approach:", parts)
             }
-            "restitution" => vec![
-                say(format!("{} rebounds at ", words::capital(&at))),
-                words::formula(e),
-                say(" times its speed of approach:"),
-            ],
-            "friction of a sliding contact" => vec![say(format!(
-                "{} slides against friction all the while:",
-                words::capital(&at)
-            ))],
-            "friction before and after the reversal of slip" => vec![say(
-                "Friction acts against the slip, first one way and then the other:",
-            )],
+            "friction of a sliding contact" => {
+                fill("# slides against friction all the while:", [begins])
+            }
+            "friction before and after the reversal of slip" => {
+                vec![say(
+                    "Friction acts against the slip, first one way and then the other:",
+                )]
+            }
             "normal impulse, 1 + e times that of compression" => {
                 let slips = self.slips_before(c);
                 let slides = matches!(
@@ -119,23 +110,23 @@ impl Writer<'_> {
                 let rate = (slides || !slips).then(|| self.stopping(c, e, right));
                 return self.compression(&at, e, (mode, slips), rate.flatten());
             }
-            "restitution by energy" => vec![
-                say("Restitution gives back "),
-                words::formula(&e.powi(2)),
-                say(format!(
-                    " times the work that the normal impulse took in compression, which leaves {at} the normal velocity"
-                )),
-            ],
-            "impulse ratio" => vec![say(
-                "The friction impulse bears a fixed ratio to the normal one:",
-            )],
-            "tangential impulse (Chatterjee and Ruina)" => vec![say(format!(
-                "Along the surface the impulse is one plus the tangential coefficient times the one that brings {at} to rest:"
-            ))],
+            "restitution by energy" => fill(
+                "Restitution gives back # times the work that the normal impulse took in compression, which leaves # the normal velocity",
+                [words::formula(&e.powi(2)), here],
+            ),
+            "impulse ratio" => {
+                vec![say(
+                    "The friction impulse bears a fixed ratio to the normal one:",
+                )]
+            }
+            "tangential impulse (Chatterjee and Ruina)" => fill(
+                "Along the surface the impulse is one plus the tangential coefficient times the one that brings # to rest:",
+                [here],
+            ),
             "normal impulse (Chatterjee and Ruina)" => vec![say(
-                "Along the normal it is one plus the coefficient of restitution times the one that ends the approach without friction, and what the tangential part adds to it:",
+                "Along the normal it is one plus the coefficient of restitution times the impulse that would end the approach without friction, plus what the tangential impulse adds:",
             )],
-            other => vec![say(format!("{} at {at}:", words::capital(other)))],
+            other => fill("# at #:", [say(words::capital(other)), here]),
         };
         self.text(text);
     }
@@ -177,23 +168,14 @@ impl Writer<'_> {
             "Compression ends when {at} has no normal velocity left; {state}."
         ))];
         if let Some([approach, rate]) = rate {
-            text.extend([
-                say(" Each unit of normal impulse takes "),
-                words::formula(&rate),
-                say(" off the speed of approach, "),
-                words::formula(&approach),
-                say("."),
-            ]);
+            let slows = " Each unit of normal impulse takes # off the speed of approach, #.";
+            text.extend(fill(slows, [&rate, &approach].map(words::formula)));
         }
-        if e.is_zero() {
-            text.push(say(" Without rebound that is all:"));
-        } else {
-            text.extend([
-                say(" Restitution adds "),
-                words::formula(e),
-                say(" times as much:"),
-            ]);
-        }
+        let rest = match e.is_zero() {
+            true => " Without rebound that is all:",
+            false => " Restitution adds # times as much:",
+        };
+        text.extend(fill(rest, [words::formula(e)]));
         self.text(text);
     }
 }

@@ -80,6 +80,14 @@ pub fn at(scene: &Scene, place: Place) -> String {
     }
 }
 
+/// The point of a balance of angular momentum in a sentence that names its bodies.
+pub fn about(scene: &Scene, system: &[usize], place: Place) -> String {
+    match (place, system) {
+        (Place::Center(b), [only]) if b == *only => String::from("its center of mass"),
+        _ => at(scene, place),
+    }
+}
+
 /// A quantity of the textbook.
 pub fn name(letter: &'static str, index: &str, mark: &'static str, vector: bool) -> Math {
     Math::Name(Name {
@@ -103,7 +111,7 @@ pub fn kinetic(index: &str, mark: &'static str) -> Math {
 pub fn spin(scene: &Scene, b: usize, mark: &'static str) -> Math {
     let index = center(scene, b);
     let index = if index == "G" { "" } else { &index };
-    name("omega", index, mark, true)
+    vector("omega", index, mark)
 }
 
 /// `Here m is the mass and ℓ is the length.` With the values that the scene gives: `the mass (2 kg)`.
@@ -119,19 +127,11 @@ pub fn meant(scene: &Scene, values: bool) -> Option<Vec<Inline>> {
     let mut text = vec![say("Here ")];
     for (i, p) in meant.iter().enumerate() {
         text.push(formula(&Expr::symbol(&p.name)));
-        let article = if p.meaning.starts_with(|c: char| c.is_lowercase())
-            && !["a ", "an ", "the ", "half ", "one ", "distance "]
-                .iter()
-                .any(|w| p.meaning.starts_with(w))
-        {
-            "the "
-        } else {
-            ""
-        };
-        let article = if p.meaning.starts_with("distance ") {
-            "the "
-        } else {
-            article
+        let own = ["a ", "an ", "the ", "half ", "one "];
+        let is_own = own.iter().any(|w| p.meaning.starts_with(w));
+        let article = match p.meaning.starts_with(char::is_lowercase) && !is_own {
+            true => "the ",
+            false => "",
         };
         let end = match meant.len() - i {
             1 => ".",
@@ -290,6 +290,66 @@ pub const FURTHER: &str = "the further conditions of this case";
 /// Longest condition, in nodes, that a sentence holds.
 const LONG_CONDITION: usize = 80;
 
+/// A sentence with the next of some pieces, words or formulas, in place of each `#`.
+pub fn fill(form: &'static str, pieces: impl IntoIterator<Item = Inline>) -> Vec<Inline> {
+    let mut pieces = pieces.into_iter();
+    let mut out: Vec<Inline> = Vec::new();
+    for (i, words) in form.split('#').enumerate() {
+        let piece = if i > 0 { pieces.next() } else { None };
+        for piece in piece.into_iter().chain([say(words)]) {
+            match (out.last_mut(), piece) {
+                (Some(Inline::Text(before)), Inline::Text(more)) => before.push_str(&more),
+                (_, piece) => out.push(piece),
+            }
+        }
+    }
+    out.retain(|piece| *piece != say(""));
+    out
+}
+
+/// A formula: the next piece in place of each `#`, brackets, and what stands between as operators.
+pub fn set(form: &'static str, pieces: impl IntoIterator<Item = Math>) -> Vec<Math> {
+    let mut open = vec![Vec::new()];
+    let mut pieces = pieces.into_iter();
+    let mut rest = form;
+    while let Some(c) = rest.chars().next() {
+        let width = match c {
+            '#' | '(' | ')' | ' ' => c.len_utf8(),
+            _ => rest.find(['#', '(', ')', ' ']).unwrap_or(rest.len()),
+        };
+        let (part, behind) = rest.split_at(width);
+        rest = behind;
+        let piece = match c {
+            ' ' => None,
+            '#' => pieces.next(),
+            '(' => {
+                open.push(Vec::new());
+                None
+            }
+            ')' => open.pop().map(Math::Brackets),
+            _ => Some(Math::Op(part)),
+        };
+        if let (Some(last), Some(piece)) = (open.last_mut(), piece) {
+            last.push(piece);
+        }
+    }
+    open.swap_remove(0)
+}
+
+/// ` The impulse at A is …`, with what one or several do; nothing where there is none.
+pub fn impulses_at(places: &[String], one: &str, several: &str) -> String {
+    match places {
+        [] => String::new(),
+        [only] => format!(" The impulse at {only} {one}"),
+        all => format!(" The impulses at {} {several}", listed(all)),
+    }
+}
+
+/// A vector of the textbook.
+pub fn vector(letter: &'static str, index: &str, mark: &'static str) -> Math {
+    name(letter, index, mark, true)
+}
+
 /// Words of a sentence.
 pub fn say(text: impl Into<String>) -> Inline {
     Inline::Text(text.into())
@@ -302,11 +362,7 @@ pub fn formula(e: &Expr) -> Inline {
 
 /// Two sides and what stands between them.
 pub fn related(left: &Expr, sign: &'static str, right: &Expr) -> Vec<Math> {
-    vec![
-        Math::Expr(left.clone()),
-        Math::Op(sign),
-        Math::Expr(right.clone()),
-    ]
+    vec![left.into(), Math::Op(sign), right.into()]
 }
 
 /// An equation in a sentence.

@@ -261,10 +261,7 @@ impl Compared {
                 second.contradicts().then_some(false),
             );
         }
-        let points = match self.points {
-            1 => String::from("1 point"),
-            n => format!("{n} points"),
-        };
+        let points = crate::verify::points(self.points);
         let words = match &self.apart {
             // The integrator works to 1e-12; what is below is the rounding of the machine at hand.
             None => format!(

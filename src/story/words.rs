@@ -436,7 +436,7 @@ pub(super) fn missing(told: &StageTold) -> Vec<Sentence> {
         used.push(match &c.law {
             ContactLaw::Sticking => sentence!["at `", &c.name, "` the bodies stick"],
             ContactLaw::Frictionless { restitution } => {
-                let law = "` there is no friction, the normal is the one given, and e = ";
+                let law = "` there is no friction, the normal is the one given, and the coefficient of restitution is ";
                 sentence!["at `", &c.name, law, restitution]
             }
             ContactLaw::None | ContactLaw::Friction(_) | ContactLaw::Decided(_) => {
@@ -468,14 +468,13 @@ pub(super) fn missing(told: &StageTold) -> Vec<Sentence> {
     };
     let (rank, unknowns) = (counting.rank, counting.unknowns);
     let words = format!(
-        "the balances of `{}` alone are {} equations for {unknowns} unknowns, of rank {rank}: {} short",
+        "the balances of `{}` alone are {rank} independent equations for {unknowns} unknowns: {} too few",
         stage.name,
-        counting.equations,
         unknowns.saturating_sub(rank)
     );
     out.push(words.into());
     let closing = counting.closing_laws.iter();
-    out.extend(closing.map(|law| sentence!["missing, for instance: ", law]));
+    out.extend(closing.map(|law| sentence!["what could close them: ", law]));
     out.extend(used.into_iter().map(|u| sentence!["supposed here: ", u]));
     out
 }

@@ -53,7 +53,8 @@ pub(super) fn check(scene: &Scene, at: &[Point<f64>]) -> Option<Check> {
         n => Check::new(
             "inertia",
             format!(
-                "masses, centers and moments of inertia are those of the outlines, integrated at {n} points"
+                "masses, centers and moments of inertia are those of the outlines, integrated at {}",
+                super::points(n)
             ),
             Some(true),
         ),

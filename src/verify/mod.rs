@@ -250,7 +250,7 @@ fn invariants(runs: &[Run<Rational>], proof: &mut Proof) {
     failed.dedup();
     if count > 0 || !failed.is_empty() {
         proof.scene.push(Check::new("invariants", match failed.as_slice() {
-                [] => format!("momentum, angular momentum and energy identities hold exactly ({count} over {} points)", runs.len()),
+                [] => format!("momentum, angular momentum and energy identities hold exactly ({count} over {})", points(runs.len())),
                 _ => format!("violated: {}", failed.join(", ")),
             }, Some(failed.is_empty())));
     }
@@ -359,8 +359,13 @@ fn exact_points(
         ),
         n => Check::new(
             "exact points",
-            format!("equal to the independent exact solution at {n} points"),
+            format!("equal to the independent exact solution at {}", points(n)),
             Some(true),
         ),
     }
+}
+
+/// `1 point`, `2 points`.
+pub(crate) fn points(n: usize) -> String {
+    format!("{n} point{}", if n == 1 { "" } else { "s" })
 }

@@ -7,9 +7,9 @@ use crate::answer::Form;
 use crate::expr::{Expr, Symbol};
 use crate::scene::{ContactLaw, Decided, Scene};
 use crate::solution::neat::tidied;
-use crate::solution::words::{self, say};
-use crate::solution::{Inline, Line, Math, Part, Section, Writer, sentence};
-use crate::story::Case;
+use crate::solution::words::{self, fill, say};
+use crate::solution::{Claim, Detail, Inline, Line, Math, Part, Section, Writer, sentence};
+use crate::story::{Case, State, Told};
 
 /// The number of an earlier case whose results, as they are or with the opposite sign of a coefficient of friction, are those
 /// of a later one.
@@ -19,6 +19,36 @@ pub(super) struct Again {
 }
 
 impl Writer<'_> {
+    /// An impact whose equations stand in an earlier stage: their results, and what follows from them.
+    pub(super) fn in_earlier(&mut self, lead: &str) {
+        self.say(lead);
+        let asked = self.d.blocks.iter().filter(|b| b.asked_by.is_some());
+        for (u, value) in asked.flat_map(|b| b.unknowns.iter().zip(self.d.solution(b))) {
+            let name = self.d.names.plain(*u);
+            let symbol = Expr::symbol(name);
+            if value.is_zero() {
+                self.zero.insert(*u);
+            }
+            let math = words::related(&symbol, "=", &value);
+            let id = self.step(Vec::new(), vec![Claim::new(symbol, value)], lead);
+            if self.d.answers.iter().any(|a| a.name == name) {
+                self.told.insert(Symbol::from(name));
+                let step = Some(id);
+                self.push(Part::Result(vec![Line { math, step }]));
+            }
+        }
+        for question in self.scene.asked_of_impact() {
+            if self.is_derived(question)
+                && !self.is_open(question)
+                && self.detail() != Detail::Brief
+            {
+                let heading = self.heading(question);
+                self.section(heading);
+                self.derived(question);
+            }
+        }
+    }
+
     /// A case whose results can be read off an earlier one; `rubs` is what its rough contact does.
     pub(super) fn again(&mut self, rubs: &str, again: &Again) {
         let Some(name) = &again.opposite else {
@@ -30,18 +60,39 @@ impl Writer<'_> {
             return self.text(vec![say(words)]);
         };
         let mu = Expr::symbol(name);
-        self.text(vec![
-            say(format!(
-                "Friction acts the other way: the results are those of case {} with ",
-                again.case
-            )),
-            words::formula(&-&mu),
-            say(" in place of "),
-            words::formula(&mu),
-            say("."),
-        ]);
+        let case = say(again.case.to_string());
+        self.text(fill(
+            "Friction acts the other way: the results are those of case # with # in place of #.",
+            [case, words::formula(&-&mu), words::formula(&mu)],
+        ));
         self.boxed();
     }
+}
+
+/// The earlier stage, and its case, into which the bodies came with the same motion as into this one, and left with the same.
+pub(super) fn in_earlier(told: &Told, [i, k]: [usize; 2]) -> Option<[usize; 2]> {
+    let moves = |case: &Case| {
+        let all = case.derivation.motion.iter();
+        let all = all.filter(|(u, _)| !u.is_impulse());
+        all.map(|(u, e)| (*u, e.clone())).collect::<Vec<_>>()
+    };
+    let here = &told.stages[i];
+    let own = moves(&here.cases[k]);
+    let begins = |s: &State| {
+        (
+            s.center.clone(),
+            s.angle.clone(),
+            s.velocity.clone(),
+            s.spin.clone(),
+        )
+    };
+    (0..i).find_map(|j| {
+        let there = &told.stages[j];
+        let mut cases = there.cases.iter();
+        let case =
+            cases.position(|case| moves(case) == own && case.handed == here.cases[k].handed)?;
+        (begins(&there.before) == begins(&here.before)).then_some([j, case])
+    })
 }
 
 /// The first case before one, by index, that has its results already.
@@ -125,12 +176,36 @@ pub(super) fn share(known: &mut Vec<Shared>, case: usize, sections: &mut [Sectio
             let first = words.split(". ").next().unwrap_or(words);
             let first = first.trim_end_matches(['.', ':', ',']);
             let comma = if first.ends_with(" are") { "" } else { "," };
-            let text = format!("{first}{comma} as in case {}.", earlier.case);
-            section.parts[p - 1] = Part::Text(vec![say(text)]);
+            let there = format!("{comma} as in case {}.", earlier.case);
+            let text = match section.parts[..p - 1].last() {
+                Some(Part::Text(before)) => joined(before, first, &there),
+                _ => None,
+            };
             section.parts.remove(p);
+            match text {
+                Some(text) => {
+                    section.parts.remove(p - 1);
+                    p -= 1;
+                    section.parts[p - 1] = Part::Text(vec![say(text)]);
+                }
+                None => section.parts[p - 1] = Part::Text(vec![say(format!("{first}{there}"))]),
+            }
         }
     }
     known.append(&mut fresh);
+}
+
+/// Two laws of an earlier case that differ in their last word, such as a direction, in one sentence: the one that points there
+/// already, and the next.
+fn joined(before: &[Inline], next: &str, there: &str) -> Option<String> {
+    let [Inline::Text(words)] = before else {
+        return None;
+    };
+    let first = words.strip_suffix(there)?;
+    let (same, last) = next.rsplit_once(' ')?;
+    let rest = first.strip_prefix(same)?.strip_prefix(' ')?;
+    let is_row = rest.split(" and ").all(|word| !word.contains(' '));
+    is_row.then(|| format!("{first} and {last}{there}"))
 }
 
 /// A law in words and the equations it gives; `None` for anything else, such as a solution of equations.

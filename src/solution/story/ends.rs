@@ -11,6 +11,9 @@ use crate::solution::words::{self, say};
 use crate::solution::{Claim, Detail, Inline, Line, Math, Meaning, Part};
 use crate::story::{Case, StageTold, Step};
 
+/// Largest ratio of two velocities, in nodes, that needs no reason.
+const RATIO: usize = 8;
+
 /// What stands at the end of a stage.
 #[derive(Default)]
 struct End {
@@ -108,7 +111,8 @@ impl Page<'_> {
         let by_energy = || self.lost(here, &ask);
         let by_rolling = || self.rolled(here, &ask, formula);
         let flown = self.flown(here, &ask, answer).or_else(by_energy);
-        let flown = flown.or_else(by_rolling);
+        let by_ratio = || self.tied(here, &ask, answer, formula);
+        let flown = flown.or_else(by_rolling).or_else(by_ratio);
         let found = |s: &&Step| {
             let answering = self.answering(here, s);
             answering.is_some_and(|a| a.name == answer.name)
@@ -181,6 +185,47 @@ impl Page<'_> {
             let by = |speed: &Expr| &way * speed / radius;
             [by(&self.letter_of(told, speed)), by(&speed.value)]
         })
+    }
+
+    /// What strings tie to the body that moves along a line, in a fixed ratio to what stands above: half as fast, or turning
+    /// with the string over a radius.
+    fn tied(
+        &self,
+        told: &StageTold,
+        ask: &Ask,
+        answer: &Answer,
+        value: &Expr,
+    ) -> Option<[Expr; 2]> {
+        let letter = match ask {
+            Ask::Acceleration { .. } => "a",
+            Ask::Velocity { point: None, .. } | Ask::Spin { .. } => "v",
+            _ => return None,
+        };
+        let is_own = |s: &Step| {
+            self.answering(told, s)
+                .is_some_and(|a| a.name == answer.name)
+        };
+        let StageKind::Slide(slide) = &told.placed.kind else {
+            return None;
+        };
+        if slide.strings.is_empty() || value.is_zero() || told.steps.iter().any(is_own) {
+            return None;
+        }
+        let step = told
+            .steps
+            .iter()
+            .find(|s| s.letter == letter && !s.value.is_zero())?;
+        let others = self.answered(told).filter(|a| {
+            let is_told = self.solution.meanings.contains_key(a.name.as_str());
+            letter == "v"
+                && is_told
+                && matches!(self.ask(a), Some(Ask::Velocity { point: None, .. }))
+        });
+        let others = others.filter_map(|a| Some((Expr::symbol(&a.name), a.formula()?)));
+        let all = others.chain([(self.letter_of(told, step), &step.value)]);
+        let ratios = all.map(|(of, size)| (tidied(self.scene, &(value / size)), of, size));
+        let (ratio, of, size) = ratios.min_by_key(|(ratio, ..)| ratio.size())?;
+        (ratio.size() <= RATIO).then(|| [&ratio * of, &ratio * size])
     }
 
     /// The speed that is asked for at the end of a motion: its formula in the components of a velocity, and the answer.

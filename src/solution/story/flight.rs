@@ -7,7 +7,7 @@ use crate::expr::{Expr, Symbol, Vector, dot};
 use crate::scene::{Ask, Fall, FallEnd, StageKind};
 use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::words::{self, name, say};
-use crate::solution::{Claim, Line, Math, Part};
+use crate::solution::{Claim, Line, Math};
 use crate::story::StageTold;
 
 /// The letter of the time of a flight, where nothing else bears it.
@@ -48,7 +48,10 @@ impl Page<'_> {
             text.push(say(" and leaves its horizontal velocity as it is"));
         }
         text.push(say("."));
-        self.solution.text(text);
+        // What a flight is like is told once.
+        if !self.solution.says(&text) {
+            self.solution.text(text);
+        }
         let mut lines = Vec::new();
         let by_height = matches!(fall.until, FallEnd::Drop(_));
         for b in bodies.iter().filter(|_| fall.gravity.is_some()) {
@@ -75,9 +78,7 @@ impl Page<'_> {
             let head = Math::Expr(Expr::symbol(TIME));
             lines.push(self.defined(head, &raw, time, "the time of the flight"));
         }
-        if !lines.is_empty() {
-            self.solution.push(Part::Display(lines));
-        }
+        self.solution.display(lines);
         true
     }
 
@@ -195,12 +196,7 @@ impl Page<'_> {
 
     /// Whether something of a kind is answered at the end of a stage.
     pub(super) fn asked(&self, told: &StageTold, is: impl Fn(&Ask) -> bool) -> bool {
-        self.answered(told).any(|a| {
-            self.scene
-                .questions
-                .iter()
-                .any(|q| q.name == a.question && is(&q.ask))
-        })
+        self.to(told, is).is_some()
     }
 
     /// A flight that is told by its acceleration, and its time: each but those whose energy is asked for, or in which

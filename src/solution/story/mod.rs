@@ -169,7 +169,17 @@ impl Page<'_> {
             }
         } else {
             self.from(i);
-            match told.words.as_slice() {
+            // What happens may stand with an earlier stage.
+            let said = self.told.stages[..i]
+                .iter()
+                .flat_map(|s| &s.words)
+                .collect::<Vec<_>>();
+            let is_case = |w: &Sentence| on_condition(&w) && said.contains(&w);
+            let words = match told.words.iter().all(is_case) {
+                true => &[],
+                false => told.words.as_slice(),
+            };
+            match words {
                 [] => {}
                 [one] => self.solution.text(full_sentence(self.scene, one)),
                 all => {
@@ -203,6 +213,13 @@ impl Page<'_> {
         }
         if told.cases.is_empty() {
             self.asked_of(i, 0, begins);
+        }
+        let all = &self.solution.sections[begins..];
+        let is_empty = |p: &Part| matches!(p, Part::Figure(_));
+        if brief && all.iter().flat_map(|s| &s.parts).all(is_empty) {
+            let sentences = told.words.iter().map(|w| full_sentence(self.scene, w));
+            let sentences: Vec<_> = sentences.collect();
+            self.solution.text(sentences.join(&say(" ")));
         }
         if brief || !told.cases.is_empty() {
             return;
@@ -297,13 +314,24 @@ impl Page<'_> {
         if self.solution.detail != Detail::Brief && !several {
             writer.case();
         }
-        if self.solution.detail != Detail::Brief {
-            writer.given_after();
-        }
+        writer.given_after();
         let full = self.solution.detail == Detail::Full;
-        match cases::again(self.scene, &told.cases, k).filter(|_| !full) {
-            Some(again) => writer.again(&case.rubs, &again),
-            None => {
+        let earlier = cases::in_earlier(self.told, [i, k]).filter(|_| !full);
+        let again = cases::again(self.scene, &told.cases, k).filter(|_| !full);
+        match (earlier, again) {
+            (Some([j, c]), _) => {
+                let there = &self.told.stages[j];
+                let stage = sentence::called(self.scene, &words::stage(&there.name));
+                let which = match there.cases.len() {
+                    1 => String::new(),
+                    _ => format!("case {} of ", c + 1),
+                };
+                writer.in_earlier(&format!(
+                    "The equations are those of {which}{stage}, and so is the motion just after:"
+                ));
+            }
+            (None, Some(again)) => writer.again(&case.rubs, &again),
+            (None, None) => {
                 writer.blocks();
                 if !derivation.definitions.is_empty() {
                     writer.results();

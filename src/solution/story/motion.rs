@@ -6,8 +6,8 @@ use crate::answer::Answer;
 use crate::expr::{Expr, Symbol, dot, minus};
 use crate::scene::{Ask, Linkage, Slide, SlideEnd, Spring, Stage, StageKind, Turn, Until};
 use crate::solution::neat::{alike, neat, tidied};
-use crate::solution::words::{self, name, say};
-use crate::solution::{Claim, Line, Math, Part};
+use crate::solution::words::{self, fill, name, say, set, vector};
+use crate::solution::{Claim, Line, Math};
 use crate::story::{StageTold, State, is_clockwise};
 
 impl Page<'_> {
@@ -30,9 +30,7 @@ impl Page<'_> {
         }
         let mut lines: Vec<Line> = self.inertia(stage, told).into_iter().collect();
         if self.is_of_moments(told) {
-            if !lines.is_empty() {
-                self.solution.push(Part::Display(lines));
-            }
+            self.solution.display(lines);
             return self.whirled(stage, told);
         }
         if let StageKind::Linkage(linkage) = &stage.kind {
@@ -54,17 +52,17 @@ impl Page<'_> {
         lines.push(self.chain(vec![words::kinetic("", "-")], &raw, start, why));
         if let Some(spring) = pressing {
             lines.extend(self.pressed(told, spring));
-            self.solution.push(Part::Display(lines));
+            self.solution.display(lines);
             return self.whirled(stage, told);
         }
         if let Some(turn) = stopping {
             if let Some(g) = &turn.gravity {
-                self.solution.push(Part::Display(lines));
+                self.solution.display(lines);
                 return self.rise(stage, told, turn, g);
             }
             if let Some(line) = self.braked(told, turn) {
                 lines.push(line);
-                self.solution.push(Part::Display(lines));
+                self.solution.display(lines);
                 return self.stopped(told, turn);
             }
         }
@@ -72,11 +70,11 @@ impl Page<'_> {
         lines.extend(self.speed(stage, told));
         if let (Some([inertia, _]), StageKind::Linkage(linkage)) = (&told.inertia, &stage.kind) {
             let square = self.rate(linkage).powi(2);
-            let energy = Math::Expr(Expr::ratio(1, 2) * inertia * square);
-            let math = vec![energy, Math::Op("="), words::kinetic("", "+")];
-            lines.push(Line { math, step: None });
+            let energy = Expr::ratio(1, 2) * inertia * square;
+            let energies = [energy.into(), words::kinetic("", "+")];
+            lines.push(Line::plain(set("# = #", energies)));
         }
-        self.solution.push(Part::Display(lines));
+        self.solution.display(lines);
         self.whirled(stage, told);
     }
 
@@ -135,16 +133,12 @@ impl Page<'_> {
             lines.push(self.chain(vec![letter(what)], raw, value, &why));
         }
         let after = start + &Expr::sum(told.work.iter().map(|(_, w)| w.clone()));
-        let mut math = vec![
-            words::kinetic("", "+"),
-            Math::Op("="),
-            words::kinetic("", "-"),
-        ];
+        let mut math = set("# = #", ["+", "-"].map(|mark| words::kinetic("", mark)));
         for (what, _) in &told.work {
-            math.extend([Math::Op("+"), letter(what)]);
+            math.extend(set("+ #", [letter(what)]));
         }
         if !named {
-            math.extend([Math::Op("="), Math::Expr(end.clone())]);
+            math.extend(set("= #", [end.into()]));
         }
         let why = "work changes kinetic energy";
         lines.push(self.claimed(math, &after, end, why));
@@ -158,14 +152,16 @@ impl Page<'_> {
         )];
         if !to_rest {
             for (what, _) in &told.work {
-                letters.push(match (told.work.len(), *what) {
-                    (1, _) => (name("W", "", "", false), "the work done on the way"),
-                    (_, "weight") => (name("W", what, "", false), "the work of the weight"),
-                    (_, "friction") => (name("W", what, "", false), "the work of friction"),
-                    (_, "spring") => (name("W", what, "", false), "the work of the spring"),
-                    (_, "moment") => (name("W", what, "", false), "the work of the moment"),
-                    _ => (name("W", what, "", false), "the work of the force"),
-                });
+                let alone = told.work.len() == 1;
+                let why = match *what {
+                    _ if alone => "the work done on the way",
+                    "weight" => "the work of the weight",
+                    "friction" => "the work of friction",
+                    "spring" => "the work of the spring",
+                    "moment" => "the work of the moment",
+                    _ => "the work of the force",
+                };
+                letters.push((name("W", if alone { "" } else { what }, "", false), why));
             }
             letters.push((words::kinetic("", "+"), "the kinetic energy at the end"));
         }
@@ -173,11 +169,16 @@ impl Page<'_> {
     }
 
     /// The answer of a stage to a question of this kind.
-    fn to(&self, told: &StageTold, is: fn(&Ask) -> bool) -> Option<&Answer> {
-        self.answered(told).find(|answer| {
-            let mut questions = self.scene.questions.iter();
-            questions.any(|q| q.name == answer.question && is(&q.ask))
-        })
+    pub(super) fn to(&self, told: &StageTold, is: impl Fn(&Ask) -> bool) -> Option<&Answer> {
+        self.answered(told)
+            .find(|answer| self.ask(answer).is_some_and(&is))
+    }
+
+    /// What an answer is the answer to.
+    pub(super) fn ask(&self, answer: &Answer) -> Option<&Ask> {
+        let mut questions = self.scene.questions.iter();
+        let question = questions.find(|q| q.name == answer.question);
+        question.map(|q| &q.ask)
     }
 
     /// How a spring stops a body: the work of all forces on the way takes up the kinetic energy.
@@ -200,11 +201,10 @@ impl Page<'_> {
         let claim = Claim::new(start + total, end.clone());
         let why = "the work of all forces takes up the kinetic energy";
         let step = Some(self.solution.step(Vec::new(), vec![claim], why));
-        let mut math = vec![words::kinetic("", "-"), Math::Op("=")];
-        math.push(Math::Expr(neat(self.scene, &-work)));
+        let taken = neat(self.scene, &-work);
+        let mut math = set("# = #", [words::kinetic("", "-"), taken.into()]);
         if asked.is_none() {
-            math.extend([Math::Op("⇒"), Math::Expr(symbol)]);
-            math.extend([Math::Op("="), Math::Expr(way.clone())]);
+            math.extend(set("⇒ # = #", [symbol.into(), way.into()]));
         }
         Some(Line { math, step })
     }
@@ -217,8 +217,8 @@ impl Page<'_> {
         let opposite = tidied(self.scene, &-turned);
         let is_size = [turned, &opposite].contains(&through.formula()?);
         let work = braking * Expr::symbol(&through.name);
-        let math = vec![Math::Expr(work), Math::Op("="), words::kinetic("", "-")];
-        is_size.then_some(Line { math, step: None })
+        let math = set("# = #", [work.into(), words::kinetic("", "-")]);
+        is_size.then_some(Line::plain(math))
     }
 
     /// When a moment alone has stopped a rotation: its angular impulse takes up the angular momentum.
@@ -239,8 +239,7 @@ impl Page<'_> {
         let math = words::related(&impulse, "=", &momentum);
         self.solution
             .say("In the time it takes, the moment takes up the angular momentum as well:");
-        self.solution
-            .push(Part::Display(vec![Line { math, step: None }]));
+        self.solution.display(vec![Line::plain(math)]);
     }
 
     /// Whether another stage takes over where this one ends.
@@ -292,11 +291,9 @@ impl Page<'_> {
         let g = turn.gravity.as_ref().unwrap_or(&zero);
         let mut lines = Vec::new();
         for answer in self.answered(told).cloned().collect::<Vec<_>>() {
-            let mut questions = self.scene.questions.iter();
-            let ask = questions.find(|q| q.name == answer.question);
             let Some(Ask::AngularAcceleration {
                 clockwise, at_end, ..
-            }) = ask.map(|q| &q.ask)
+            }) = self.ask(&answer)
             else {
                 continue;
             };
@@ -315,16 +312,16 @@ impl Page<'_> {
             let claim = Claim::new(inertia * value, moment.clone());
             let why = "moment of inertia times angular acceleration = moments";
             let step = Some(self.solution.step(Vec::new(), vec![claim], why));
-            let symbol = Math::Expr(Expr::symbol(&answer.name));
+            let symbol = Expr::symbol(&answer.name);
             let inertia = name("I", &turn.about_name, "", false);
-            let math = vec![inertia, symbol, Math::Op("="), Math::Expr(moment)];
+            let math = set("# # = #", [inertia, symbol.into(), moment.into()]);
             lines.push(Line { math, step });
         }
         self.solution.say(&format!(
             "The moments about {} over the moment of inertia give the angular acceleration:",
             turn.about_name
         ));
-        self.solution.push(Part::Display(lines));
+        self.solution.display(lines);
     }
 
     /// The speed with which a motion ends, from its energy, where the next stage takes it over and no question asks for it.
@@ -374,8 +371,8 @@ impl Page<'_> {
         let asked = self.answered(told).find(|a| a.formula() == Some(&speed));
         if let Some(answer) = asked.filter(|_| letter == "v") {
             let energy = Expr::ratio(1, 2) * &inertia * Expr::symbol(&answer.name).powi(2);
-            let math = vec![Math::Expr(energy), Math::Op("="), words::kinetic("", "+")];
-            return Some(Line { math, step: None });
+            let math = set("# = #", [energy.into(), words::kinetic("", "+")]);
+            return Some(Line::plain(math));
         }
         // No name of a scene ends so.
         let symbol = Symbol::from(format!("{letter}⁺").as_str());
@@ -383,16 +380,10 @@ impl Page<'_> {
         self.solution.names.insert(symbol.clone(), latex);
         let symbol = Expr::symbol(&symbol);
         let energy = Expr::ratio(1, 2) * &inertia * symbol.powi(2);
-        let math = vec![
-            Math::Expr(energy),
-            Math::Op("="),
-            words::kinetic("", "+"),
-            Math::Op("⇒"),
-            Math::Expr(symbol),
-            Math::Op("="),
-            Math::Expr(speed),
-        ];
-        Some(Line { math, step: None })
+        let kinetic = words::kinetic("", "+");
+        let parts = [energy.into(), kinetic, symbol.into(), speed.into()];
+        let math = set("# = # ⇒ # = #", parts);
+        Some(Line::plain(math))
     }
 
     /// The moment of inertia of bodies that turn as one, each by I + m r² about the fixed point.
@@ -434,41 +425,30 @@ impl Page<'_> {
             });
             let [x, y, angle] = per;
             if !(x.is_zero() && y.is_zero()) {
-                let math = vec![
-                    name("v", &called, "", true),
-                    Math::Op("="),
-                    Math::Vector([x, y]),
-                ];
-                lines.push(Line { math, step: None });
+                let math = set("# = #", [vector("v", &called, ""), [x, y].into()]);
+                lines.push(Line::plain(math));
             }
             if !scene.bodies[*b].is_particle() && !angle.is_zero() {
                 let index = if called == "G" { "" } else { &called };
-                let math = vec![
-                    name("omega", index, "", false),
-                    Math::Op("="),
-                    Math::Expr(angle),
-                ];
-                lines.push(Line { math, step: None });
+                let omega = name("omega", index, "", false);
+                lines.push(Line::plain(set("# = #", [omega, angle.into()])));
             }
         }
         let coordinate = Expr::symbol(&linkage.coordinate);
-        let mut text = vec![
-            say("The position of every body follows from "),
-            words::formula(&coordinate),
-            say(", and its velocity from the rate "),
-            words::formula(&rate),
-            say("; translation and rotation together make up the kinetic energy"),
-        ];
+        let both = [&coordinate, &rate].map(words::formula);
+        let mut text = fill(
+            "The position of every body follows from #, and its velocity from the rate #; translation and rotation together make up the kinetic energy",
+            both,
+        );
         if linkage.ends[0] == coordinate {
-            text.extend([
-                say(" (here "),
-                words::formula(&coordinate),
-                say(" is the value on the way, elsewhere the one at the beginning)"),
-            ]);
+            text.extend(fill(
+                " (here # is the value on the way, elsewhere the one at the beginning)",
+                [words::formula(&coordinate)],
+            ));
         }
         text.push(say(":"));
         self.solution.text(text);
-        self.solution.push(Part::Display(lines));
+        self.solution.display(lines);
     }
 
     /// Kinetic energy of what moves in a stage, from the velocities of this state, term by term; a spin or speed that has a name

@@ -6,7 +6,7 @@ use crate::expr::{Expr, Node, Symbol, dot};
 use crate::scene::{Ask, SlideEnd, StageKind};
 use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::words::{self, name, say};
-use crate::solution::{Claim, Detail, Inline, Line, Math, Meaning, Part};
+use crate::solution::{Claim, Detail, Inline, Line, Math, Meaning};
 use crate::story::{StageTold, Step};
 
 /// Smallest formula, in nodes, whose name is worth standing for it.
@@ -36,11 +36,7 @@ impl Page<'_> {
             });
         }
         for step in steps {
-            let mark = if matches!(step.letter, "v" | "V" | "omega") {
-                "+"
-            } else {
-                ""
-            };
+            let mark = mark(step);
             // What is asked for goes by the name of its answer, and stands in the box.
             let answer = self.answering(told, step);
             let letter = match answer {
@@ -72,7 +68,16 @@ impl Page<'_> {
             if !is_boxed {
                 math.extend([letter, Math::Op("=")]);
                 math.extend(self.made_of(told, step));
-                math.push(Math::Expr(step.value.clone()));
+                // What it is made of may stand in the box that comes next.
+                let boxed = |s: &&Step| {
+                    let answer = self.answering(told, s);
+                    answer.is_some_and(|a| is_made_of(&math, &a.name))
+                };
+                if told.steps.iter().any(|s| boxed(&s)) {
+                    math.pop();
+                } else {
+                    math.push(Math::Expr(step.value.clone()));
+                }
             }
             lines.push(Line {
                 math,
@@ -84,9 +89,7 @@ impl Page<'_> {
                 .say("The forces along the line balance, so the velocity stays as it is.");
         }
         self.meant(letters);
-        if !lines.is_empty() {
-            self.solution.push(Part::Display(lines));
-        }
+        self.solution.display(lines);
     }
 
     /// What letters stand for; what was told of an earlier motion is not told again.
@@ -157,6 +160,17 @@ impl Page<'_> {
             "t" => is_asked || told.steps.iter().any(|s| !s.by_time.is_empty()),
             "s" => is_asked,
             "a" | "v" | "omega" if self.is_steady(told) => self.answering(told, step).is_some(),
+            "v" | "V" => {
+                let moves = |ask: &Ask| {
+                    matches!(
+                        ask,
+                        Ask::Velocity { .. } | Ask::Spin { .. } | Ask::Energy { .. }
+                    )
+                };
+                self.answering(told, step).is_some()
+                    || self.goes_on(told)
+                    || self.asked(told, moves)
+            }
             // What is asked the other way round stands in the box alone.
             "omega" => {
                 let spins = self.asked(told, |ask| matches!(ask, Ask::Spin { .. }));
@@ -182,6 +196,10 @@ impl Page<'_> {
         let own = match self.index(told, step) {
             "" => String::from(step.letter),
             index => format!("{}_{index}", step.letter),
+        };
+        let own = match mark(step) {
+            "" => own,
+            mark => format!("{own}^{mark}"),
         };
         let answer = self.answering(told, step);
         Expr::symbol(answer.map_or(own.as_str(), |a| a.name.as_str()))
@@ -227,10 +245,13 @@ impl Page<'_> {
                 };
                 Expr::sum(powers.map(|(k, n)| self.by_names(&named(k), &step.value) * time.powi(n)))
             }
-            None => {
-                let raw = self.by_names(&step.raw, &step.value);
-                self.by_letter(told, "a", WORTH_A_NAME, &raw)
-            }
+            None => match self.steadily(told, step) {
+                Some(raw) => raw,
+                None => {
+                    let raw = self.by_names(&step.raw, &step.value);
+                    self.by_letter(told, "a", WORTH_A_NAME, &raw)
+                }
+            },
         };
         let raw = match self.start(told) {
             Some((symbol, value)) => replaced(&raw, &value, &symbol),
@@ -241,6 +262,20 @@ impl Page<'_> {
         match alike(&raw, &step.value) || written(&raw) == written(&step.value) {
             true => Vec::new(),
             false => vec![Math::Expr(raw), Math::Op("=")],
+        }
+    }
+
+    /// The way or the time of a motion whose velocity stays as it is, by that velocity.
+    fn steadily(&self, told: &StageTold, step: &Step) -> Option<Expr> {
+        let StageKind::Slide(slide) = &told.placed.kind else {
+            return None;
+        };
+        let along = dot(&told.before.velocity[slide.body], &slide.along);
+        let speed = self.named(&tidied(self.scene, &along));
+        match (self.is_steady(told), step.letter) {
+            (true, "s") => Some(speed * told.time.as_ref()?),
+            (true, "t") => Some(told.way.as_ref()? / &speed),
+            _ => None,
         }
     }
 
@@ -255,12 +290,8 @@ impl Page<'_> {
             "T" | "S" => matches!(ask, Ask::Tension { .. }),
             _ => false,
         };
-        let asked = |a: &&Answer| {
-            let mut questions = self.scene.questions.iter();
-            questions.any(|q| q.name == a.question && fits(&q.ask))
-        };
-        let mut answers = self.answered(told).filter(asked);
-        answers.find(|a| a.formula() == Some(&step.value))
+        let mut answers = self.answered(told);
+        answers.find(|a| a.formula() == Some(&step.value) && self.ask(a).is_some_and(fits))
     }
 
     /// The answers at the end of a stage; one that is not reached has none.
@@ -311,6 +342,20 @@ impl Page<'_> {
             Some(_) => e.clone(),
             None => out,
         }
+    }
+}
+
+/// Whether a formula under way holds this symbol.
+fn is_made_of(math: &[Math], name: &str) -> bool {
+    let mut all = math.iter().skip(1);
+    all.any(|m| matches!(m, Math::Expr(e) if e.mentions(name)))
+}
+
+/// The mark of a step's letter: `+` for the velocity or spin at the end.
+fn mark(step: &Step) -> &'static str {
+    match step.letter {
+        "v" | "V" | "omega" => "+",
+        _ => "",
     }
 }
 

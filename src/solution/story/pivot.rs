@@ -7,7 +7,7 @@ use crate::scene::{Ask, StageKind, Turn};
 use crate::solution::known::number;
 use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::opening::NUMBERS;
-use crate::solution::words::{self, name, say};
+use crate::solution::words::{self, fill, name, say, set, vector};
 use crate::solution::{Claim, Inline, Line, Math, Meaning, Part};
 use crate::story::StageTold;
 
@@ -34,13 +34,10 @@ impl Page<'_> {
             let when = if *at_end { "end" } else { "beginning" };
             let at = &turn.about_name;
             let stage = words::stage(&told.name);
-            self.solution.section(
-                1,
-                vec![
-                    say(format!("Force at {at} at the {when} of {stage} along ")),
-                    Inline::Math(vec![Math::Vector(along.clone())]),
-                ],
-            );
+            let along_it = Inline::Math(vec![along.clone().into()]);
+            let parts = [say(at), say(when), say(stage), along_it];
+            let heading = fill("Force at # at the # of # along #", parts);
+            self.solution.section(1, heading);
             let raw = match &turn.torque {
                 None => self.on_a_circle(told, turn, along, *at_end),
                 Some(_) => None,
@@ -107,26 +104,28 @@ impl Page<'_> {
             words::capital(&who)
         ));
         let square_of = || name("omega", "", "2", false);
-        let arm_name = || name("r", &format!("{g}/{at}"), "", true);
+        let arm_name = || vector("r", &format!("{g}/{at}"), "");
         let mut lines = Vec::new();
-        let mut show = |math| lines.push(Line { math, step: None });
         if !square.is_zero() {
-            show(vec![square_of(), Math::Op("="), Math::Expr(square.clone())]);
+            lines.push(set("# = #", [square_of(), square.clone().into()]));
         }
-        let mut math = vec![name("a", &g, "", true), Math::Op("=")];
+        let mut math = set("# =", [vector("a", &g, "")]);
         if !angular.is_zero() {
             let raw = neat(self.scene, &(&moment / inertia));
-            let alpha = vec![name("alpha", "", "", false), Math::Op("="), Math::Expr(raw)];
-            let value = [Math::Op("="), Math::Expr(angular.clone())];
-            show(alpha.into_iter().chain(value).collect());
-            math.extend([name("alpha", "", "", true), Math::Op("×"), arm_name()]);
+            let alpha = name("alpha", "", "", false);
+            lines.push(set(
+                "# = # = #",
+                [alpha, raw.into(), angular.clone().into()],
+            ));
+            math.extend(set("# × #", [vector("alpha", "", ""), arm_name()]));
         }
         if !square.is_zero() {
-            math.extend([Math::Op("−"), square_of(), arm_name()]);
+            math.extend(set("− # #", [square_of(), arm_name()]));
         }
-        math.extend([Math::Op("="), Math::Vector(acceleration.clone())]);
-        show(math);
-        self.solution.push(Part::Display(lines));
+        math.extend(set("= #", [acceleration.clone().into()]));
+        lines.push(math);
+        let lines = lines.into_iter().map(Line::plain);
+        self.solution.display(lines.collect());
         let force = [
             &lump.mass * &acceleration[0],
             &lump.mass * &acceleration[1] - &weight[1],
@@ -160,9 +159,8 @@ impl Page<'_> {
         let step = Some(id);
         self.solution.push(Part::Result(vec![Line { math, step }]));
         if let Some(number) = number(self.scene, answer) {
-            let number = say(format!("{number}."));
-            self.solution
-                .text(vec![say(NUMBERS), words::formula(&symbol), number]);
+            let parts = [say(NUMBERS), words::formula(&symbol), say(number)];
+            self.solution.text(fill("###.", parts));
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::answer::Answer;
 use crate::expr::{Expr, Symbol};
 use crate::scene::{Ask, StageKind};
 use crate::solution::neat::tidied;
-use crate::solution::words::{self, name};
+use crate::solution::words::{self, set, vector};
 use crate::solution::{Line, Math};
 use crate::story::StageTold;
 
@@ -38,25 +38,17 @@ impl Page<'_> {
         let arm = [0, 1].map(|k| &(&told.after.center[*body][k] + &from_center[k]) - &from[k]);
         let arm = arm.map(|e| tidied(self.scene, &e));
         let spin = self.named(&told.after.spin[*body]);
-        let mut math = vec![name("v", point, "+", true), Math::Op("=")];
+        let mut math = set("# =", [vector("v", point, "+")]);
         if carrier.is_some() {
-            math.extend([name("v", &base, "+", true), Math::Op("+")]);
+            math.extend(set("# +", [vector("v", &base, "+")]));
         }
-        math.extend([
-            words::spin(self.scene, *body, "+"),
-            Math::Op("×"),
-            name("r", &format!("{point}/{base}"), "", true),
-            Math::Op("="),
-        ]);
+        let r = vector("r", &format!("{point}/{base}"), "");
+        math.extend(set("# × # =", [words::spin(self.scene, *body, "+"), r]));
         if let Some(velocity) = carrier {
-            math.extend([Math::Brackets(vec![Math::Vector(velocity)]), Math::Op("+")]);
+            math.extend(set("(#) +", [velocity.into()]));
         }
-        math.extend([
-            Math::Brackets(vec![Math::Along(spin)]),
-            Math::Op("×"),
-            Math::Brackets(vec![Math::Vector(arm)]),
-        ]);
-        vec![Line { math, step: None }]
+        math.extend(set("(#) × (#)", [Math::Along(spin), arm.into()]));
+        vec![Line::plain(math)]
     }
 
     /// Whether this answer is the kinetic energy at the end of a motion.
@@ -88,9 +80,11 @@ impl Page<'_> {
         if !body.is_particle() || !gives || self.kinematic(told).is_some() {
             return None;
         }
-        let left = Math::Expr(energy(&Expr::symbol(symbol)));
-        let math = vec![left, Math::Op("="), words::kinetic("", "+")];
-        Some(Line { math, step: None })
+        let left = energy(&Expr::symbol(symbol));
+        Some(Line::plain(set(
+            "# = #",
+            [left.into(), words::kinetic("", "+")],
+        )))
     }
 
     /// The kinetic energy at the end in terms of the speed or spin that is asked for, ½ I ω² = T⁺, where that gives its value.
@@ -125,8 +119,10 @@ impl Page<'_> {
         if !is_told || tidied(self.scene, &energy(value)) != tidied(self.scene, end) {
             return None;
         }
-        let left = Math::Expr(energy(&Expr::symbol(symbol)));
-        let math = vec![left, Math::Op("="), words::kinetic("", "+")];
-        Some(Line { math, step: None })
+        let left = energy(&Expr::symbol(symbol));
+        Some(Line::plain(set(
+            "# = #",
+            [left.into(), words::kinetic("", "+")],
+        )))
     }
 }

@@ -6,8 +6,8 @@ use crate::answer::calc::is_zero;
 use crate::expr::{Expr, Symbol, dot, minus};
 use crate::scene::{Ask, Stage, Turn};
 use crate::solution::neat::tidied;
-use crate::solution::words::{self, say};
-use crate::solution::{Claim, Line, Math, Meaning, Part};
+use crate::solution::words::{self, fill, say, set};
+use crate::solution::{Claim, Line, Meaning};
 use crate::story::StageTold;
 
 impl Page<'_> {
@@ -36,11 +36,10 @@ impl Page<'_> {
         self.solution
             .meanings
             .insert(letter.clone(), Meaning::Defined);
-        self.solution.text(vec![
-            say("The rotation ends where weight has taken up the kinetic energy. The center of mass has then risen by "),
-            words::formula(&h),
-            say(":"),
-        ]);
+        self.solution.text(fill(
+            "The rotation ends where weight has taken up the kinetic energy. The center of mass has then risen by #:",
+            [words::formula(&h)],
+        ));
         let claim = Claim::new(h.clone(), height.clone());
         let step = self
             .solution
@@ -48,31 +47,17 @@ impl Page<'_> {
         if let Some(step) = self.solution.steps.last_mut() {
             step.defines = Some(letter);
         }
-        let balance = vec![
-            Math::Expr(&weight * &h),
-            Math::Op("="),
-            words::kinetic("", "-"),
-        ];
-        let risen = words::related(&h, "=", &height);
-        let lines = vec![
-            Line {
-                math: balance,
-                step: None,
-            },
-            Line {
-                math: risen,
-                step: Some(step),
-            },
-        ];
+        let balance = set("# = #", [(&weight * &h).into(), words::kinetic("", "-")]);
+        let math = words::related(&h, "=", &height);
+        let step = Some(step);
+        let lines = vec![Line::plain(balance), Line { math, step }];
         let arm = minus(&lump.center, &turn.about).map(|e| tidied(self.scene, &e));
         let length = tidied(self.scene, &dot(&arm, &arm).sqrt());
         let from_below = is_zero(&(&arm[1] + &length), &self.scene.domains) == Some(true);
-        let angle = self.answered(told).find(|a| {
-            let mut questions = self.scene.questions.iter();
-            questions.any(|q| q.name == a.question && matches!(q.ask, Ask::Angle { .. }))
-        });
-        let angle = angle.cloned();
-        self.solution.push(Part::Display(lines));
+        let angle = self
+            .to(told, |ask| matches!(ask, Ask::Angle { .. }))
+            .cloned();
+        self.solution.display(lines);
         // A body that began level with the fixed point rises by its distance times the sine, if the angle counts its way.
         let counted = |angle: &Answer| match told.turned.as_ref() == angle.formula() {
             true => arm[0].clone(),
@@ -93,19 +78,14 @@ impl Page<'_> {
                 "above" => (turned.sin(), &length * turned.sin()),
                 _ => (cosine.clone(), &length * (Expr::one() - cosine)),
             };
-            self.solution.text(vec![
-                say(format!(
-                    "It began {first} {}, at the distance ",
-                    turn.about_name
-                )),
-                words::formula(&length),
-                say(" from it, and is in the end that distance times "),
-                words::formula(&part),
-                say(format!(" {last} it:")),
-            ]);
+            let about = say(&turn.about_name);
+            let [length, part] = [&length, &part].map(words::formula);
+            self.solution.text(fill(
+                "It began # #, at the distance # from it, and is in the end that distance times # # it:",
+                [say(first), about, length, part, say(last)],
+            ));
             let math = words::related(&h, "=", &swung);
-            self.solution
-                .push(Part::Display(vec![Line { math, step: None }]));
+            self.solution.display(vec![Line::plain(math)]);
             let meaning = Meaning::Answer(angle.question.clone(), None);
             self.solution.meanings.insert(name, meaning);
         }

@@ -268,7 +268,7 @@ pub(super) fn angular_momentum(
     }
     let value = tidied(question, told, &h)?;
     let words = format!(
-        "r × m v + I ω of the motion told in `{stage}`: the difference is zero in the normal form"
+        "r × m v + I ω of the motion told in `{stage}`: the difference is identically zero"
     );
     let holds = is_zero(&(&h - &value), &told.placed.scene.domains);
     out.checks.push(Check::new("identity", words, holds));
