@@ -17,7 +17,7 @@ use crate::laws::friction::{Side, When};
 use crate::numeric::friction::Followed;
 use crate::numeric::path::{NoPath, Path};
 use crate::numeric::{self, Number};
-use crate::scene::{Friction, Hypothesis, Mode, Scene};
+use crate::scene::{ContactLaw, Friction, Hypothesis, Mode, Scene};
 
 /// Exact points tried; about half of them have other modes than the one wanted.
 const POINTS: u64 = 40;
@@ -169,8 +169,14 @@ pub fn outcomes(scene: &Scene) -> Result<Vec<Outcome>, String> {
 /// friction is as it is.
 pub fn settled(scene: &Scene) -> Result<Scene, String> {
     let all = outcomes(scene)?;
-    if let [one] = all.as_slice() {
-        return Ok(one.scene.clone());
+    match all.as_slice() {
+        [one] => return Ok(one.scene.clone()),
+        [one, other] => {
+            if let Some(both) = joined(&one.scene, &other.scene) {
+                return Ok(both);
+            }
+        }
+        _ => {}
     }
     let told: BTreeSet<&str> = all.iter().map(|o| o.words.as_str()).collect();
     let told: Vec<&str> = told.into_iter().collect();
@@ -180,6 +186,37 @@ pub fn settled(scene: &Scene) -> Result<Scene, String> {
         told.join(", or ")
     ))
 }
+
+/// Two cases in which a contact sticks and feels the same, whenever its slip ended: one, where either happens.
+fn joined(one: &Scene, other: &Scene) -> Option<Scene> {
+    let decided = |scene: &Scene| {
+        let mut laws = scene.contacts.iter().enumerate();
+        laws.find_map(|(i, contact)| match &contact.law {
+            ContactLaw::Decided(decided) => Some((i, decided.clone())),
+            _ => None,
+        })
+    };
+    let (Some((at, a)), Some((_, b))) = (decided(one), decided(other)) else {
+        return None;
+    };
+    if !(a.mode.sticks() && b.mode.sticks() && a.conditions == b.conditions) {
+        return None;
+    }
+    // Where one of them ends the other begins.
+    let meet = |(l, r, x): &Holds, (left, relation, right): &Holds| {
+        let same = l == left && x == right && r != relation;
+        same || *l == -left && x.is_zero() && right.is_zero()
+    };
+    let mut both = b.clone();
+    both.mode = Mode::Sticks;
+    both.when.retain(|w| !a.when.iter().any(|v| meet(v, w)));
+    let mut scene = other.clone();
+    scene.contacts[at].law = ContactLaw::Decided(both);
+    (a.when.len() + b.when.len() > 1).then_some(scene)
+}
+
+/// What must hold for a case, as left, relation, right.
+type Holds = (Expr, Relation, Expr);
 
 /// The case that the values of the scene pick.
 fn picked(scene: &Scene, table: &Table) -> Option<usize> {

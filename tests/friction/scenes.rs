@@ -295,3 +295,37 @@ fn laws_are_compared_at_an_impact_inside_stages_with_the_motion_handed_on() {
         "{text}"
     );
 }
+
+/// A central contact that sticks feels the same whenever its slip ended: supposed to stick, it is one case.
+#[test]
+fn a_ball_that_is_supposed_to_stick_is_one_case_whenever_its_slip_ends() {
+    let path = "derivations/friction/ball-rolls-off-its-bounce.json";
+    let text = std::fs::read_to_string(path).expect("the scene");
+    let text = text.replace(
+        r#""hypothesis": "poisson""#,
+        r#""hypothesis": "poisson", "supposing": "sticks""#,
+    );
+    let scene = scene::read(&text).expect("a sound scene");
+    let (table, _) = judged(&scene);
+    let sticks = table.cases.iter().filter(|case| case.mode.sticks()).count();
+    assert_eq!(sticks, 2, "in compression, and in restitution");
+    let one = carom::verify::friction::settled(&scene).expect("one case");
+    let law = &one.contacts[table.contact].law;
+    let carom::scene::ContactLaw::Decided(decided) = law else {
+        panic!("{law:?}");
+    };
+    let when = decided.when.iter();
+    let when: Vec<String> = when
+        .map(|(left, relation, right)| {
+            format!(
+                "{} {} {}",
+                carom::formula::write_plain(left),
+                relation.sign(),
+                carom::formula::write_plain(right)
+            )
+        })
+        .collect();
+    assert_eq!(when, ["mu > 2*u/(7*v*(1 + e))"], "where it does not slide");
+    let turns = answers(&one).remove("omega").expect("its spin");
+    assert_eq!(carom::formula::write_plain(&turns), "5*u/(7*r)");
+}
