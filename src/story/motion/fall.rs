@@ -1,10 +1,9 @@
 //! Free fall and flight: the center of mass moves as a particle does, and the body keeps its spin.
 
+use super::supposed::Supposed;
 use super::{half, kept, meanwhile, tidied};
-use crate::algebra::Sign;
-use crate::answer::calc::{Seen, at_least_zero, is_zero, sign};
+use crate::answer::calc::is_zero;
 use crate::expr::Expr;
-use crate::formula::{Sentence, sentence};
 use crate::scene::{Fall, FallEnd, Stage};
 use crate::story::{Refused, StageTold, State};
 
@@ -15,9 +14,8 @@ pub(in crate::story) fn fall(
     fall: &Fall,
 ) -> Result<StageTold, Refused> {
     let scene = &stage.scene;
-    let mut assumptions: Vec<Sentence> = Vec::new();
-    let mut needs = Vec::new();
-    let (time, down) = duration(stage, &before, fall, &mut assumptions, &mut needs)?;
+    let mut supposed = Supposed::of(stage);
+    let (time, down) = duration(stage, &before, fall, &mut supposed)?;
     let zero = Expr::zero();
     let g = fall.gravity.as_ref().unwrap_or(&zero);
     let mut after = before.clone();
@@ -54,7 +52,9 @@ pub(in crate::story) fn fall(
         }
         dropped.push(&(&body.mass * g) * &drop);
     }
-    assumptions.extend(meanwhile::others(stage, &before, &mut after, Some(&time)));
+    supposed
+        .words
+        .extend(meanwhile::others(stage, &before, &mut after, Some(&time)));
     let [start, end] = energy;
     let energy = [tidied(stage, &start)?, tidied(stage, &end)?];
     let mut out = StageTold::new(stage, before, after);
@@ -68,8 +68,7 @@ pub(in crate::story) fn fall(
         out.work = vec![("weight", Expr::sum(dropped))];
     }
     out.time = Some(time);
-    out.assumptions = assumptions;
-    out.needs = needs;
+    supposed.told(&mut out);
     Ok(out)
 }
 
@@ -78,8 +77,7 @@ fn duration(
     stage: &Stage,
     before: &State,
     fall: &Fall,
-    assumptions: &mut Vec<Sentence>,
-    needs: &mut Vec<Expr>,
+    supposed: &mut Supposed<'_>,
 ) -> Result<(Expr, Option<Expr>), Refused> {
     let domains = &stage.scene.domains;
     let name = &stage.scene.bodies[fall.body].name;
@@ -104,29 +102,14 @@ fn duration(
         }
         (FallEnd::Drop(h), Some(g)) => {
             let square = tidied(stage, &(&vy.powi(2) + &(&(&Expr::from(2) * g) * h)))?;
-            match sign(&square, domains) {
-                Seen::Proved(Sign::Negative) => {
-                    return Err(never(
-                        "it turns back below this height",
-                        "give it more speed",
-                    ));
-                }
-                Seen::Proved(s) if s.is_not_negative() => {}
-                _ => {
-                    assumptions.push(sentence![
-                        at_least_zero(&square, domains),
-                        ", so that `",
-                        name,
-                        "` gets there"
-                    ]);
-                    needs.push(square.clone());
-                }
-            }
+            supposed.not_negative(&square, format!("`{name}` gets there"), || {
+                never("it turns back below this height", "give it more speed")
+            })?;
             let way = Expr::from(if fall.rising { 1 } else { -1 });
             let end = tidied(stage, &(&way * &square.sqrt()))?;
             let time = tidied(stage, &(&(vy - &end) / g))?;
             if fall.rising {
-                rises(stage, fall, [h, vy], assumptions, needs)?;
+                rises(stage, fall, [h, vy], supposed)?;
                 return Ok((time, Some(end)));
             }
             (time, Some(end))
@@ -141,27 +124,19 @@ fn duration(
             (tidied(stage, &-(h / vy))?, Some(vy.clone()))
         }
     };
-    match sign(&time, domains) {
-        Seen::Proved(Sign::Negative) if matches!(fall.until, FallEnd::Time(_)) => Err(never(
+    let comes_after = format!("`{}` comes after what is before it", stage.name);
+    let negative = || match fall.until {
+        FallEnd::Time(_) => never(
             "its time is negative",
             "`for` counts from the beginning of the stage",
-        )),
-        Seen::Proved(Sign::Negative) => Err(never(
+        ),
+        _ => never(
             "it moves the other way",
             "look at the sign of `height` (counted downwards) or `range` (counted to the right)",
-        )),
-        Seen::Proved(s) if s.is_not_negative() => Ok((time, down)),
-        _ => {
-            assumptions.push(sentence![
-                at_least_zero(&time, domains),
-                ", so that `",
-                &stage.name,
-                "` comes after what is before it"
-            ]);
-            needs.push(time.clone());
-            Ok((time, down))
-        }
-    }
+        ),
+    };
+    supposed.not_negative(&time, comes_after, negative)?;
+    Ok((time, down))
 }
 
 /// What is still rising at the end began to rise, and ends above its beginning.
@@ -169,31 +144,15 @@ fn rises(
     stage: &Stage,
     fall: &Fall,
     [drop, up]: [&Expr; 2],
-    assumptions: &mut Vec<Sentence>,
-    needs: &mut Vec<Expr>,
+    supposed: &mut Supposed<'_>,
 ) -> Result<(), Refused> {
-    let domains = &stage.scene.domains;
     let name = &stage.scene.bodies[fall.body].name;
     for need in [-drop, up.clone()] {
-        match sign(&need, domains) {
-            Seen::Proved(s) if s.is_not_negative() => {}
-            Seen::Proved(_) => {
-                let why = format!("`{name}` is not rising there");
-                let hint =
-                    "a negative `height` counts upwards; leave out `rising` where it comes down";
-                return Err(Refused::new(&stage.name, why, hint));
-            }
-            _ => {
-                let words = [", so that `", "` rises to there"];
-                assumptions.push(sentence![
-                    at_least_zero(&need, domains),
-                    words[0],
-                    name,
-                    words[1]
-                ]);
-                needs.push(need);
-            }
-        }
+        supposed.not_negative(&need, format!("`{name}` rises to there"), || {
+            let why = format!("`{name}` is not rising there");
+            let hint = "a negative `height` counts upwards; leave out `rising` where it comes down";
+            Refused::new(&stage.name, why, hint)
+        })?;
     }
     Ok(())
 }

@@ -10,6 +10,7 @@ mod linkage;
 mod meanwhile;
 mod slide;
 mod strings;
+mod supposed;
 mod turn;
 mod wind;
 

@@ -3,10 +3,10 @@
 //! A string does not slip on its pulleys, which turn as it moves: with the body at the speed v a pulley of radius R has
 //! |ω| = v/R. It pulls and never pushes.
 
+use super::supposed::Supposed;
 use super::tidied;
-use crate::answer::calc::{Seen, at_least_zero, is_zero, sign};
+use crate::answer::calc::{Seen, is_zero, sign};
 use crate::expr::{Expr, Vector, cross, dot, minus};
-use crate::formula::{Sentence, sentence};
 use crate::scene::{Slide, Stage, Strung};
 use crate::story::{Refused, State, Step};
 
@@ -254,71 +254,44 @@ impl Pulled<'_> {
             .collect()
     }
 
-    /// Adds what it takes that no end gets beside its pulley on a way of this length, and the words for what is not proved;
-    /// refused where one does.
+    /// Supposes what it takes that no end gets beside its pulley on a way of this length; refused where one does.
     pub(super) fn keeps_off(
         &self,
         stage: &Stage,
         way: &Expr,
-        needs: &mut Vec<Expr>,
-        assumptions: &mut Vec<Sentence>,
+        supposed: &mut Supposed<'_>,
     ) -> Result<(), Refused> {
         let (ahead, pair) = &self.room;
         let [body, pulley] = pair.map(|b| &stage.scene.bodies[b].name);
         let left = tidied(stage, &(ahead - way))?;
-        match sign(&left, &stage.scene.domains) {
-            Seen::Proved(s) if s.is_not_negative() => return Ok(()),
-            Seen::Proved(_) | Seen::Negative => {
-                let why = format!("`{body}` gets to `{pulley}` before the stage ends");
-                let hint = "end the stage earlier, or let the string be longer";
-                return Err(Refused::new(&stage.name, why, hint));
-            }
-            _ => assumptions.push(sentence![
-                Sentence::not_negative(&left),
-                ", so that `",
-                body,
-                "` does not get to `",
-                pulley,
-                "`"
-            ]),
-        }
-        needs.push(left);
-        Ok(())
+        let stays = format!("`{body}` does not get to `{pulley}`");
+        supposed.not_negative(&left, stays, || {
+            let why = format!("`{body}` gets to `{pulley}` before the stage ends");
+            let hint = "end the stage earlier, or let the string be longer";
+            Refused::new(&stage.name, why, hint)
+        })
     }
 
-    /// The tensions: at the other end first, at the body last. Adds what the string needs so that it stays taut, and the words for
-    /// what is not proved; refused where it goes slack.
+    /// The tensions: at the other end first, at the body last. Supposes what the string needs so that it stays taut; refused where
+    /// it goes slack.
     pub(super) fn taut(
         &self,
         stage: &Stage,
         acceleration: &Expr,
-        needs: &mut Vec<Expr>,
-        assumptions: &mut Vec<Sentence>,
+        supposed: &mut Supposed<'_>,
     ) -> Result<Vec<Expr>, Refused> {
-        let domains = &stage.scene.domains;
         let name = &stage.scene.bodies[self.string.to[0]].name;
         let mut all = Vec::new();
         for tension in self.tensions(acceleration) {
             let tension = tidied(stage, &tension)?;
-            all.push(tension.clone());
-            match sign(&tension, domains) {
-                Seen::Proved(s) if s.is_not_negative() => continue,
-                Seen::Proved(_) => {
-                    let why = format!(
-                        "the string to `{name}` goes slack, and this motion takes it as taut"
-                    );
-                    let hint = "let the bodies move each on its own";
-                    return Err(Refused::new(&stage.name, why, hint));
-                }
-                _ => {}
-            }
-            assumptions.push(sentence![
-                at_least_zero(&tension, domains),
-                ", so that the string to `",
-                name,
-                "` stays taut"
-            ]);
-            needs.push(tension);
+            let taut = format!("the string to `{name}` stays taut");
+            supposed.not_negative(&tension, taut, || {
+                let why =
+                    format!("the string to `{name}` goes slack, and this motion takes it as taut");
+                let hint = "let the bodies move each on its own";
+                Refused::new(&stage.name, why, hint)
+            })?;
+            all.push(tension);
         }
         Ok(all)
     }

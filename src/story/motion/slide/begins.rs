@@ -1,11 +1,12 @@
 //! What a body has to do at the beginning so that it can move along its line.
 
+use super::super::supposed::Supposed;
 use super::line::{Line, proved};
 use super::lumps;
 use crate::algebra::Sign;
-use crate::answer::calc::{Seen, at_least_zero, is_zero, sign, tidy};
+use crate::answer::calc::{Seen, is_zero, sign, tidy};
 use crate::expr::{Expr, Vector, dot};
-use crate::formula::{Sentence, sentence, write_plain};
+use crate::formula::write_plain;
 use crate::scene::{Slide, Stage};
 use crate::story::{Refused, State};
 
@@ -134,30 +135,21 @@ pub(super) fn rims(line: &Line<'_>, before: &State) -> Result<(), Refused> {
     Ok(())
 }
 
-/// Refuses a speed or distance that is negative; one that may be is assumed not to be.
+/// Refuses a speed or distance that is negative; one that may be is supposed not to be.
 pub(super) fn not_negative(
     stage: &Stage,
     slide: &Slide,
     what: &str,
     size: &Expr,
-    assumptions: &mut Vec<Sentence>,
+    supposed: &mut Supposed<'_>,
 ) -> Result<(), Refused> {
-    match sign(size, &stage.scene.domains) {
-        Seen::Proved(s) if s.is_not_negative() => {}
-        Seen::Proved(_) | Seen::Negative => {
-            let why = format!(
-                "`{}` is to move along the line, and its {what} along it, {}, is negative",
-                stage.scene.bodies[slide.body].name,
-                write_plain(size)
-            );
-            return Err(Refused::new(&stage.name, why, "turn the direction round"));
-        }
-        _ => assumptions.push(sentence![
-            at_least_zero(size, &stage.scene.domains),
-            ", so that `",
-            &stage.scene.bodies[slide.body].name,
-            "` does not move backward"
-        ]),
-    }
-    Ok(())
+    let name = &stage.scene.bodies[slide.body].name;
+    let forward = format!("`{name}` does not move backward");
+    supposed.not_negative(size, forward, || {
+        let size = write_plain(size);
+        let why = format!(
+            "`{name}` is to move along the line, and its {what} along it, {size}, is negative"
+        );
+        Refused::new(&stage.name, why, "turn the direction round")
+    })
 }

@@ -3,13 +3,13 @@
 //! In: a slide with a body below. Out: the motion at its end. Both accelerations are constant, so that the slip, the velocity of
 //! the upper body less that of the lower one, changes uniformly as well.
 
+use super::super::supposed::Supposed;
 use super::super::{half, kept, meanwhile, tidied};
 use super::begins::{directed, fits_line};
 use super::line::proved;
-use crate::algebra::Sign;
-use crate::answer::calc::{Seen, above_zero, at_least_zero, is_zero, sign};
+use crate::answer::calc::is_zero;
 use crate::expr::{Expr, dot};
-use crate::formula::{Sentence, sentence, write_plain};
+use crate::formula::write_plain;
 use crate::scene::{Carrier, Slide, SlideEnd, Stage};
 use crate::story::{Refused, StageTold, State, Step};
 
@@ -26,8 +26,7 @@ struct Pair<'a> {
     /// Force of the rough floor on the lower body \[N\].
     floor: Expr,
     accelerations: [Expr; 2],
-    assumptions: Vec<Sentence>,
-    needs: Vec<Expr>,
+    supposed: Supposed<'a>,
 }
 
 pub(super) fn carried(
@@ -67,12 +66,13 @@ pub(super) fn carried(
     let work = pair.work(&works, &way);
     let momentum = pair.keeps_momentum();
     let Pair {
-        mut assumptions,
-        needs,
+        mut supposed,
         accelerations,
         ..
     } = pair;
-    assumptions.extend(meanwhile::others(stage, &before, &mut after, Some(&time)));
+    supposed
+        .words
+        .extend(meanwhile::others(stage, &before, &mut after, Some(&time)));
     let mut out = StageTold::new(stage, before, after);
     out.kept = vec![kept("energy", false, "friction does work against the slip")];
     if momentum {
@@ -86,8 +86,7 @@ pub(super) fn carried(
     out.steps = steps;
     let [own, _] = accelerations;
     out.acceleration = Some(own);
-    out.assumptions = assumptions;
-    out.needs = needs;
+    supposed.told(&mut out);
     Ok(out)
 }
 
@@ -138,8 +137,7 @@ impl<'a> Pair<'a> {
             friction: sum(friction)?,
             floor: Expr::zero(),
             accelerations: [Expr::zero(), Expr::zero()],
-            assumptions: Vec::new(),
-            needs: Vec::new(),
+            supposed: Supposed::of(stage),
         };
         let drive = sum(&out.friction + &pulls[1])?;
         if below.friction.is_some() {
@@ -165,10 +163,6 @@ impl<'a> Pair<'a> {
         tidied(self.stage, e)
     }
 
-    fn sign(&self, e: &Expr) -> Seen {
-        sign(e, &self.stage.scene.domains)
-    }
-
     /// The way of the lower body on its rough floor, 1 or −1: as it moves, or as it is driven from rest.
     fn way(&mut self, drive: &Expr, limit: &Expr) -> Result<i64, Refused> {
         let domains = &self.stage.scene.domains;
@@ -187,38 +181,20 @@ impl<'a> Pair<'a> {
             Some(way) => way,
         };
         let left = self.tidied(&(&(&Expr::from(way) * drive) - limit))?;
-        match self.sign(&left) {
-            Seen::Proved(Sign::Positive) => {}
-            Seen::Proved(_) | Seen::Negative => {
-                return Err(self.refused(
-                    self.below.body,
-                    "the floor holds it, so that it stays where it is",
-                    "leave out `on`: the surface below a body is at rest unless it is said to move",
-                ));
-            }
-            _ => self.assume(&left, true, self.below.body, "begins to move"),
-        }
+        let begins = format!("`{}` begins to move", self.name(self.below.body));
+        let rests = self.refused(
+            self.below.body,
+            "the floor holds it, so that it stays where it is",
+            "leave out `on`: the surface below a body is at rest unless it is said to move",
+        );
+        self.supposed.positive(&left, begins, || rests)?;
         Ok(way)
-    }
-
-    /// Adds what must be positive, or not negative, and what a body does then.
-    fn assume(&mut self, e: &Expr, is_positive: bool, body: usize, does: &str) {
-        let domains = &self.stage.scene.domains;
-        let need = match is_positive {
-            true => above_zero(e, domains),
-            false => at_least_zero(e, domains),
-        };
-        let name = self.name(body);
-        let words = sentence![need, ", so that `", name, "` ", does];
-        self.assumptions.push(words);
-        self.needs.push(e.clone());
     }
 
     /// The slip has the direction of the line, or begins to have it.
     fn slips(&mut self, slip: &Expr, rate: &Expr) -> Result<(), Refused> {
         let domains = &self.stage.scene.domains;
         let (upper, below) = (self.slide.body, self.name(self.below.body));
-        let does = format!("slides forward on `{below}`");
         let begins = is_zero(slip, domains) == Some(true);
         if begins && self.is_undriven() {
             let why = "it moves with the body below already, and no force makes it slide";
@@ -236,12 +212,9 @@ impl<'a> Pair<'a> {
                 "turn the direction round",
             ),
         };
-        match self.sign(left) {
-            Seen::Proved(Sign::Positive) => {}
-            Seen::Proved(_) | Seen::Negative => return Err(self.refused(upper, &why, hint)),
-            _ => self.assume(left, true, upper, &does),
-        }
-        Ok(())
+        let refused = self.refused(upper, &why, hint);
+        let does = format!("`{}` slides forward on `{below}`", self.name(upper));
+        self.supposed.positive(left, does, || refused)
     }
 
     /// Time, and the way along the lower body.
@@ -286,20 +259,15 @@ impl<'a> Pair<'a> {
             }
             _ => {
                 let slows = -rate;
-                match self.sign(&slows) {
-                    Seen::Proved(Sign::Positive) => {}
-                    Seen::Proved(_) | Seen::Negative => {
-                        let why = "it never comes to move together with the body below";
-                        let hint = "end the stage after a `distance` along that body, or after a time `for`";
-                        return Err(self.refused(upper, why, hint));
-                    }
-                    _ => self.assume(
-                        &slows,
-                        true,
-                        upper,
-                        "comes to move together with the body below",
-                    ),
-                }
+                let why = "it never comes to move together with the body below";
+                let hint =
+                    "end the stage after a `distance` along that body, or after a time `for`";
+                let never = self.refused(upper, why, hint);
+                let comes = format!(
+                    "`{}` comes to move together with the body below",
+                    self.name(upper)
+                );
+                self.supposed.positive(&slows, comes, || never)?;
                 (slip / &slows, None)
             }
         };
@@ -322,14 +290,9 @@ impl<'a> Pair<'a> {
 
     /// What must not be negative for the motion to go on to its end.
     fn needs(&mut self, e: &Expr, never: &str, does: &str, body: usize) -> Result<(), Refused> {
-        match self.sign(e) {
-            Seen::Proved(s) if s.is_not_negative() => {}
-            Seen::Proved(_) | Seen::Negative => {
-                return Err(self.refused(body, never, "end the stage earlier"));
-            }
-            _ => self.assume(e, false, body, does),
-        }
-        Ok(())
+        let refused = self.refused(body, never, "end the stage earlier");
+        let does = format!("`{}` {does}", self.name(body));
+        self.supposed.not_negative(e, does, || refused)
     }
 
     /// On a rough floor the lower body may stop, and stays then; from rest it only gets faster.

@@ -1,11 +1,11 @@
 //! The course of a motion with constant acceleration, from its beginning to its end.
 
+use super::super::supposed::Supposed;
 use super::super::{arrival, arrives, half, never_arrives};
 use super::line::{Line, proved, spring_work};
 use crate::algebra::Sign;
-use crate::answer::calc::{Seen, above_zero, at_least_zero, essential, is_zero, sign};
+use crate::answer::calc::{Seen, above_zero, is_zero, sign};
 use crate::expr::{Expr, Function};
-use crate::formula::{Sentence, sentence};
 use crate::scene::SlideEnd;
 use crate::story::{Refused, Step};
 
@@ -46,32 +46,32 @@ impl Line<'_> {
     pub fn course(
         &self,
         steps: &mut Vec<Step>,
-        assumptions: &mut Vec<Sentence>,
-        needs: &mut Vec<Expr>,
+        supposed: &mut Supposed<'_>,
+        limits: &mut Vec<Expr>,
     ) -> Result<Course, Refused> {
         let (time, distance, speed) = match &self.slide.until {
             SlideEnd::Distance(s) => {
-                let (time, speed) = self.over(s, assumptions)?;
+                let (time, speed) = self.over(s, supposed)?;
                 (time, s.clone(), speed)
             }
             SlideEnd::Time(t) => {
                 let speed = self.tidied(&self.speed_after(t))?;
                 if self.rubs() && self.round.is_none() {
                     // Friction stops the body and does not draw it back.
-                    needs.push(speed.clone());
+                    limits.push(speed.clone());
                 }
                 (Some(t.clone()), self.tidied(&self.way(t))?, speed)
             }
             SlideEnd::Stops if self.slide.spring.is_some() => {
-                let [time, distance] = self.to_greatest(steps, assumptions)?;
+                let [time, distance] = self.to_greatest(steps, supposed)?;
                 (Some(time), distance, Expr::zero())
             }
             SlideEnd::Stops => {
-                let [time, distance] = self.to_rest(steps, assumptions)?;
+                let [time, distance] = self.to_rest(steps, supposed)?;
                 (Some(time), distance, Expr::zero())
             }
             SlideEnd::Rolls | SlideEnd::Together => {
-                let time = self.to_rolling(steps, assumptions)?;
+                let time = self.to_rolling(steps, supposed)?;
                 let distance = self.tidied(&self.way(&time))?;
                 let speed = self.tidied(&self.speed_after(&time))?;
                 (Some(time), distance, speed)
@@ -86,7 +86,7 @@ impl Line<'_> {
         {
             let end = &speed + &(&round.arm * &spin);
             let way = proved(&round.slip, self.domains()).unwrap_or(1);
-            needs.push(self.tidied(&(&Expr::from(way) * &end))?);
+            limits.push(self.tidied(&(&Expr::from(way) * &end))?);
         }
         Ok(Course {
             time,
@@ -97,19 +97,15 @@ impl Line<'_> {
     }
 
     /// Time and velocity at the end of a distance; no time where it rests all along.
-    fn over(
-        &self,
-        s: &Expr,
-        assumptions: &mut Vec<Sentence>,
-    ) -> Result<(Option<Expr>, Expr), Refused> {
+    fn over(&self, s: &Expr, supposed: &mut Supposed<'_>) -> Result<(Option<Expr>, Expr), Refused> {
         let a = &self.acceleration;
         if self.slide.spring.is_some() {
-            return Ok((None, self.arrival(s, assumptions)?));
+            return Ok((None, self.arrival(s, supposed)?));
         }
         let still = is_zero(a, self.domains()) == Some(true);
         let speed = match still {
             true => self.speed.clone(),
-            false => self.arrival(s, assumptions)?,
+            false => self.arrival(s, supposed)?,
         };
         let rests = still && is_zero(&speed, self.domains()) == Some(true);
         if rests && is_zero(s, self.domains()) == Some(false) {
@@ -127,27 +123,17 @@ impl Line<'_> {
     fn to_rest(
         &self,
         steps: &mut Vec<Step>,
-        assumptions: &mut Vec<Sentence>,
+        supposed: &mut Supposed<'_>,
     ) -> Result<[Expr; 2], Refused> {
         let slowing = -&self.acceleration;
-        match sign(&slowing, self.domains()) {
-            Seen::Proved(Sign::Positive) => {}
-            Seen::Proved(_) | Seen::Negative => {
-                return Err(match self.friction.is_zero() {
-                    true => self.refused("nothing slows it down", "add \"friction\": \"mu\""),
-                    false => self.refused(
-                        "friction does not slow it down against what drives it",
-                        "more friction would, or a motion that ends after a `distance` or a time",
-                    ),
-                });
-            }
-            _ => assumptions.push(sentence![
-                Sentence::positive(&essential(&slowing, self.domains())),
-                ", so that `",
-                self.name(),
-                "` slows down"
-            ]),
-        }
+        let slows = format!("`{}` slows down", self.name());
+        supposed.positive(&slowing, slows, || match self.friction.is_zero() {
+            true => self.refused("nothing slows it down", "add \"friction\": \"mu\""),
+            false => self.refused(
+                "friction does not slow it down against what drives it",
+                "more friction would, or a motion that ends after a `distance` or a time",
+            ),
+        })?;
         let raw = &self.speed / &slowing;
         let time = self.tidied(&raw)?;
         let why = "the time until it stops";
@@ -160,7 +146,7 @@ impl Line<'_> {
     fn to_greatest(
         &self,
         steps: &mut Vec<Step>,
-        assumptions: &mut Vec<Sentence>,
+        supposed: &mut Supposed<'_>,
     ) -> Result<[Expr; 2], Refused> {
         let Some(spring) = &self.slide.spring else {
             return Err(self.refused("no spring stops it", ""));
@@ -170,18 +156,10 @@ impl Line<'_> {
         let force = self.tidied(&(&self.net() + &(k * &spring.relaxed)))?;
         let from_rest = is_zero(&self.speed, self.domains()) == Some(true);
         if from_rest {
-            match sign(&force, self.domains()) {
-                Seen::Proved(Sign::Positive) => {}
-                Seen::Proved(_) | Seen::Negative => {
-                    return Err(self.refused("it is at rest, and nothing moves it", ""));
-                }
-                _ => assumptions.push(sentence![
-                    above_zero(&force, self.domains()),
-                    ", so that `",
-                    self.name(),
-                    "` begins to move"
-                ]),
-            }
+            let begins = format!("`{}` begins to move", self.name());
+            supposed.positive(&force, begins, || {
+                self.refused("it is at rest, and nothing moves it", "")
+            })?;
         }
         let is_free = is_zero(&force, self.domains()) == Some(true);
         let root = &force.powi(2) + &(&(k * &self.mass) * &self.speed.powi(2));
@@ -213,7 +191,7 @@ impl Line<'_> {
     fn to_rolling(
         &self,
         steps: &mut Vec<Step>,
-        assumptions: &mut Vec<Sentence>,
+        supposed: &mut Supposed<'_>,
     ) -> Result<Expr, Refused> {
         let Some(round) = &self.round else {
             return Err(self.refused("it does not roll", "a disk, ring or sphere does"));
@@ -224,28 +202,19 @@ impl Line<'_> {
         let gain = &self.acceleration + &(&round.arm * &self.angular);
         let raw = -(&round.slip / &gain);
         let time = self.tidied(&raw)?;
-        match sign(&time, self.domains()) {
-            Seen::Proved(s) if s.is_not_negative() => {}
-            Seen::Proved(_) | Seen::Negative => {
-                return Err(self.refused(
-                    "its slip grows, so that it never rolls",
-                    "the surface is too steep or too smooth",
-                ));
-            }
-            _ => assumptions.push(sentence![
-                at_least_zero(&time, self.domains()),
-                ", so that `",
-                self.name(),
-                "` comes to roll"
-            ]),
-        }
+        supposed.not_negative(&time, format!("`{}` comes to roll", self.name()), || {
+            self.refused(
+                "its slip grows, so that it never rolls",
+                "the surface is too steep or too smooth",
+            )
+        })?;
         let why = "the time until its lowest point no longer slips";
         steps.push(Step::new("t", &raw, &time, why));
         Ok(time)
     }
 
     /// Velocity along the line after a distance.
-    fn arrival(&self, s: &Expr, assumptions: &mut Vec<Sentence>) -> Result<Expr, Refused> {
+    fn arrival(&self, s: &Expr, supposed: &mut Supposed<'_>) -> Result<Expr, Refused> {
         let square = self.tidied(&self.square_after(s))?;
         let seen = sign(&square, self.domains());
         if let Seen::Proved(Sign::Negative | Sign::NotPositive) = seen {
@@ -255,7 +224,7 @@ impl Line<'_> {
         let body = self.slide.body;
         // At rest a constant force of zero moves nothing.
         let starts = is_zero(&self.speed, self.domains()) == Some(true);
-        assumptions.extend(match (starts, seen) {
+        supposed.words.extend(match (starts, seen) {
             (true, Seen::Proved(Sign::Positive)) => None,
             (true, _) if is_zero(s, self.domains()) == Some(false) => Some(arrives(
                 self.stage,

@@ -11,11 +11,9 @@ mod carried;
 mod course;
 mod line;
 
+use super::supposed::Supposed;
 use super::{half, meanwhile};
-use crate::algebra::Sign;
-use crate::answer::calc::{Seen, at_least_zero, sign};
 use crate::expr::{Expr, Vector};
-use crate::formula::{Sentence, sentence};
 use crate::scene::{Slide, SlideEnd, Stage};
 use crate::story::{Refused, StageTold, State};
 use course::Course;
@@ -31,34 +29,34 @@ pub(in crate::story) fn slide(
     if let Some(below) = &slide.on {
         return carried::carried(stage, before, slide, below);
     }
-    let mut assumptions = Vec::new();
-    let mut needs = Vec::new();
+    let mut supposed = Supposed::of(stage);
+    let mut limits = Vec::new();
     begins::fits(stage, &before, slide)?;
     begins::springy(stage, slide)?;
-    let line = Line::of(stage, &before, slide, &mut needs)?;
-    begins::not_negative(stage, slide, "speed", &line.speed, &mut assumptions)?;
+    let line = Line::of(stage, &before, slide, &mut limits)?;
+    begins::not_negative(stage, slide, "speed", &line.speed, &mut supposed)?;
     if let SlideEnd::Distance(distance) = &slide.until {
-        begins::not_negative(stage, slide, "distance", distance, &mut assumptions)?;
+        begins::not_negative(stage, slide, "distance", distance, &mut supposed)?;
     }
     let mut steps = line.steps();
-    let course = line.course(&mut steps, &mut assumptions, &mut needs)?;
+    let course = line.course(&mut steps, &mut supposed, &mut limits)?;
     let by_newton = !matches!(slide.until, SlideEnd::Distance(_)) && slide.spring.is_none();
     if by_newton || line.round.is_some() || is_driven {
         line.told(&course, &mut steps);
     } else {
         steps.clear();
     }
-    assumptions.extend(line.held(&needs)?);
+    line.held(&limits, &mut supposed)?;
     begins::rims(&line, &before)?;
     if let ([string], true) = (line.strings.as_slice(), is_driven) {
         steps.extend(string.steps(stage, &line.acceleration)?);
     }
     for string in &line.strings {
-        string.keeps_off(stage, &course.distance, &mut needs, &mut assumptions)?;
+        string.keeps_off(stage, &course.distance, &mut supposed)?;
     }
-    let tensions = line.tensions(&mut needs, &mut assumptions)?;
+    let tensions = line.tensions(&mut supposed)?;
     let mut after = line.moved(&before, &course)?;
-    assumptions.extend(meanwhile::others(
+    supposed.words.extend(meanwhile::others(
         stage,
         &before,
         &mut after,
@@ -76,12 +74,11 @@ pub(in crate::story) fn slide(
     out.steps = steps;
     out.acceleration = (slide.spring.is_none()).then(|| line.acceleration.clone());
     out.tensions = tensions;
-    out.assumptions = assumptions;
-    needs.push(line.speed.clone());
     if let SlideEnd::Distance(_) = &slide.until {
-        needs.push(line.tidied(&course.speed.powi(2))?);
+        let square = line.tidied(&course.speed.powi(2))?;
+        supposed.needs.push(square);
     }
-    out.needs = needs;
+    supposed.told(&mut out);
     Ok(out)
 }
 
@@ -93,52 +90,39 @@ fn lumps(slide: &Slide) -> Vec<(Vec<usize>, &Vector)> {
 }
 
 impl Line<'_> {
-    /// What is assumed so that the motion goes on as it begins; refused where that cannot be.
-    fn held(&self, needs: &[Expr]) -> Result<Vec<Sentence>, Refused> {
-        let domains = self.domains();
-        let mut assumed = Vec::new();
-        for need in needs {
-            let (name, rolls) = (self.name(), !self.slips());
-            match sign(need, domains) {
-                Seen::Proved(s) if s.is_not_negative() => {}
-                Seen::Proved(Sign::Negative) => {
-                    let (why, hint) = match (&self.round, rolls) {
-                        (Some(_), true) => ("it slips", "the surface is too smooth for it to roll"),
-                        (Some(_), false) => (
-                            "it rolls before the stage ends",
-                            "end the stage with \"until\": \"rolls\", and let it roll in the next one",
-                        ),
-                        (None, _) => (
-                            "it stops before the stage ends",
-                            "end the stage with \"until\": \"stops\"",
-                        ),
-                    };
-                    return Err(self.refused(why, hint));
-                }
-                _ => assumed.push(sentence![
-                    at_least_zero(need, domains),
-                    ", so that `",
-                    name,
-                    match (&self.round, rolls) {
-                        (Some(_), true) => "` does not slip",
-                        (Some(_), false) => "` slips to the end of the stage",
-                        (None, _) => "` does not stop before",
-                    }
-                ]),
-            }
+    /// Supposes what keeps the motion going on as it begins; refused where that cannot be.
+    fn held(&self, limits: &[Expr], supposed: &mut Supposed<'_>) -> Result<(), Refused> {
+        let (name, rolls) = (self.name(), !self.slips());
+        let (does, why, hint) = match (&self.round, rolls) {
+            (Some(_), true) => (
+                "does not slip",
+                "it slips",
+                "the surface is too smooth for it to roll",
+            ),
+            (Some(_), false) => (
+                "slips to the end of the stage",
+                "it rolls before the stage ends",
+                "end the stage with \"until\": \"rolls\", and let it roll in the next one",
+            ),
+            (None, _) => (
+                "does not stop before",
+                "it stops before the stage ends",
+                "end the stage with \"until\": \"stops\"",
+            ),
+        };
+        for limit in limits {
+            supposed.not_negative(limit, format!("`{name}` {does}"), || {
+                self.refused(why, hint)
+            })?;
         }
-        Ok(assumed)
+        Ok(())
     }
 
     /// The pull of the strings on each body.
-    fn tensions(
-        &self,
-        needs: &mut Vec<Expr>,
-        assumptions: &mut Vec<Sentence>,
-    ) -> Result<Vec<(usize, Expr)>, Refused> {
+    fn tensions(&self, supposed: &mut Supposed<'_>) -> Result<Vec<(usize, Expr)>, Refused> {
         let mut tensions = Vec::new();
         for string in &self.strings {
-            let pulls = string.taut(self.stage, &self.acceleration, needs, assumptions)?;
+            let pulls = string.taut(self.stage, &self.acceleration, supposed)?;
             let own = self.slide.company().into_iter().map(|b| (b, pulls.last()));
             // Of several strings at one body none is meant more than another.
             let own = own.filter(|_| self.strings.len() == 1);

@@ -1,0 +1,78 @@
+//! What a motion supposes beyond the domains, so that it goes as told: in formulas for whoever tries it at values, and in words.
+
+use crate::algebra::Sign;
+use crate::answer::calc::{Seen, above_zero, at_least_zero, sign};
+use crate::expr::Expr;
+use crate::formula::{Sentence, sentence};
+use crate::scene::Stage;
+use crate::story::{Refused, StageTold};
+
+/// What is supposed so far.
+pub(super) struct Supposed<'a> {
+    stage: &'a Stage,
+    /// What must be ≥ 0.
+    pub needs: Vec<Expr>,
+    /// The same, and whatever else is taken for granted, in words.
+    pub words: Vec<Sentence>,
+}
+
+impl<'a> Supposed<'a> {
+    /// Nothing yet.
+    pub fn of(stage: &'a Stage) -> Supposed<'a> {
+        Supposed {
+            stage,
+            needs: Vec::new(),
+            words: Vec::new(),
+        }
+    }
+
+    /// Supposes that something is not negative where that is not proved, with what it is needed for; refused where it is
+    /// negative.
+    pub fn not_negative(
+        &mut self,
+        e: &Expr,
+        so_that: impl Into<Sentence>,
+        refused: impl FnOnce() -> Refused,
+    ) -> Result<(), Refused> {
+        match sign(e, &self.stage.scene.domains) {
+            Seen::Proved(s) if s.is_not_negative() => return Ok(()),
+            Seen::Proved(_) | Seen::Negative => return Err(refused()),
+            _ => {}
+        }
+        // What decides the sign may be longer than what has it.
+        let as_it_is = Sentence::not_negative(e);
+        let need = at_least_zero(e, &self.stage.scene.domains);
+        let is_longer = need.to_string().len() > as_it_is.to_string().len();
+        self.needs(e, if is_longer { as_it_is } else { need }, so_that);
+        Ok(())
+    }
+
+    /// The same of what has to be positive.
+    pub fn positive(
+        &mut self,
+        e: &Expr,
+        so_that: impl Into<Sentence>,
+        refused: impl FnOnce() -> Refused,
+    ) -> Result<(), Refused> {
+        match sign(e, &self.stage.scene.domains) {
+            Seen::Proved(Sign::Positive) => return Ok(()),
+            Seen::Proved(_) | Seen::Negative => return Err(refused()),
+            _ => {}
+        }
+        let need = above_zero(e, &self.stage.scene.domains);
+        self.needs(e, need, so_that);
+        Ok(())
+    }
+
+    fn needs(&mut self, e: &Expr, need: Sentence, so_that: impl Into<Sentence>) {
+        self.words
+            .push(sentence![need, ", so that ", so_that.into()]);
+        self.needs.push(e.clone());
+    }
+
+    /// Tells it with a motion.
+    pub fn told(self, out: &mut StageTold) {
+        out.needs = self.needs;
+        out.assumptions = self.words;
+    }
+}
