@@ -13,6 +13,7 @@ fn show(content: &Content) -> String {
             let parts: Vec<String> = parts.iter().map(show).collect();
             parts.join(join.word())
         }
+        Content::Matrix(_) => carom::grade::show(content),
         Content::Vector(v) => format!("[{}]", v.each_ref().map(write_plain).join(", ")),
         Content::Quantity(q) => format!("{} {}", write_plain(&q.value), q.unit.dimension.si()),
         Content::Relations(sides, signs) => {

@@ -198,16 +198,22 @@ impl Field {
         let over_odd = (i128::from(k) * i128::from(gcd.x)).rem_euclid(i128::from(odd)) as i64;
         let over_even = (k - over_odd * even) / odd;
         // What cannot be written out may still be the same power of the same.
-        if odd == 1 && even == 1 && k.abs() > MOST_POWER && base.num.len() > 1 {
+        if odd == 1 && even == 1 && k.abs() > MOST_POWER {
             let turned = base.num.leading_is_negative();
-            let base = if turned { self.neg(&base) } else { base };
-            let exponent = self.integer(k);
-            let power = self.opaque_power(base, exponent);
-            return Ok(if turned && k % 2 != 0 {
-                self.neg(&power)
+            let below = if turned {
+                self.neg(&base)
             } else {
-                power
-            });
+                base.clone()
+            };
+            if below.num.len() > 1 || self.as_symbol(&below).is_some() {
+                let exponent = self.integer(k);
+                let power = self.opaque_power(below, exponent);
+                return Ok(if turned && k % 2 != 0 {
+                    self.neg(&power)
+                } else {
+                    power
+                });
+            }
         }
         let mut root = base.clone();
         for _ in 0..even.ilog2() {

@@ -127,6 +127,14 @@ fn latex(content: &reader::Content, question: &Question) -> String {
                 terms.join(" + ")
             }
         }
+        reader::Content::Matrix(rows) => {
+            let row = |row: &Vec<_>| row.iter().map(write).collect::<Vec<_>>().join(" & ");
+            let rows: Vec<String> = rows.iter().map(row).collect();
+            format!(
+                "\\begin{{pmatrix}} {} \\end{{pmatrix}}",
+                rows.join(" \\\\ ")
+            )
+        }
         reader::Content::Quantity(q) => {
             format!("{}\\,\\mathrm{{{}}}", write(&q.written), q.unit_text)
         }

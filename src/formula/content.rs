@@ -76,6 +76,8 @@ pub enum Content {
     Either(Vec<Expr>),
     /// A vector along x, y and z.
     Vector([Expr; 3]),
+    /// A matrix, row by row: two rows at least, all as long, of two entries at least.
+    Matrix(Vec<Vec<Expr>>),
     /// A value with a unit.
     Quantity(Box<Quantity>),
     /// Sides with relations between them; one side more than there are relations.
@@ -159,6 +161,11 @@ impl Content {
             Content::Scalar(e) => Content::Scalar(change(e)),
             Content::Either(values) => Content::Either(values.iter().map(change).collect()),
             Content::Vector(components) => Content::Vector(components.each_ref().map(change)),
+            Content::Matrix(rows) => Content::Matrix(
+                rows.iter()
+                    .map(|row| row.iter().map(change).collect())
+                    .collect(),
+            ),
             Content::Quantity(_) => self.clone(),
             Content::Relations(sides, signs) => {
                 let sides = sides.iter().map(|side| side.map(change)).collect();
@@ -184,6 +191,7 @@ impl Content {
             Content::Scalar(e) => visit(e),
             Content::Either(values) => values.iter().for_each(visit),
             Content::Vector(components) => components.iter().for_each(visit),
+            Content::Matrix(rows) => rows.iter().flatten().for_each(visit),
             Content::Quantity(q) => visit(&q.value),
             Content::Relations(parts, _) | Content::Joined(_, parts) => {
                 parts.iter().for_each(|part| part.each(visit));

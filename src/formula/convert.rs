@@ -11,11 +11,12 @@ const MAX_POWER: i64 = 10_000;
 /// Most bits of a number that arises from numbers.
 const MAX_BITS: u64 = 1 << 14;
 
-/// A scalar, or a vector along x, y and z.
+/// A scalar, a vector along x, y and z, or a matrix by its rows.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Value {
     Scalar(Expr),
     Vector([Expr; 3]),
+    Matrix(Vec<Vec<Expr>>),
 }
 
 /// How a written piece is taken.
@@ -58,6 +59,7 @@ pub(crate) fn value(w: &Written, mode: Mode) -> Faulty<Value> {
             match value(base, mode)? {
                 Value::Vector(v) => scalar(dot(&v, &v)),
                 Value::Scalar(e) => scalar(e.powi(2)),
+                Value::Matrix(_) => Err(base.fault(UNREAD)),
             }
         }
         Shape::Power(base, exponent) => scalar(power(w, base, one(exponent, mode)?, mode)?),
@@ -85,9 +87,21 @@ pub(crate) fn value(w: &Written, mode: Mode) -> Faulty<Value> {
         Shape::Abs(inner) => scalar(match value(inner, mode)? {
             Value::Scalar(e) => Expr::call(Function::Abs, e),
             Value::Vector(v) => dot(&v, &v).sqrt(),
+            Value::Matrix(_) => return Err(inner.fault(UNREAD)),
         }),
         Shape::Measured(inner, unit) => times(w, value(inner, mode)?, unit.value()),
         Shape::Degrees(inner) => scalar(one(inner, mode)? * Expr::pi() * Expr::ratio(1, 180)),
+        Shape::List(rows) if rows.iter().all(|row| matches!(row.shape, Shape::List(_))) => {
+            let row = |row: &Written| {
+                let entries = row.pieces().into_iter().map(|entry| one(entry, mode));
+                entries.collect::<Faulty<Vec<Expr>>>()
+            };
+            let rows = rows.iter().map(row).collect::<Faulty<Vec<_>>>()?;
+            match rows.iter().all(|row| row.len() == rows[0].len()) {
+                true => Ok(Value::Matrix(rows)),
+                false => Err(w.fault("the rows of a matrix are equally long")),
+            }
+        }
         Shape::List(parts) => {
             let mut components = [Expr::zero(), Expr::zero(), Expr::zero()];
             for (component, part) in components.iter_mut().zip(parts) {
@@ -103,8 +117,12 @@ pub(crate) fn one(w: &Written, mode: Mode) -> Faulty<Expr> {
     match value(w, mode)? {
         Value::Scalar(e) => Ok(e),
         Value::Vector(_) => Err(w.fault("a vector stands where a number is expected")),
+        Value::Matrix(_) => Err(w.fault(UNREAD)),
     }
 }
+
+/// What is said of matrices in sums and products with others.
+const UNREAD: &str = "a matrix stands alone or behind a number";
 
 fn call(function: Function, argument: Expr) -> Expr {
     match function {
@@ -128,6 +146,11 @@ fn sum(w: &Written, terms: &[(Sign, Written)], mode: Mode) -> Faulty<Value> {
         match value(term, mode)? {
             Value::Scalar(e) => scalars.push(if minus { -e } else { e }),
             Value::Vector(v) => vectors.push(if minus { v.map(|c| -c) } else { v }),
+            Value::Matrix(rows) if terms.len() == 1 => {
+                let sign = Expr::from(if minus { -1 } else { 1 });
+                return times(w, Value::Matrix(rows), sign);
+            }
+            Value::Matrix(_) => return Err(term.fault(UNREAD)),
         }
     }
     if vectors.is_empty() {
@@ -145,6 +168,7 @@ fn product(w: &Written, factors: &[(Link, Written)], mode: Mode) -> Faulty<Value
     let mut scalars = Vec::with_capacity(factors.len());
     // The vector among the factors so far, and how many scalars stand before it.
     let mut vector: Option<(usize, [Expr; 3])> = None;
+    let mut matrix = None;
     for (i, (link, factor)) in factors.iter().enumerate() {
         let next = match link {
             Link::Over if i > 0 => Value::Scalar(reciprocal(factor, mode)?),
@@ -155,6 +179,8 @@ fn product(w: &Written, factors: &[(Link, Written)], mode: Mode) -> Faulty<Value
                 scalars.push(e);
                 vector = before;
             }
+            (Value::Matrix(rows), None) if matrix.is_none() => matrix = Some(rows),
+            (Value::Matrix(_), _) => return Err(factor.fault(UNREAD)),
             (Value::Vector(v), None) => vector = Some((scalars.len(), v)),
             // Two vectors: a dot or a cross says what is meant.
             (Value::Vector(b), Some((at, a))) => match link {
@@ -167,7 +193,11 @@ fn product(w: &Written, factors: &[(Link, Written)], mode: Mode) -> Faulty<Value
             },
         }
     }
-    scaled(w, scalars, vector.map(|(_, v)| v))
+    match (matrix, vector) {
+        (None, vector) => scaled(w, scalars, vector.map(|(_, v)| v)),
+        (Some(rows), None) => times(w, Value::Matrix(rows), Expr::product(scalars)),
+        (Some(_), Some(_)) => Err(w.fault(UNREAD)),
+    }
 }
 
 fn dot(a: &[Expr; 3], b: &[Expr; 3]) -> Expr {
@@ -186,6 +216,16 @@ fn times(w: &Written, value: Value, by: Expr) -> Faulty<Value> {
     match value {
         Value::Scalar(e) => scaled(w, vec![e, by], None),
         Value::Vector(v) => scaled(w, vec![by], Some(v)),
+        Value::Matrix(rows) => {
+            let entry = |e| match scaled(w, vec![e, by.clone()], None)? {
+                Value::Scalar(e) => Ok(e),
+                _ => Err(w.fault(UNREAD)),
+            };
+            let row = |row: Vec<Expr>| row.into_iter().map(entry).collect::<Faulty<_>>();
+            Ok(Value::Matrix(
+                rows.into_iter().map(row).collect::<Faulty<_>>()?,
+            ))
+        }
     }
 }
 

@@ -61,6 +61,8 @@ pub(crate) enum Tok {
     OpenBar,
     CloseBar,
     Comma,
+    /// The end of a row of a matrix.
+    EndOfRow,
     Relation(Relation),
     Vulgar(i64, i64),
     Degree,
@@ -130,17 +132,8 @@ pub(crate) struct Lexer<'a> {
     pub vectors: bool,
     /// Brackets around the current place.
     pub(super) open: u32,
-    /// How the components of a column or row are separated.
-    pub(super) matrix: Matrix,
-}
-
-/// Whether a LaTeX matrix is being read, and which separator it has shown so far.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Matrix {
-    Outside,
-    Open,
-    Row,
-    Column,
+    /// Whether a LaTeX matrix is being read.
+    pub(super) matrix: bool,
 }
 
 impl<'a> Lexer<'a> {
@@ -174,7 +167,7 @@ impl<'a> Lexer<'a> {
             pairs: false,
             vectors: false,
             open: 0,
-            matrix: Matrix::Outside,
+            matrix: false,
         }
     }
 
@@ -373,7 +366,7 @@ impl<'a> Lexer<'a> {
             b'|' => (1, sided_bar(&self.text[..self.pos])),
             b',' | b';' => (1, Tok::Comma),
             b'%' => return self.percent(self.pos, 1),
-            b'&' if self.matrix != Matrix::Outside => return self.component(Matrix::Row, 1),
+            b'&' if self.matrix => (1, Tok::Comma),
             b'=' if second == b'<' => (2, Tok::Relation(Relation::LessEqual)),
             b'=' if second == b'>' => {
                 return Err(Fault::new("`=>` is no relation", self.pos, self.pos + 2)
@@ -397,18 +390,6 @@ impl<'a> Lexer<'a> {
     /// Whether a comma between digits in round brackets separates components.
     pub fn lists(&self) -> bool {
         self.symbols.lists()
-    }
-
-    /// A separator of components inside a matrix: all of one kind, so that it is a row or a column.
-    pub(super) fn component(&mut self, kind: Matrix, length: usize) -> Faulty<Tok> {
-        let start = self.pos;
-        if self.matrix != Matrix::Open && self.matrix != kind {
-            let fault = Fault::new("a matrix is no answer", start, start + length);
-            return Err(fault.hint("a column or a row of two or three components is a vector"));
-        }
-        self.matrix = kind;
-        self.pos = start + length;
-        Ok(Tok::Comma)
     }
 
     /// Whether a name is known to be, or looks like, an angle.

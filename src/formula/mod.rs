@@ -337,6 +337,14 @@ fn content(
             let constant = v.iter().all(|c| c.is_constant());
             (Content::Vector(v), constant)
         }
+        Value::Matrix(_) if pair => {
+            let (start, end) = (side.written.start, side.written.end);
+            return Err(Fault::new("a pair of matrices is not read", start, end));
+        }
+        Value::Matrix(rows) => {
+            let constant = rows.iter().flatten().all(Expr::is_constant);
+            (Content::Matrix(rows), constant)
+        }
         Value::Scalar(e) => {
             let constant = e.is_constant();
             match pair {
@@ -389,7 +397,9 @@ fn content(
             let values = values.iter().map(|e| e * &si).collect();
             (Content::Either(values), Some(unit.clone()))
         }
-        Content::Vector(v) => (Content::Vector(v.map(|e| &e * &si)), Some(unit.clone())),
+        several @ (Content::Vector(_) | Content::Matrix(_)) => {
+            (several.map(&|e| e * &si), Some(unit.clone()))
+        }
         other => (other, Some(unit.clone())),
     })
 }

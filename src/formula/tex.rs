@@ -2,7 +2,7 @@
 
 use super::Relation;
 use super::fault::{Fault, Faulty, is_invisible};
-use super::lexer::{Before, Lexer, Matrix, Tok};
+use super::lexer::{Before, Lexer, Tok};
 use super::name;
 use super::pair::Pair;
 use super::symbols::{Parts, letters_at};
@@ -110,9 +110,9 @@ impl<'a> Lexer<'a> {
                 self.pos += 1;
                 Tok::Bar
             }
-            Some('\\') if self.matrix != Matrix::Outside => {
-                self.pos = start;
-                return self.component(Matrix::Column, 2);
+            Some('\\') if self.matrix => {
+                self.pos = end + 1;
+                Tok::EndOfRow
             }
             Some(c) => {
                 let shown = if is_invisible(c) || c.is_control() {
@@ -163,7 +163,7 @@ impl<'a> Lexer<'a> {
             return self.token(single);
         }
         let known = matches!(name, "pmatrix" | "bmatrix" | "matrix" | "array");
-        if !known || begins != (self.matrix == Matrix::Outside) {
+        if !known || begins == self.matrix {
             let shown: String = name.chars().take(24).collect();
             let fault = Fault::new(format!("`{shown}` is no environment I read"), start, end);
             return Err(fault.hint("a vector is written [a, b] or in a pmatrix"));
@@ -173,13 +173,12 @@ impl<'a> Lexer<'a> {
             // How the columns are set.
             (_, self.pos) = self.group(start)?;
         }
-        if begins {
-            self.matrix = Matrix::Open;
-            Ok(Tok::Open('m'))
+        self.matrix = begins;
+        Ok(if begins {
+            Tok::Open('m')
         } else {
-            self.matrix = Matrix::Outside;
-            Ok(Tok::Close('m'))
-        }
+            Tok::Close('m')
+        })
     }
 
     pub(super) fn operator(&mut self, start: usize) -> Faulty<Tok> {

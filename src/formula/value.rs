@@ -20,7 +20,10 @@ impl Parser<'_> {
                 Tok::Caret | Tok::Raised(_) => {
                     let token = self.next()?;
                     // A row or a column: which of them it is says nothing of a vector.
-                    if let (Shape::List(_), Tok::Caret) = (&base.shape, &token.tok)
+                    if let (Shape::List(parts), Tok::Caret) = (&base.shape, &token.tok)
+                        && !parts
+                            .iter()
+                            .any(|part| matches!(part.shape, Shape::List(_)))
                         && let Some(length) = transposed(&self.lexer.text[self.lexer.pos..])
                     {
                         self.lexer.pos += length;
@@ -151,6 +154,7 @@ impl Parser<'_> {
         let lists = open == '[' || open == '<' || open == '(' && self.lexer.lists();
         let list = std::mem::replace(&mut self.lexer.list, lists);
         let mut parts = vec![self.sum()?];
+        let mut rows = Vec::new();
         let mut token = self.next()?;
         if token.tok == Tok::Over
             && open == '{'
@@ -159,9 +163,16 @@ impl Parser<'_> {
             parts.push(self.over(above)?);
             token = self.next()?;
         }
-        while token.tok == Tok::Comma && open != '{' {
-            if parts.len() >= 3 {
-                return Err(token.fault("a vector has at most three components"));
+        while matches!(token.tok, Tok::Comma | Tok::EndOfRow) && open != '{' {
+            if parts.len() >= 3 && token.tok == Tok::Comma
+                || rows.len() >= 2 && token.tok != Tok::Comma
+            {
+                return Err(
+                    token.fault("a vector has at most three components, a matrix three rows")
+                );
+            }
+            if token.tok == Tok::EndOfRow {
+                rows.push(row(std::mem::take(&mut parts)));
             }
             parts.push(self.sum()?);
             token = self.next()?;
@@ -179,6 +190,10 @@ impl Parser<'_> {
         if token.tok != Tok::Close(close) && !(angled && parts.len() > 1) {
             let shown = self.lexer.text[start..opened].to_string();
             return Err(self.unclosed(&shown, start, opened, &token));
+        }
+        if !rows.is_empty() {
+            rows.push(row(std::mem::take(&mut parts)));
+            parts = rows;
         }
         let shape = match parts.pop() {
             Some(_) if parts.is_empty() && matches!(open, 'm' | '<') => {
@@ -213,6 +228,15 @@ impl Parser<'_> {
                 Err(token.fault(format!("{what} is expected here")))
             }
         }
+    }
+}
+
+/// A row of a matrix; the only entry of a row is a component.
+fn row(mut entries: Vec<Written>) -> Written {
+    let (start, end) = (entries[0].start, entries[entries.len() - 1].end);
+    match entries.len() {
+        1 => entries.remove(0),
+        _ => Written::new(Shape::List(entries), start, end),
     }
 }
 

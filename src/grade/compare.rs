@@ -505,7 +505,10 @@ pub(super) fn values(ctx: &Context, expected: &Content, answer: &Content) -> Fin
         (Content::Quantity(e), Content::Quantity(a)) => unit::quantities(ctx, e, a),
         (Content::Quantity(e), Content::Scalar(a)) => unit::without(ctx, e, a),
         (Content::Scalar(e), Content::Quantity(a)) => unit::with(ctx, e, a),
-        (Content::Vector(e), Content::Vector(a)) => all_of(ctx, e, a),
+        (Content::Vector(e), Content::Vector(a)) => {
+            all_of(ctx, e.iter().zip(a), |i| partial::vectors(ctx, e, a, i))
+        }
+        (Content::Matrix(e), Content::Matrix(a)) => matrices(ctx, e, a),
         (Content::Either(e), Content::Either(a)) => several::lists(ctx, e, a),
         (Content::Either(e), Content::Scalar(a)) => {
             let right = e.iter().filter(|e| equal(ctx, e, a)).count();
@@ -563,12 +566,53 @@ fn equal(ctx: &Context, expected: &Expr, answer: &Expr) -> bool {
     scalars(ctx, expected, answer).is_equivalent()
 }
 
-/// Components of vectors, one by one; the first that differs decides.
-fn all_of(ctx: &Context, expected: &[Expr; 3], answer: &[Expr; 3]) -> Finding {
+/// Matrices, entry by entry.
+fn matrices(ctx: &Context, expected: &[Vec<Expr>], answer: &[Vec<Expr>]) -> Finding {
+    let columns = expected[0].len();
+    if [expected.len(), columns] != [answer.len(), answer[0].len()] {
+        let size = |m: &[Vec<Expr>]| format!("{} × {}", m.len(), m[0].len());
+        let (expected, answer) = (size(expected), size(answer));
+        return kind(&format!(
+            "a matrix of {expected} entries is expected, and the answer has {answer}"
+        ));
+    }
+    let pairs = expected.iter().flatten().zip(answer.iter().flatten());
+    all_of(ctx, pairs, |i| {
+        let turned = |(r, row): (usize, &Vec<Expr>)| {
+            let mut entries = row.iter().enumerate();
+            entries.all(|(c, e)| answer.get(c).is_some_and(|row| equal(ctx, e, &row[r])))
+        };
+        let square = expected.len() == columns;
+        let found = match square && expected.iter().enumerate().all(turned) {
+            true => {
+                let words = "rows and columns are exchanged";
+                Diagnosis::new("TRANSPOSED", words, "which index counts the rows?")
+            }
+            false => {
+                let (row, column) = (i / columns + 1, i % columns + 1);
+                let words =
+                    format!("the entry in row {row} and column {column} is not the expected one");
+                Diagnosis::new(
+                    "ENTRY",
+                    words,
+                    "compare the entries with the equations they come from",
+                )
+            }
+        };
+        vec![found]
+    })
+}
+
+/// Components or entries, one by one; the first that differs decides, and is explained.
+fn all_of<'e>(
+    ctx: &Context,
+    pairs: impl Iterator<Item = (&'e Expr, &'e Expr)>,
+    explained: impl Fn(usize) -> Vec<Diagnosis>,
+) -> Finding {
     let plain = ctx.plain();
     let mut undecided = None;
     let mut total: Option<Finding> = None;
-    for (i, (e, a)) in expected.iter().zip(answer).enumerate() {
+    for (i, (e, a)) in pairs.enumerate() {
         let mut finding = scalars(&plain, e, a);
         match finding.verdict {
             Verdict::Equivalent => match &mut total {
@@ -578,8 +622,7 @@ fn all_of(ctx: &Context, expected: &[Expr; 3], answer: &[Expr; 3]) -> Finding {
             Verdict::Undecided => undecided = Some(finding),
             _ => {
                 if ctx.diagnose {
-                    let found = partial::vectors(ctx, expected, answer, i);
-                    finding.diagnosis.extend(found);
+                    finding.diagnosis.extend(explained(i));
                     if let Some(first) = finding.diagnosis.first() {
                         finding.note = partial::note(first.code);
                     }

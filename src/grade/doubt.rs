@@ -28,8 +28,7 @@ pub(super) fn power_of_function(content: &Content) -> Option<Content> {
         return None;
     }
     let changed = match content {
-        Content::Scalar(e) => Content::Scalar(lift(e)),
-        Content::Vector(v) => Content::Vector([lift(&v[0]), lift(&v[1]), lift(&v[2])]),
+        Content::Scalar(_) | Content::Vector(_) | Content::Matrix(_) => content.map(&lift),
         _ => return None,
     };
     (changed != *content).then_some(changed)

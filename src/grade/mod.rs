@@ -401,6 +401,14 @@ pub fn show(content: &Content) -> String {
             let parts: Vec<String> = v.iter().map(formula::write_plain).collect();
             format!("[{}]", parts.join(", "))
         }
+        Content::Matrix(rows) => {
+            let row = |row: &Vec<_>| {
+                let entries: Vec<String> = row.iter().map(formula::write_plain).collect();
+                format!("[{}]", entries.join(", "))
+            };
+            let rows: Vec<String> = rows.iter().map(row).collect();
+            format!("[{}]", rows.join(", "))
+        }
         Content::Quantity(q) => format!("{} {}", number::shown(&q.written), q.unit_text),
         Content::Relations(sides, signs) => {
             let mut out = sides.first().map(show).unwrap_or_default();

@@ -456,7 +456,10 @@ fn either(reading: &Reading) -> bool {
 }
 
 fn vector(reading: &Reading) -> bool {
-    matches!(reading.content.answer(), Content::Vector(_))
+    matches!(
+        reading.content.answer(),
+        Content::Vector(_) | Content::Matrix(_)
+    )
 }
 
 /// Refuses a word that was read letter by letter although its letters are no names of the question.

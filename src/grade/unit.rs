@@ -28,7 +28,10 @@ pub(super) fn behind(key: &Key, reading: &Reading, finding: &mut Finding) {
     let asked = asked(key);
     let Some(unit) = &reading.unit else {
         let needed = key.reading.unit.as_ref().filter(|u| !u.dimension.is_none());
-        let bare = matches!(content, Content::Vector(_) | Content::Either(_));
+        let bare = matches!(
+            content,
+            Content::Vector(_) | Content::Matrix(_) | Content::Either(_)
+        );
         if let Some(needed) = needed
             && bare
             && constant

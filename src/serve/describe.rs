@@ -222,6 +222,13 @@ fn content(names: &Solution, content: &Content) -> String {
             }
             mathml::formula(names, &parts)
         }
+        Content::Matrix(rows) => {
+            let entry = |e: &Expr| format!("<mtd>{}</mtd>", one(e));
+            let row = |row: &Vec<Expr>| row.iter().map(entry).collect::<String>();
+            let rows = rows.iter().map(|r| format!("<mtr>{}</mtr>", row(r)));
+            let rows: String = rows.collect();
+            format!("<mrow><mo>(</mo><mtable>{rows}</mtable><mo>)</mo></mrow>")
+        }
         Content::Quantity(q) => format!(
             "{}<mspace width=\"0.2em\"></mspace><mi mathvariant=\"normal\">{}</mi>",
             one(&q.written),

@@ -24,7 +24,7 @@ const TABLES: [(&str, &str, &str); 16] = [
     (
         "signs.tsv",
         "Letters and signs of Unicode, and vectors",
-        "A vector is written with brackets, as a column, or with unit vectors.",
+        "A vector is written with brackets, as a column, or with unit vectors; a matrix row by row.",
     ),
     (
         "names.tsv",
