@@ -164,15 +164,17 @@ impl Parser<'_> {
             token = self.next()?;
         }
         while matches!(token.tok, Tok::Comma | Tok::EndOfRow) && open != '{' {
-            if parts.len() >= 3 && token.tok == Tok::Comma
-                || rows.len() >= 2 && token.tok != Tok::Comma
-            {
-                return Err(
-                    token.fault("a vector has at most three components, a matrix three rows")
-                );
-            }
             if token.tok == Tok::EndOfRow {
                 rows.push(row(std::mem::take(&mut parts)));
+                // Some end the last row too.
+                if self.peek()?.tok == Tok::Close('m') {
+                    token = self.next()?;
+                    break;
+                }
+            }
+            if parts.len() >= 3 || rows.len() >= 3 {
+                let message = "a vector has at most three components, a matrix three rows";
+                return Err(token.fault(message));
             }
             parts.push(self.sum()?);
             token = self.next()?;
@@ -192,7 +194,9 @@ impl Parser<'_> {
             return Err(self.unclosed(&shown, start, opened, &token));
         }
         if !rows.is_empty() {
-            rows.push(row(std::mem::take(&mut parts)));
+            if !parts.is_empty() {
+                rows.push(row(parts));
+            }
             parts = rows;
         }
         let shape = match parts.pop() {
