@@ -39,7 +39,7 @@ pub fn about<'a>(
 /// Later formulas may use the answers by name; what is known of a name already stays, and the name of a parameter stands for
 /// the parameter.
 pub(super) fn remember(scene: &Scene, answers: &[Answer], known: &mut Known) {
-    let is_given = |a: &Answer| scene.parameters.iter().any(|p| *p.name == *a.name);
+    let is_given = |a: &Answer| scene.parameter(&a.name).is_some();
     for answer in answers.iter().filter(|a| !is_given(a)) {
         if let Some(formula) = answer.formula() {
             let name = Symbol::from(answer.name.as_str());
@@ -103,7 +103,7 @@ pub(super) fn put(
     e: &Expr,
     with: &[(Symbol, Expr)],
 ) -> Result<Expr, Refused> {
-    let is_parameter = |s: &Symbol| scene.parameters.iter().any(|p| p.name == *s);
+    let is_parameter = |s: &Symbol| scene.parameter(s).is_some();
     let is_open = |s: &Symbol| !known.contains_key(s) && s.as_ref() != "pi" && !is_parameter(s);
     if let Some(open) = e.symbols().into_iter().find(is_open) {
         let (reason, hint) = match components(&open, known) {
@@ -504,7 +504,7 @@ fn with_words(with: &[(Symbol, Expr)]) -> Vec<Sentence> {
 }
 
 fn dimension_of_parameter(scene: &Scene, name: &str) -> Option<Dimension> {
-    let found = scene.parameters.iter().find(|p| *p.name == *name);
+    let found = scene.parameter(name);
     found.map(|p| p.dimension.clone())
 }
 

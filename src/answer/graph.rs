@@ -49,9 +49,8 @@ pub fn graphs(
     super::formulas::remember(scene, later, &mut known);
     let known = &known;
     let each = scene.plots.iter().map(|ask| {
-        let given = scene.parameters.iter().filter(|p| p.name != ask.against);
-        let values = given.filter_map(|p| Some((p.name.clone(), p.value.clone()?)));
-        let values = values.collect();
+        let mut values = scene.values();
+        values.remove(&ask.against);
         let work = Work {
             scene,
             ask,

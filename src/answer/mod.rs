@@ -230,11 +230,11 @@ impl Answer {
 
     /// Its unit as a person says it; 1 for a plain number.
     pub fn unit(&self, scene: &Scene) -> String {
-        let asked = scene.questions.iter().find(|q| q.name == self.question);
+        let asked = scene.question(&self.question);
         let is_angle = asked.is_some_and(|q| match &q.ask {
             Ask::Angle { .. } => true,
             Ask::Condition { parameter, .. } => {
-                let of = scene.parameters.iter().find(|p| p.name == *parameter);
+                let of = scene.parameter(parameter);
                 of.is_some_and(Parameter::is_angle)
             }
             _ => false,

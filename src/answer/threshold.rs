@@ -368,12 +368,8 @@ fn always(gap: &Expr, relation: Relation, domains: &Domains) -> Sentence {
 
 /// A condition of higher degree: exact isolation once all other symbols have values.
 fn isolate(out: &mut Answer, parameter: &Symbol, gap: &Expr, coefficients: &[Expr], scene: &Scene) {
-    let values: BTreeMap<Symbol, Expr> = scene
-        .parameters
-        .iter()
-        .filter(|p| p.name != *parameter)
-        .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
-        .collect();
+    let mut values = scene.values();
+    values.remove(parameter);
     let degree = coefficients.len() - 1;
     let numbers: Option<Vec<_>> = coefficients
         .iter()

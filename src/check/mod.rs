@@ -162,7 +162,7 @@ enum Meaning {
 fn meanings(scene: &Scene, symbols: &Value) -> Result<BTreeMap<Symbol, Meaning>, Unusable> {
     let mut out = BTreeMap::new();
     for (name, value) in symbols.as_object().into_iter().flatten() {
-        if scene.parameters.iter().any(|p| *p.name == **name) {
+        if scene.parameter(name).is_some() {
             return unusable(format!("symbol {name} is a parameter of the scene"));
         }
         let meaning = meaning(scene, value)
@@ -194,7 +194,7 @@ fn meaning(scene: &Scene, value: &Value) -> Option<Meaning> {
         return Some(Meaning::Asked(Ask::Spin { body, clockwise }, None));
     }
     if let Some(question) = value["answer"].as_str() {
-        let found = scene.questions.iter().find(|q| q.name == question)?;
+        let found = scene.question(question)?;
         return found.ask.is_motion().then(|| match found.stage {
             Some(_) => Meaning::Staged(found.clone(), axis),
             None => Meaning::Asked(found.ask.clone(), axis),

@@ -76,7 +76,7 @@ fn impact(scene: &Scene, value: &Value) -> Result<Impact, Unusable> {
     open.iter().for_each(|symbol| symbols.declare(symbol));
     let mut handed = BTreeMap::new();
     for (symbol, v) in value["handed"].as_object().into_iter().flatten() {
-        if scene.parameters.iter().any(|p| *p.name == **symbol) {
+        if scene.parameter(symbol).is_some() {
             return Err(wrong(&format!("{symbol} is a parameter")));
         }
         handed.insert(Symbol::from(symbol.as_str()), read(v, &symbols)?);

@@ -236,11 +236,7 @@ fn numbers<T>(answers: Answered<T>, value: impl Fn(T) -> Value) -> Vec<Number> {
 
 /// The value of a closed form at the scene's values; `None` where a symbol has none.
 pub fn value(scene: &Scene, e: &Expr) -> Option<Value> {
-    let values: BTreeMap<Symbol, Expr> = scene
-        .parameters
-        .iter()
-        .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
-        .collect();
+    let values = scene.values();
     if !e.symbols().iter().all(|s| values.contains_key(s)) {
         return None;
     }
@@ -323,6 +319,6 @@ fn latex_system(m: &Matrix, write: impl Fn(&Expr) -> String, gap: &str) -> Strin
 
 /// The SI unit of what a question asks for.
 pub fn unit_of(scene: &Scene, question: &str) -> String {
-    let found = scene.questions.iter().find(|q| q.name == question);
+    let found = scene.question(question);
     found.map_or_else(String::new, |q| q.ask.dimension().spoken())
 }

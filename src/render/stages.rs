@@ -215,7 +215,7 @@ fn answers(
 
 /// The dimension of a parameter, or of what a question about motion asks for.
 fn kind_of(scene: &Scene, name: &str) -> Option<Dimension> {
-    let given = scene.parameters.iter().find(|p| *p.name == *name);
+    let given = scene.parameter(name);
     let asked = || scene.answering(name).filter(|q| q.ask.is_motion());
     let given = given.map(|p| p.dimension.clone());
     given.or_else(|| Some(asked()?.ask.dimension()))

@@ -73,7 +73,7 @@ pub(super) fn check(scene: &mut Scene, claims: &[Claimed]) -> Vec<Fault> {
 pub(super) fn at_values(scene: &Scene, span: Span) -> Option<Fault> {
     let unit_vectors = scene.domains.unit_vectors.iter().filter_map(|pair| {
         let value = |name: &Symbol| {
-            let parameter = scene.parameters.iter().find(|p| p.name == *name)?;
+            let parameter = scene.parameter(name)?;
             parameter.value.clone()
         };
         let claim = Claim::Unit([value(&pair[0])?, value(&pair[1])?]);
@@ -116,7 +116,7 @@ fn try_claim(scene: &Scene, claimed: &Claimed, given: &Given) -> (Option<Fault>,
             "0: no rebound, 1: no loss; for a symbol give \"domain\": {\"min\": 0, \"max\": 1}",
         ),
         Claim::Whole(name) => {
-            let parameter = scene.parameters.iter().find(|p| p.name == *name);
+            let parameter = scene.parameter(name);
             let value = parameter.and_then(|p| p.value.as_ref());
             match value.and_then(Expr::as_number).filter(|n| !n.is_integer()) {
                 None => Tried::Holds,

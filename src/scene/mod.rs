@@ -36,6 +36,7 @@ mod stages;
 pub mod touch;
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
@@ -127,7 +128,7 @@ pub fn schema() -> String {
 /// On a fault the scene is as before. The fault's place counts in `value`.
 pub fn set(scene: &mut Scene, name: &str, value: &str) -> Result<(), Fault> {
     let all = Span::new(0, value.len());
-    let Some(parameter) = scene.parameters.iter().find(|p| *p.name == *name) else {
+    let Some(parameter) = scene.parameter(name) else {
         let fault = Fault::new(all, format!("there is no parameter `{name}`"));
         let near = nearest(name, scene.parameters.iter().map(|p| &*p.name));
         return Err(match near {
@@ -284,6 +285,23 @@ impl Scene {
     pub fn asked_of_impact(&self) -> impl Iterator<Item = &Question> {
         let impact = |q: &&Question| q.stage.is_none() && q.ask.is_motion();
         self.questions.iter().filter(impact)
+    }
+
+    /// The parameter of this name.
+    pub fn parameter(&self, name: &str) -> Option<&Parameter> {
+        self.parameters.iter().find(|p| *p.name == *name)
+    }
+
+    /// The question of this name.
+    pub fn question(&self, name: &str) -> Option<&Question> {
+        self.questions.iter().find(|q| q.name == name)
+    }
+
+    /// The values that are given, in SI units.
+    pub fn values(&self) -> BTreeMap<Symbol, Expr> {
+        let each = self.parameters.iter();
+        let given = each.filter_map(|p| Some((p.name.clone(), p.value.clone()?)));
+        given.collect()
     }
 
     /// The questions about answers: values, zeros, limits, forms for a small parameter, identities.

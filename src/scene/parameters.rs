@@ -371,7 +371,7 @@ fn unit_vectors(
     for pair in file.unit_vectors.iter().flatten() {
         let mut is_fine = true;
         for name in &pair.items {
-            let Some(parameter) = scene.parameters.iter().find(|p| *p.name == *name.text) else {
+            let Some(parameter) = scene.parameter(&name.text) else {
                 is_fine = false;
                 let mut all = file.parameters.iter().flat_map(|m| &m.0);
                 if !all.any(|(n, _)| n.text == name.text) {

@@ -18,7 +18,7 @@ pub(super) fn plots(base: &mut Resolver<'_>, scene: &mut Scene) {
     for q in scene.asked_of_impact() {
         names.extend(names_of(&q.name, &q.ask));
     }
-    let given = |q: &&Question| scene.parameters.iter().any(|p| *p.name == *q.name);
+    let given = |q: &&Question| scene.parameter(&q.name).is_some();
     let told = scene
         .questions
         .iter()

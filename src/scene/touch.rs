@@ -69,7 +69,7 @@ fn off(scene: &Scene, contact: &Contact, body: &Body) -> Option<String> {
     if spots.iter().any(|spot| is_met(spot, scene)) {
         return None;
     }
-    let given: BTreeMap<Symbol, Expr> = given(scene);
+    let given: BTreeMap<Symbol, Expr> = scene.values();
     let nowhere = |spot: &Spot| {
         let mut needs = spot.needs.iter();
         needs.any(|need| is_refuted(need, &given, &scene.domains))
@@ -169,18 +169,10 @@ fn example(
     })
 }
 
-/// The values that the scene gives.
-fn given(scene: &Scene) -> BTreeMap<Symbol, Expr> {
-    let values = scene.parameters.iter();
-    values
-        .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
-        .collect()
-}
-
-/// The same in doubles.
+/// The values that the scene gives, in doubles.
 fn values(scene: &Scene) -> Point<f64> {
     let mut point = Point::default();
-    for (name, value) in given(scene) {
+    for (name, value) in scene.values() {
         if let Some(value) = value.evaluate(&Point::<f64>::default()) {
             point.values.insert(name, value);
         }

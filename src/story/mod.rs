@@ -80,8 +80,8 @@ impl State {
         let mut name = format!("{letter}_{}{axis}", scene.bodies[b].name);
         let is_taken = |name: &str| {
             self.open.contains_key(name)
-                || scene.parameters.iter().any(|p| *p.name == *name)
-                || scene.questions.iter().any(|q| q.name == name)
+                || scene.parameter(name).is_some()
+                || scene.question(name).is_some()
         };
         while is_taken(&name) {
             name.push('\'');
@@ -487,16 +487,9 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
     })
 }
 
-/// The values that the scene gives.
-fn given(scene: &Scene) -> BTreeMap<Symbol, Expr> {
-    let values = scene.parameters.iter();
-    let values = values.filter_map(|p| Some((p.name.clone(), p.value.clone()?)));
-    values.collect()
-}
-
 /// What a motion needs and the given values do not keep to.
 fn at_values(scene: &Scene, told: &StageTold) -> Option<Check> {
-    let given = given(scene);
+    let given = scene.values();
     let fails = |e: &&Expr| constant(&e.substitute(&given)) == Some(Sign::Negative);
     let words = match told.needs.iter().find(fails) {
         Some(broken) => {

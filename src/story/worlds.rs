@@ -85,7 +85,7 @@ pub(super) fn each(
         }
         let answers = answer(world)?;
         // The name of a parameter stands for the parameter.
-        let is_given = |a: &&Answer| scene.parameters.iter().any(|p| *p.name == *a.name);
+        let is_given = |a: &&Answer| scene.parameter(&a.name).is_some();
         for a in answers.iter().filter(|a| !is_given(a)) {
             let name = Symbol::from(a.name.as_str());
             match a.formula() {

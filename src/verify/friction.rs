@@ -233,11 +233,9 @@ struct Signs {
 
 impl Signs {
     fn of(scene: &Scene) -> Signs {
-        let given = scene.parameters.iter();
-        let given = given.filter_map(|p| Some((p.name.clone(), p.value.clone()?)));
         Signs {
             exact: numeric::exact_values(scene).ok(),
-            values: given.collect(),
+            values: scene.values(),
         }
     }
 

@@ -577,7 +577,7 @@ fn decimal_in(text: &str) -> Option<&str> {
 
 /// Which coefficient of friction a threshold bounds, and how it stands to it.
 fn friction_bound(scene: &Scene, name: &str) -> Option<(Expr, Relation)> {
-    let question = scene.questions.iter().find(|q| q.name == name)?;
+    let question = scene.question(name)?;
     let Ask::Friction { contact, event } = &question.ask else {
         return None;
     };

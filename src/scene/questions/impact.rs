@@ -194,7 +194,7 @@ pub(super) fn matrix_names(
         resolver.report(name.span, message, hint);
         return;
     }
-    let find = |n: &str| scene.questions.iter().find(|q| q.name == n);
+    let find = |n: &str| scene.question(n);
     let mut unknown: Vec<(&Text, &str)> = Vec::new();
     let mut wrong = |at: &Text, message: String| resolver.faults.push(Fault::new(at.span, message));
     for row in rows {

@@ -231,10 +231,7 @@ fn named(
         true => format!("{letter}_{body}"),
         false => format!("{letter}_{}", b + 1),
     };
-    let is_taken = |name: &str| {
-        scene.parameters.iter().any(|p| *p.name == *name)
-            || scene.questions.iter().any(|q| q.name == name)
-    };
+    let is_taken = |name: &str| scene.parameter(name).is_some() || scene.question(name).is_some();
     while is_taken(&name) {
         name.push_str("_after");
     }

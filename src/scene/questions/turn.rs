@@ -29,7 +29,7 @@ pub(super) fn ask(
     };
     let mut reader = Reader { base, symbols };
     let name = reader.parameter(number)?;
-    let parameter = scene.parameters.iter().find(|p| p.name == name)?;
+    let parameter = scene.parameter(&name)?;
     if !parameter.dimension.is_none() || parameter.is_angle() {
         let message = format!("`{name}` counts turns, and has no unit");
         return base.refuse(number.span, message, SO);

@@ -78,7 +78,7 @@ pub(super) fn take(
 
 /// Whether an answer is known when a stage begins: it is asked of one before it, or is a formula of such answers.
 fn is_known(scene: &Scene, name: &Symbol, stage: usize) -> bool {
-    if scene.parameters.iter().any(|p| p.name == *name) {
+    if scene.parameter(name).is_some() {
         return true;
     }
     let Some(question) = scene.answering(name) else {

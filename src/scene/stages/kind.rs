@@ -227,7 +227,7 @@ fn linkage_of(
     const LENGTH: Quantity = Quantity::other([0, 1, 0], "a value of the coordinate, a length");
     const ANGLE: Quantity = Quantity::other([0, 0, 0], "a value of the coordinate, an angle");
     let name = &linkage.coordinate;
-    let parameter = scene.parameters.iter().find(|p| *p.name == *name.text);
+    let parameter = scene.parameter(&name.text);
     let length = LENGTH.dimension();
     let quantity = match parameter.map(|p| &p.dimension) {
         Some(d) if *d == length => LENGTH,

@@ -203,7 +203,7 @@ pub(super) fn earlier(
     branch: Option<(usize, usize)>,
     name: &Symbol,
 ) -> Result<Result<Expr, String>, Refused> {
-    let is_given = scene.parameters.iter().any(|p| p.name == *name);
+    let is_given = scene.parameter(name).is_some();
     let question = scene.answering(name).filter(|_| !is_given);
     let Some(question) = question else {
         return Ok(Ok(Expr::symbol(name)));

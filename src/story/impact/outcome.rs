@@ -13,7 +13,7 @@ use crate::laws::Unknown;
 use crate::scene::{
     Ask, Contact, ContactLaw, EnergyWhen, Hypothesis, ImpulseAt, OneSided, Question, Scene, Stage,
 };
-use crate::story::{Case, Part, Refused, State, given};
+use crate::story::{Case, Part, Refused, State};
 use crate::verify::possible::Rule;
 use crate::verify::{self, friction};
 
@@ -123,7 +123,7 @@ pub(super) fn case(
     };
     let proof = verify::prove(&scene, &derivation);
     let mut possible = verify::possible::judge(&scene, &derivation);
-    possible.put(handed, &given(&scene), &scene.domains);
+    possible.put(handed, &scene.values(), &scene.domains);
     Ok(Some(Case {
         possible,
         active: set.iter().map(|i| one_sided[*i].name.clone()).collect(),
@@ -356,7 +356,7 @@ pub(super) fn gain(scene: &Scene, case: &Case) -> Option<Sentence> {
         _ => None,
     });
     let law = laws.find(|h| matches!(h, Hypothesis::Newton | Hypothesis::Brach { .. }))?;
-    let at_values = case.value(ENERGY)?.substitute(&given(scene));
+    let at_values = case.value(ENERGY)?.substitute(&scene.values());
     let name = law.name();
     match sign(&at_values, &scene.domains) {
         Seen::Proved(s) if s.is_not_negative() => None,
@@ -371,7 +371,7 @@ pub(super) fn gain(scene: &Scene, case: &Case) -> Option<Sentence> {
 
 /// Whether the values that the scene gives rule a case out.
 pub(super) fn is_refuted(scene: &Scene, case: &Case, handed: &BTreeMap<Symbol, Expr>) -> bool {
-    let given = given(scene);
+    let given = scene.values();
     case.conditions.iter().any(|(_, e)| {
         let there = e.substitute(handed).substitute(&given);
         there != *e && matches!(sign(&there, &scene.domains), Seen::Proved(Sign::Negative))

@@ -99,7 +99,7 @@ impl Asked<'_> {
     /// The questions whose answers a formula uses, and those that values of formulas among them use, in the order of the file.
     pub fn needs(&self, of: &Expr) -> Vec<&Question> {
         let mut names = of.symbols();
-        let is_given = |name: &str| self.scene.parameters.iter().any(|p| *p.name == *name);
+        let is_given = |name: &str| self.scene.parameter(name).is_some();
         let mut out: Vec<&Question> = Vec::new();
         for question in self.scene.questions.iter().rev() {
             let uses = |name: &Symbol| {

@@ -119,13 +119,7 @@ impl Desk<'_> {
 
     /// Bounds of an expression at the scene's values.
     pub(super) fn value(&self, e: &Expr) -> Result<[Rational; 2], String> {
-        let values: BTreeMap<Symbol, Expr> = self
-            .scene
-            .parameters
-            .iter()
-            .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
-            .collect();
-        let put_in = e.substitute(&values);
+        let put_in = e.substitute(&self.scene.values());
         if let Some(name) = put_in.symbols().into_iter().next() {
             return Err(format!("the scene gives {name} no value"));
         }

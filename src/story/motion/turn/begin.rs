@@ -6,7 +6,7 @@ use crate::answer::calc::{Seen, constant, is_zero, sign};
 use crate::expr::{Expr, Vector, cross, dot, minus};
 use crate::formula::{Sentence, sentence};
 use crate::scene::{Stage, Turn};
-use crate::story::{Refused, State, given};
+use crate::story::{Refused, State};
 
 /// The sense of the rotation, 1 counterclockwise and −1 clockwise, and what must be ≥ 0 for it where that is taken for granted.
 pub(in crate::story) fn sense(
@@ -41,7 +41,7 @@ pub(in crate::story) fn sense(
         (None, None) if begins == Seen::Proved(Sign::Zero) => from_rest(stage, turn, None),
         // A spin of either sign keeps it: the end is told for a positive one, where values do not say otherwise.
         (None, None) => {
-            let way = match constant(&spin.substitute(&given(&stage.scene))) {
+            let way = match constant(&spin.substitute(&stage.scene.values())) {
                 Some(Sign::Negative) => -1,
                 _ => 1,
             };
@@ -96,7 +96,7 @@ fn from_rest(
             return Ok((d, None));
         }
         (None, Some(d)) => d,
-        (None, None) => match constant(&moment.substitute(&given(&stage.scene))) {
+        (None, None) => match constant(&moment.substitute(&stage.scene.values())) {
             Some(Sign::Positive) => 1,
             Some(Sign::Negative) => -1,
             _ => {
