@@ -3,7 +3,6 @@
 //! In: expressions and domains. Out: expressions a person would write, signs that are proved or said to be seen only, roots
 //! with the reason why others were discarded. It knows nothing of mechanics.
 
-use std::collections::BTreeMap;
 
 use num_integer::Integer;
 
@@ -344,8 +343,7 @@ pub fn solve(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unso
     let bearing = domains.relations.iter();
     for relation in bearing.filter(|r| r.excess.symbols().contains(symbol)) {
         for mut root in std::mem::take(&mut out.inside) {
-            let put = BTreeMap::from([(symbol.clone(), root.value.clone())]);
-            let excess = relation.excess.substitute(&put);
+            let excess = relation.excess.put(symbol, &root.value);
             match sign(&excess, domains) {
                 Seen::Proved(Sign::Negative) | Seen::Negative => {}
                 Seen::Proved(Sign::Zero | Sign::NotPositive) if !relation.closed => {}
@@ -617,7 +615,7 @@ fn take(
             return;
         }
     }
-    let put_in = e.substitute(&BTreeMap::from([(symbol.clone(), value.clone())]));
+    let put_in = e.put(symbol, &value);
     match is_zero(&put_in, domains) {
         Some(true) => out.inside.push(Root {
             value,

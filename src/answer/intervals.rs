@@ -5,7 +5,6 @@
 //! zeros are known. Where the zeros cannot be put in order, that is said.
 
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
 
 use super::Answer;
 use super::calc::{Root, Seen, by_signs, essential, sign};
@@ -106,7 +105,7 @@ fn between(parameter: &Symbol, gap: &Expr, zeros: &[Expr], domains: &Domains) ->
     )];
     for pair in zeros.windows(2) {
         let middle = &Expr::ratio(1, 2) * &(&pair[0] + &pair[1]);
-        let e = gap.substitute(&BTreeMap::from([(parameter.clone(), middle)]));
+        let e = gap.put(parameter, &middle);
         out.push(sign(&essential(&e, domains), domains));
     }
     out.push(beside(

@@ -5,7 +5,6 @@
 //! roots of the parameter stand, the powers themselves are read off. Whether a leading coefficient may vanish for special values of
 //! other parameters is proved, or told as a condition. Apart from that, the formula is tried in numbers close by.
 
-use std::collections::BTreeMap;
 
 use num_traits::Signed;
 
@@ -223,10 +222,9 @@ fn open(kind: &'static str) -> Check {
 
 /// Words for a value that the parameter cannot come to.
 fn outside(to: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sentence> {
-    let there = BTreeMap::from([(parameter.clone(), to.clone())]);
     let mut relations = domains.relations.iter();
     let broken = relations.find(|r| {
-        let far = r.excess.substitute(&there);
+        let far = r.excess.put(parameter, to);
         far != r.excess && matches!(sign(&far, domains), Seen::Proved(Sign::Negative))
     });
     if let Some(broken) = broken {

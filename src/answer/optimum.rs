@@ -87,7 +87,7 @@ fn reduced(of: &Expr, free: &[Symbol], domains: &mut Domains) -> Result<Reduced,
     let variable: Symbol = JOINT.into();
     domains.symbols.insert(variable.clone(), Domain::positive());
     let replaced = &Expr::symbol(JOINT) * &Expr::symbol(q).power(-&k);
-    let through = of.substitute(&BTreeMap::from([(p.clone(), replaced)]));
+    let through = of.put(p, &replaced);
     let through = tidy(&through, domains).map_err(|s| s.to_string())?;
     if through.symbols().contains(q) {
         return Err(format!("{q} does not cancel"));
@@ -114,7 +114,7 @@ fn over_positive(
     let root: Symbol = ROOT.into();
     domains.symbols.insert(root.clone(), Domain::positive());
     let tidy = |e: &Expr| tidy(e, &domains).map_err(|s| refused(s.to_string()));
-    let put = |e: &Expr, x: Expr| e.substitute(&BTreeMap::from([(root.clone(), x)]));
+    let put = |e: &Expr, x: Expr| e.put(&root, &x);
     // Where it stands under a root, its root makes a fraction of polynomials of the formula.
     let has_root = reduced.of.parts().any(|part| match part.node() {
         Node::Power(base, k) => {
@@ -125,8 +125,7 @@ fn over_positive(
     });
     let power = if has_root { 2 } else { 1 };
     let through = Expr::symbol(ROOT).powi(power);
-    let through = BTreeMap::from([(reduced.variable.clone(), through)]);
-    let f = tidy(&reduced.of.substitute(&through))?;
+    let f = tidy(&reduced.of.put(&reduced.variable, &through))?;
     let slope = tidy(&f.derivative(&root))?;
     let roots = match solve(&slope, &root, &domains) {
         Ok(roots) => roots,
@@ -280,7 +279,7 @@ impl Search<'_> {
 
     /// An expression where the parameter has a value.
     fn at(&self, x: &Expr, e: &Expr) -> Result<Expr, Refused> {
-        let there = e.substitute(&BTreeMap::from([(self.p.clone(), x.clone())]));
+        let there = e.put(self.p, x);
         tidy(&there, self.domains).map_err(|s| self.refused(s.to_string()))
     }
 

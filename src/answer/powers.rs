@@ -3,7 +3,6 @@
 //! In: a formula and the parameter. Out: what it tends to. The parameter is put as x² or 1/x², so that its square roots are
 //! powers too; fractions give their lowest powers, and products and roots of formulas those of their parts.
 
-use std::collections::BTreeMap;
 
 use num_traits::{Signed, Zero};
 
@@ -41,7 +40,7 @@ pub(super) fn by_powers(
     let mut domains = domains.clone();
     domains.symbols.insert(ROOT.into(), Domain::positive());
     let x = Expr::symbol(ROOT).powi(if at_infinity { -2 } else { 2 });
-    let e = of.substitute(&BTreeMap::from([(p.clone(), x)]));
+    let e = of.put(p, &x);
     let lead = lead(&e, &domains)?;
     let mut given = lead.given;
     let tends = if lead.coefficient.is_zero() {

@@ -2,7 +2,6 @@
 //!
 //! In: a formula, a parameter, the value. Out: exact coefficients; or the same formula with its roots developed.
 
-use std::collections::BTreeMap;
 
 use super::calc::{Seen, is_zero, sign, tidy};
 use super::powers::not_zero;
@@ -57,8 +56,7 @@ impl<'a> Taylor<'a> {
             if self.derivative.size() > LONGEST {
                 return None;
             }
-            let at = BTreeMap::from([(self.p.clone(), self.to.clone())]);
-            let value = tidy(&self.derivative.substitute(&at), self.domains).ok()?;
+            let value = tidy(&self.derivative.put(self.p, self.to), self.domains).ok()?;
             let factorial: i64 = (1..=done as i64).product();
             let scaled = &value / &Expr::from(factorial);
             self.coefficients.push(tidy(&scaled, self.domains).ok()?);
@@ -94,8 +92,7 @@ pub(super) fn rooted(
         part
     });
     let half = Expr::ratio(1, 2);
-    let there = BTreeMap::from([(at.0.clone(), at.1.clone())]);
-    let vanishes = |e: &Expr| is_zero(&e.substitute(&there), domains) == Some(true);
+    let vanishes = |e: &Expr| is_zero(&e.put(at.0, at.1), domains) == Some(true);
     match e.node() {
         // arccos x = 2 arcsin √((1 − x)/2), whose root is the one that vanishes at x = 1.
         Node::Call(Function::Acos, x) if vanishes(&(Expr::one() - x)) => {

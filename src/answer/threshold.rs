@@ -3,7 +3,7 @@
 //! In: both sides in parameters alone. Out: the value at which they meet, on which side of it the inequality holds, and how
 //! that is known; or that it always or never holds, with the reason.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use num_traits::Signed;
 
@@ -75,8 +75,10 @@ pub(super) fn fill(
     }
     for root in &roots.inside {
         if root.proved {
-            let put = BTreeMap::from([(parameter.clone(), root.value.clone())]);
-            let (left, right) = (left.substitute(&put), right.substitute(&put));
+            let (left, right) = (
+                left.put(parameter, &root.value),
+                right.put(parameter, &root.value),
+            );
             let why = "both sides with the value substituted";
             out.put_in.push((left, right, why));
         }
@@ -216,7 +218,7 @@ fn sides(
 
 /// The sign of the slope of a difference that is linear in the parameter, where it is proved and never zero.
 fn slope(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sign> {
-    let at = |k: i64| gap.substitute(&BTreeMap::from([(parameter.clone(), Expr::from(k))]));
+    let at = |k: i64| gap.put(parameter, &Expr::from(k));
     let (start, slope) = (at(0), at(1) - at(0));
     let line = &start + &(&slope * &Expr::symbol(parameter));
     let is_linear = is_zero(&(gap - &line), domains) == Some(true);
@@ -258,8 +260,7 @@ fn exists(out: &mut Answer, roots: &Roots, domains: &Domains) -> Domains {
             continue;
         };
         let at_end = Expr::from(low.value.clone());
-        let put = BTreeMap::from([(symbol.clone(), at_end.clone())]);
-        let lost = |r: &super::calc::Root| tidy(&r.value.substitute(&put), &domains).is_err();
+        let lost = |r: &super::calc::Root| tidy(&r.value.put(&symbol, &at_end), &domains).is_err();
         if low.open || low.of_pi || !roots.inside.iter().any(lost) {
             continue;
         }
@@ -307,7 +308,7 @@ pub(super) fn beside(
             value + &(Expr::from(way) * Expr::symbol(STEP))
         }
     };
-    let e = gap.substitute(&BTreeMap::from([(parameter.clone(), place)]));
+    let e = gap.put(parameter, &place);
     sign(&essential(&e, &domains), &domains)
 }
 
@@ -398,9 +399,8 @@ fn isolate(out: &mut Answer, parameter: &Symbol, gap: &Expr, coefficients: &[Exp
         }
         // Squaring may have brought the root in: the two sides must change places across it.
         let side = |x: &crate::expr::Rational| {
-            let point = BTreeMap::from([(parameter.clone(), Expr::from(x.clone()))]);
             at_values
-                .substitute(&point)
+                .put(parameter, &Expr::from(x.clone()))
                 .evaluate(&crate::expr::Point::<f64>::default())
         };
         match (side(&low), side(&high)) {

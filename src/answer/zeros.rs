@@ -102,9 +102,8 @@ pub(super) fn angle(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Root
                 }
             }
             let same = |r: &Root| is_zero(&(&r.value - &root.value), domains) == Some(true);
-            let at = BTreeMap::from([(symbol.clone(), root.value.clone())]);
             // A divisor may vanish with the factor.
-            let vanishes = is_zero(&e.substitute(&at), domains);
+            let vanishes = is_zero(&e.put(symbol, &root.value), domains);
             if vanishes == Some(false) || out.inside.iter().any(same) {
                 continue;
             }
@@ -277,8 +276,7 @@ fn by_half(
         let is_straight = |l: &Limit| l.of_pi && l.value == ratio(sign, 1) && !l.open;
         let straight = end.as_ref().is_some_and(is_straight);
         let value = Expr::from(sign) * Expr::pi();
-        let at = BTreeMap::from([(symbol.clone(), value.clone())]);
-        if straight && is_zero(&e.substitute(&at), domains) == Some(true) {
+        if straight && is_zero(&e.put(symbol, &value), domains) == Some(true) {
             out.inside.push(Root {
                 value,
                 proved: true,

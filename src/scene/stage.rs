@@ -606,6 +606,6 @@ pub struct Linkage {
 impl Linkage {
     /// An expression at a value of the coordinate.
     pub fn at(&self, e: &Expr, value: &Expr) -> Expr {
-        e.substitute(&BTreeMap::from([(self.coordinate.clone(), value.clone())]))
+        e.put(&self.coordinate, value)
     }
 }

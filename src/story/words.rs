@@ -1,6 +1,5 @@
 //! Sentences about stages, made from what was found of them: what happens, which forces have impulses, what is open.
 
-use std::collections::BTreeMap;
 
 use super::{Case, StageTold, change, line};
 use crate::algebra::Sign;
@@ -95,13 +94,12 @@ impl Case {
             _ => None,
         })?;
         let slope = tidy(&e.derivative(&of), &self.scene.domains).ok()?;
-        let at_zero = BTreeMap::from([(of.clone(), Expr::zero())]);
         let is_least = match sign(&slope, &self.scene.domains) {
             Seen::Proved(Sign::Positive) => true,
             Seen::Proved(Sign::Negative) => false,
             _ => return None,
         };
-        let at = -(e.substitute(&at_zero) / &slope);
+        let at = -(e.put(&of, &Expr::zero()) / &slope);
         let at = tidy(&at, &self.scene.domains).ok()?;
         let free = !slope.symbols().contains(&of) && !at.symbols().contains(&of);
         free.then_some(Bound { of, is_least, at })

@@ -3,7 +3,7 @@
 //! In: an answer about formulas, and the stages that its formulas come from. Out: the same answer without values at which a
 //! motion before never ends, and with what else must hold.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use super::super::worlds::World;
 use super::super::{StageTold, line};
@@ -51,11 +51,10 @@ pub(super) fn held(
             answer.range.push((of, relation, value));
             continue;
         };
-        let at = BTreeMap::from([(symbol.clone(), value.clone())]);
         let mut never = None;
         let mut besides: Vec<Sentence> = Vec::new();
         for (told, need) in needs().filter(|(_, need)| need.symbols().contains(&symbol)) {
-            let there = need.substitute(&at);
+            let there = need.put(&symbol, &value);
             if is_zero(&there, &scene.domains) == Some(true) {
                 continue;
             }
@@ -122,7 +121,7 @@ fn holds_above(need: &Expr, symbol: &Symbol, from: &Expr, scene: &Scene) -> bool
     let mut domains = scene.domains.clone();
     domains.symbols.insert(step.clone(), Domain::positive());
     let above = from + &Expr::symbol(&step);
-    let there = need.substitute(&BTreeMap::from([(symbol.clone(), above)]));
+    let there = need.put(symbol, &above);
     matches!(sign(&there, &domains), Seen::Proved(s) if s.is_not_negative())
 }
 

@@ -294,7 +294,7 @@ impl Desk<'_> {
                 let (Some(wrong), Some(mine)) = (number_of(earlier), number_of(text)) else {
                     continue;
                 };
-                let with = formula.substitute(&BTreeMap::from([(of_it, Expr::from(wrong))]));
+                let with = formula.put(&of_it, &Expr::from(wrong));
                 let value = self.put_in(&with, &printed[i]).and_then(|e| self.value(&e));
                 let Ok([low, _]) = value else { continue };
                 if (mine - low).abs() <= ten_to(last_place(text)) * ratio(1, 2) {

@@ -1,13 +1,12 @@
 //! Printed numbers: the exact value, rounded to the digits that are printed, in the unit that is printed.
 
-use std::collections::BTreeMap;
 
 use num_traits::Signed;
 
 use super::{Desk, Finding, remainder};
 use crate::dimension;
 use crate::expr::number::to_f64;
-use crate::expr::{Expr, Point, Rational, Symbol, ratio};
+use crate::expr::{Expr, Point, Rational, ratio};
 use crate::formula::{self, Content, Symbols, write_plain};
 use crate::scene::Printed;
 use crate::verify::rounding::{bounds, fraction, magnitude_or_zero, ten_to};
@@ -65,9 +64,8 @@ impl Desk<'_> {
         // An angle in degrees is read as a multiple of π.
         let (value, unit) = match text.contains("deg") || text.contains('°') {
             true if unit.is_one() => {
-                let half_turns = BTreeMap::from([(Symbol::from("pi"), Expr::from(180))]);
                 let degree = Expr::pi() * Expr::ratio(1, 180);
-                (value.substitute(&half_turns), degree)
+                (value.put("pi", &Expr::from(180)), degree)
             }
             _ => (value, unit),
         };
