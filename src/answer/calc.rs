@@ -3,7 +3,6 @@
 //! In: expressions and domains. Out: expressions a person would write, signs that are proved or said to be seen only, roots
 //! with the reason why others were discarded. It knows nothing of mechanics.
 
-
 use num_integer::Integer;
 
 use super::Check;
@@ -358,13 +357,13 @@ pub fn solve(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unso
                     if !sure {
                         let holds = beyond_zero(&excess, domains, !relation.closed);
                         root.given
-                            .push(sentence![holds, ", so that ", stated(relation)]);
+                            .push(sentence!("{}, so that {}", holds, stated(relation)));
                     }
                     out.inside.push(root);
                     continue;
                 }
             }
-            let why = sentence![symbol, " = ", &root.value, ", against ", stated(relation)];
+            let why = sentence!("{} = {}, against {}", symbol, &root.value, stated(relation));
             out.discarded.push(why);
         }
     }
@@ -394,7 +393,7 @@ pub(super) fn end_of(
 fn stated(relation: &Relation) -> Sentence {
     let [small, large] = &relation.sides;
     let than = if relation.closed { " ≤ " } else { " < " };
-    sentence![small, than, large]
+    sentence!("{}{}{}", small, than, large)
 }
 
 fn within_interval(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unsolved> {
@@ -427,13 +426,12 @@ fn within_interval(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots
             });
         } else {
             let outside = within(&domain, symbol);
-            out.discarded.push(sentence![
+            out.discarded.push(sentence!(
+                "{} = {}, outside {}",
                 symbol,
-                " = ",
                 &Expr::zero(),
-                ", outside ",
                 outside
-            ]);
+            ));
         }
     }
     for coefficients in factors {
@@ -503,11 +501,13 @@ pub fn within(domain: &Domain, symbol: &Symbol) -> Sentence {
     let low = domain.low.as_ref().map(|l| (l.expr(), l.open));
     let high = domain.high.as_ref().map(|l| (l.expr(), l.open));
     match (low, high) {
-        (None, None) => sentence![symbol, " is real"],
-        (Some((low, open)), None) => sentence![symbol, if open { " > " } else { " ≥ " }, &low],
-        (None, Some((high, open))) => sentence![symbol, below(open), &high],
+        (None, None) => sentence!("{} is real", symbol),
+        (Some((low, open)), None) => {
+            sentence!("{}{}{}", symbol, if open { " > " } else { " ≥ " }, &low)
+        }
+        (None, Some((high, open))) => sentence!("{}{}{}", symbol, below(open), &high),
         (Some((low, from)), Some((high, to))) => {
-            sentence![&low, below(from), symbol, below(to), &high]
+            sentence!("{}{}{}{}{}", &low, below(from), symbol, below(to), &high)
         }
     }
 }
@@ -561,12 +561,11 @@ pub(super) fn placed(
             _ => false,
         };
         if seen == Seen::Mixed {
-            given.push(sentence![
+            given.push(sentence!(
+                "{}, so that {} lies within its domain",
                 beyond_zero(&gap, domains, limit.open),
-                ", so that ",
-                symbol,
-                " lies within its domain"
-            ]);
+                symbol
+            ));
         }
         let how = if seen == Seen::Proved(Sign::NotPositive) && !limit.open {
             " or just at its end"
@@ -576,14 +575,13 @@ pub(super) fn placed(
             " (seen at points, not proved)"
         };
         if outside {
-            return Err(sentence![
+            return Err(sentence!(
+                "{} = {}, outside {}{}",
                 symbol,
-                " = ",
                 value,
-                ", outside ",
                 within(domain, symbol),
                 how
-            ]);
+            ));
         }
     }
     Ok(given)
@@ -599,12 +597,13 @@ fn take(
     domains: &Domains,
     out: &mut Roots,
 ) {
-    let words = sentence![symbol, " = ", &value];
+    let words = sentence!("{} = {}", symbol, &value);
     let mut given: Vec<Sentence> = Vec::new();
     let mut probe = Field::new(domains);
     probe.prepare([&value]);
     if matches!(probe.element(&value), Err(Stop::NotReal)) {
-        out.discarded.push(sentence![words, ", which is not real"]);
+        out.discarded
+            .push(sentence!("{}, which is not real", words));
         return;
     }
     given.extend(real(&value, domains));
@@ -630,10 +629,10 @@ fn take(
                     proved: false,
                     given,
                 }),
-                _ => out.discarded.push(sentence![
-                    words,
-                    ", brought in by squaring: it does not fulfil the equation"
-                ]),
+                _ => out.discarded.push(sentence!(
+                    "{}, brought in by squaring: it does not fulfil the equation",
+                    words
+                )),
             }
         }
         _ => out.inside.push(Root {

@@ -231,7 +231,7 @@ impl Work<'_> {
                 "" => why.reason,
                 hint => format!("{}; {hint}", why.reason),
             };
-            open.text.push(sentence!["not found: ", why]);
+            open.text.push(sentence!("not found: {}", why));
             open.checks.push(Check::new("maximum", "not found", None));
             vec![open]
         }))
@@ -296,11 +296,13 @@ impl Work<'_> {
         }
         if asked.1 == Relation::Equal {
             let check = identity(&left, &right, domains);
-            let equation = sentence![asked.0, " = ", asked.2];
+            let equation = sentence!("{} = {}", asked.0, asked.2);
             out.text.push(match check.holds {
-                Some(true) => sentence![equation, ": both are ", &left],
-                Some(false) => sentence![equation, " does not hold: ", &left, " against ", &right],
-                None => sentence![equation, " could not be decided"],
+                Some(true) => sentence!("{}: both are {}", equation, &left),
+                Some(false) => {
+                    sentence!("{} does not hold: {} against {}", equation, &left, &right)
+                }
+                None => sentence!("{} could not be decided", equation),
             });
             out.checks.push(check);
             out.form = Form::Equation { left, right };
@@ -348,7 +350,7 @@ impl Work<'_> {
             if let [first @ .., last] = idle.as_slice() {
                 let lead = Sentence::join(first.iter().cloned(), ", ");
                 let or = if first.is_empty() { "" } else { " or " };
-                let words = sentence!["it does not depend on ", lead, or, last];
+                let words = sentence!("it does not depend on {}{}{}", lead, or, last);
                 out.text.push(words);
             }
         }
@@ -464,15 +466,18 @@ fn statement((left, relation, right): Stated) -> String {
 /// Where a quantity vanishes whose square this is.
 fn vanishing(name: &Symbol, square: &Expr, domains: &Domains) -> Sentence {
     if is_zero(square, domains) == Some(true) {
-        return sentence![name, " is zero throughout: the statement is empty"];
+        return sentence!("{} is zero throughout: the statement is empty", name);
     }
     let places = zeros::of(&essential(square, domains), domains);
     if places.is_empty() {
-        return sentence![name, " is nowhere zero"];
+        return sentence!("{} is nowhere zero", name);
     }
     let places = Sentence::join(places, " or ");
-    let empty = " is zero and the statement is empty";
-    sentence!["the exception is ", places, ": there ", name, empty]
+    sentence!(
+        "the exception is {}: there {} is zero and the statement is empty",
+        places,
+        name
+    )
 }
 
 /// An identity, decided.
@@ -499,7 +504,7 @@ pub(super) fn identity(left: &Expr, right: &Expr, domains: &Domains) -> Check {
 
 fn with_words(with: &[(Symbol, Expr)]) -> Vec<Sentence> {
     with.iter()
-        .map(|(s, v)| sentence!["taken at ", s, " = ", v])
+        .map(|(s, v)| sentence!("taken at {} = {}", s, v))
         .collect()
 }
 

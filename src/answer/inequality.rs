@@ -51,12 +51,12 @@ pub(super) fn shown(gap: &Expr, relation: Relation, domains: &Domains) -> (Sente
         None if is_sided => "that both sides are the same somewhere is not excluded",
         None => "the sign of the difference was not proved",
     };
-    let difference = sentence!["the difference of its sides is ", gap];
+    let difference = sentence!("the difference of its sides is {}", gap);
     let text = match holds {
-        Some(true) => sentence![difference, ", which is ", sign_words(seen)],
-        Some(false) => sentence!["it does not hold for all values: ", difference],
-        None if is_sided => sentence!["not decided: ", difference, ", which is ", sign_words(seen)],
-        None => sentence!["not decided: ", difference],
+        Some(true) => sentence!("{}, which is {}", difference, sign_words(seen)),
+        Some(false) => sentence!("it does not hold for all values: {}", difference),
+        None if is_sided => sentence!("not decided: {}, which is {}", difference, sign_words(seen)),
+        None => sentence!("not decided: {}", difference),
     };
     (text, Check::new("sign", String::from(words), holds))
 }

@@ -26,7 +26,7 @@ pub(super) fn fill(
 ) {
     let meet = |values: &[Expr], why: &str| {
         let values = Sentence::join(values.iter().map(Sentence::from), " and at ");
-        sentence!["the sides meet at ", parameter, " = ", values, why]
+        sentence!("the sides meet at {} = {}{}", parameter, values, why)
     };
     let Some(zeros) = ordered(roots, domains) else {
         let values: Vec<Expr> = roots.iter().map(|r| r.value.clone()).collect();
@@ -61,7 +61,7 @@ pub(super) fn fill(
     out.text.push(if pieces.is_empty() {
         "it never holds within the domain".into()
     } else {
-        sentence!["it holds for ", Sentence::join(pieces, ", and for ")]
+        sentence!("it holds for {}", Sentence::join(pieces, ", and for "))
     });
     let proved = signs.iter().all(|s| s.is_proved());
     let words = "between these values, below and above them the sign of the difference is {how}, and there is no other value at which the sides meet";
@@ -123,13 +123,20 @@ fn between(parameter: &Symbol, gap: &Expr, zeros: &[Expr], domains: &Domains) ->
 fn pieces(parameter: &Symbol, zeros: &[Expr], holds: &[bool], strict: bool) -> Vec<Sentence> {
     let sign = if strict { "<" } else { "≤" };
     let words = |low: Option<&Expr>, high: Option<&Expr>| match (low, high) {
-        (None, None) => sentence!["every ", parameter, " within its domain"],
-        (None, Some(b)) => sentence![parameter, format!(" {sign} "), b],
+        (None, None) => sentence!("every {} within its domain", parameter),
+        (None, Some(b)) => sentence!("{}{}{}", parameter, format!(" {sign} "), b),
         (Some(a), Some(b)) => {
-            sentence![a, format!(" {sign} "), parameter, format!(" {sign} "), b]
+            sentence!(
+                "{}{}{}{}{}",
+                a,
+                format!(" {sign} "),
+                parameter,
+                format!(" {sign} "),
+                b
+            )
         }
         (Some(a), None) => {
-            sentence![parameter, if strict { " > " } else { " ≥ " }, a]
+            sentence!("{}{}{}", parameter, if strict { " > " } else { " ≥ " }, a)
         }
     };
     let mut out = Vec::new();
@@ -146,7 +153,7 @@ fn pieces(parameter: &Symbol, zeros: &[Expr], holds: &[bool], strict: bool) -> V
         } else if !*here && let Some(from) = open.take() {
             out.push(words(from, low));
         } else if let (false, false, false, Some(zero)) = (*here, before, strict, low) {
-            out.push(sentence![parameter, " = ", zero]);
+            out.push(sentence!("{} = {}", parameter, zero));
         }
     }
     if let Some(from) = open {

@@ -5,7 +5,6 @@
 //! roots of the parameter stand, the powers themselves are read off. Whether a leading coefficient may vanish for special values of
 //! other parameters is proved, or told as a condition. Apart from that, the formula is tried in numbers close by.
 
-
 use num_traits::Signed;
 
 use super::Check;
@@ -87,7 +86,7 @@ fn dying(of: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Found> {
         Some(false) => rest.put(POWER, &Expr::symbol(POWER).powi(-1)),
         _ => return None,
     };
-    let given = not_zero(&below, &domains).map(|_| sentence![&base, " ≠ 1"]);
+    let given = not_zero(&below, &domains).map(|_| sentence!("{} ≠ 1", &base));
     domains.symbols.insert(POWER.into(), Domain::positive());
     let name = Symbol::from(POWER);
     let found = by_taylor(&rest, &name, &Expr::zero(), &domains)
@@ -150,9 +149,10 @@ pub(super) fn approximate(
         Some(series)
     });
     let Some(series) = series else {
-        let none = " was found there";
-        out.text
-            .push(sentence!["no power series in ", parameter, none]);
+        out.text.push(sentence!(
+            "no power series in {} was found there",
+            parameter
+        ));
         out.checks.push(open("series"));
         return;
     };
@@ -176,9 +176,9 @@ pub(super) fn approximate(
             return;
         }
         let lowest = series.lowest;
-        let near = sentence!["there is no such form: near ", parameter, " = ", to];
+        let near = sentence!("there is no such form: near {} = {}", parameter, to);
         let how = format!(" it grows like the power {lowest} of the distance, beyond all bounds");
-        out.text.push(sentence![near, how]);
+        out.text.push(sentence!("{}{}", near, how));
         return;
     }
     let order = order.unwrap_or(u32::try_from(power).unwrap_or_default());
@@ -189,7 +189,7 @@ pub(super) fn approximate(
     let polynomial = tidy(&polynomial, domains).unwrap_or(polynomial);
     let mut later = terms.skip(wanted + 1).filter(|(_, c)| !c.is_zero());
     out.text.push(match later.next() {
-        Some((k, c)) => sentence!["the next term is ", &(c * &distance.powi(k as i64))],
+        Some((k, c)) => sentence!("the next term is {}", &(c * &distance.powi(k as i64))),
         None if is_zero(&(of - &polynomial), domains) == Some(true) => {
             Sentence::words("nothing is left out: it is this polynomial")
         }
@@ -228,14 +228,12 @@ fn outside(to: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sentence>
         far != r.excess && matches!(sign(&far, domains), Seen::Proved(Sign::Negative))
     });
     if let Some(broken) = broken {
-        let states = ": the scene states ";
-        return Some(sentence![
+        return Some(sentence!(
+            "{} cannot come to {}: the scene states {}",
             parameter,
-            " cannot come to ",
             to,
-            states,
             &broken.words
-        ]);
+        ));
     }
     let domain = domains.symbols.get(parameter)?;
     let below = domain.low.as_ref().map(|l| to - &l.expr());
@@ -243,7 +241,7 @@ fn outside(to: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sentence>
     let mut gaps = below.iter().chain(&above);
     let out = gaps.any(|gap| sign(gap, domains).is_negative());
     let within = within(domain, parameter);
-    out.then(|| sentence![parameter, " cannot come to ", to, ": ", within])
+    out.then(|| sentence!("{} cannot come to {}: {}", parameter, to, within))
 }
 
 /// Words for a parameter that cannot grow beyond all bounds while the others stay as they are.
@@ -252,11 +250,11 @@ fn bounded(parameter: &Symbol, domains: &Domains) -> Option<Sentence> {
     let high = domain.filter(|d| d.high.is_some());
     if let Some(domain) = high {
         let within = within(domain, parameter);
-        return Some(sentence![
+        return Some(sentence!(
+            "{} cannot grow beyond all bounds: {}",
             parameter,
-            " cannot grow beyond all bounds: ",
             within
-        ]);
+        ));
     }
     let mut relations = domains.relations.iter();
     let broken = relations.find(|r| {
@@ -266,8 +264,11 @@ fn bounded(parameter: &Symbol, domains: &Domains) -> Option<Sentence> {
         };
         far.is_some_and(|far| matches!(far.tends, Tends::Beyond(Some(false))))
     })?;
-    let why = " cannot grow beyond all bounds: the scene states ";
-    Some(sentence![parameter, why, &broken.words])
+    Some(sentence!(
+        "{} cannot grow beyond all bounds: the scene states {}",
+        parameter,
+        &broken.words
+    ))
 }
 
 /// The sides within the domain.

@@ -215,7 +215,7 @@ impl Answer {
     /// Leaves the answer open, with the reason; what was said and checked of a value goes.
     pub fn leave_open(mut self, why: impl Into<Sentence>) -> Answer {
         self.form = Form::Open(Vec::new());
-        self.text = vec![sentence!["not determined: ", why.into()]];
+        self.text = vec![sentence!("not determined: {}", why.into())];
         self.checks.clear();
         self
     }

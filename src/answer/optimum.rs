@@ -42,7 +42,7 @@ pub(super) fn maximum(
     let plays = |s: &Symbol| !tidy(&of.derivative(s), &domains).is_ok_and(|d| d.is_zero());
     let (free, idle): (Vec<Symbol>, Vec<Symbol>) = over.iter().cloned().partition(plays);
     for s in &idle {
-        out.text.push(sentence![s, " plays no part"]);
+        out.text.push(sentence!("{} plays no part", s));
     }
     if free.is_empty() {
         out.form = Form::value(of.clone());
@@ -52,11 +52,10 @@ pub(super) fn maximum(
     let refused = |reason: String| Refused::question(&name, reason, ONE_VARIABLE);
     let reduced = reduced(of, &free, &mut domains).map_err(refused)?;
     if reduced.pair.is_some() {
-        out.text.push(sentence![
-            "only the combination ",
-            &reduced.combination,
-            " matters"
-        ]);
+        out.text.push(sentence!(
+            "only the combination {} matters",
+            &reduced.combination
+        ));
     }
     let range = domains.symbols.get(&reduced.variable);
     let is_positive = range.is_none_or(|d| *d == Domain::positive() || *d == Domain::nonnegative());
@@ -187,9 +186,12 @@ fn over_positive(
     at.discarded = Vec::new();
     at.text = Vec::new();
     if let Some([p, q]) = &reduced.pair {
-        let pair = sentence!["every pair ", p, ", ", q, " with this "];
-        let end = " does it: the maximisers form a curve";
-        at.text.push(sentence![pair, &reduced.combination, end]);
+        let pair = sentence!("every pair {}, {} with this ", p, q);
+        at.text.push(sentence!(
+            "{}{} does it: the maximisers form a curve",
+            pair,
+            &reduced.combination
+        ));
     }
     let combination = reduced.combination.clone();
     at.dimension = super::formulas::dimension_of(scene, &combination, &name)?;
@@ -325,10 +327,12 @@ impl Search<'_> {
         let words = "the derivative has one sign inside the interval ({how})";
         out.checks
             .push(by_signs("maximum", words, rising.is_proved()));
-        let why = " does not vanish inside: the largest value is ";
         let bound = self.bound(&value, open);
-        out.text
-            .push(sentence!["the derivative by ", p, why, bound]);
+        out.text.push(sentence!(
+            "the derivative by {} does not vanish inside: the largest value is {}",
+            p,
+            bound
+        ));
         Ok(Some(value))
     }
 
@@ -338,7 +342,7 @@ impl Search<'_> {
             true => "approached at, and not reached, as the domain excludes",
             false => "at",
         };
-        sentence![how, " the bound ", self.p, " = ", end]
+        sentence!("{} the bound {} = {}", how, self.p, end)
     }
 
     /// The upper or lower end of the interval, by its domain and the relations, and whether it is excluded; `None` where there
@@ -428,7 +432,7 @@ impl Search<'_> {
         out.checks.push(by_signs("maximum", words, is_proved));
         if *end == Some(true) {
             let bound = self.bound(place, true);
-            out.text.push(sentence!["the largest value is ", bound]);
+            out.text.push(sentence!("the largest value is {}", bound));
         }
         Ok(place.clone())
     }
@@ -469,14 +473,23 @@ fn at_the_rim(mut out: Answer, slope: &Expr, words: &str, domains: &Domains) -> 
         false => "seen at points",
     };
     out.text.push(if s.is_positive() {
-        let lead = "there is no largest value: it grows with ";
-        let grows = sentence![lead, words, " throughout (", how, ")"];
-        sentence![grows, ", and the end, ", words, " → ∞, is never reached"]
+        let grows = sentence!(
+            "there is no largest value: it grows with {} throughout ({})",
+            words,
+            how
+        );
+        sentence!("{}, and the end, {} → ∞, is never reached", grows, words)
     } else if s.is_negative() {
-        let lead = "there is no largest value inside: it falls as ";
-        let falls = sentence![lead, words, " grows (", how, ")"];
-        let end = " → 0 and not reached there";
-        sentence![falls, ", so it is approached as ", words, end]
+        let falls = sentence!(
+            "there is no largest value inside: it falls as {} grows ({})",
+            words,
+            how
+        );
+        sentence!(
+            "{}, so it is approached as {} → 0 and not reached there",
+            falls,
+            words
+        )
     } else {
         Sentence::words("whether there is a largest value could not be decided")
     });

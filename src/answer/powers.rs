@@ -3,7 +3,6 @@
 //! In: a formula and the parameter. Out: what it tends to. The parameter is put as x² or 1/x², so that its square roots are
 //! powers too; fractions give their lowest powers, and products and roots of formulas those of their parts.
 
-
 use num_traits::{Signed, Zero};
 
 use super::ROOT;
@@ -160,6 +159,6 @@ fn lowest(field: &mut Field, e: &Element) -> Option<(usize, Expr)> {
 pub(super) fn not_zero(e: &Expr, domains: &Domains) -> Option<Sentence> {
     match sign(e, domains) {
         Seen::Proved(Sign::Positive | Sign::Negative) => None,
-        _ => Some(sentence![&essential(e, domains), " ≠ 0"]),
+        _ => Some(sentence!("{} ≠ 0", &essential(e, domains))),
     }
 }

@@ -2,7 +2,6 @@
 //!
 //! In: a formula, a parameter, the value. Out: exact coefficients; or the same formula with its roots developed.
 
-
 use super::calc::{Seen, is_zero, sign, tidy};
 use super::powers::not_zero;
 use crate::algebra::Sign;

@@ -43,16 +43,18 @@ pub(super) fn fill(
         Err(Unsolved::Absent) => {
             let words = always(&gap, relation, domains);
             out.text
-                .push(sentence![words, ", whatever ", parameter, " is"]);
+                .push(sentence!("{}, whatever {} is", words, parameter));
             return;
         }
         Err(Unsolved::Inside) => {
-            let why = " stands inside a function";
-            out.text.push(sentence!["not solved: ", parameter, why]);
+            out.text.push(sentence!(
+                "not solved: {} stands inside a function",
+                parameter
+            ));
             return;
         }
         Err(Unsolved::Limit(what)) => {
-            out.text.push(sentence!["not solved: ", what]);
+            out.text.push(sentence!("not solved: {}", what));
             return;
         }
     };
@@ -67,7 +69,7 @@ pub(super) fn fill(
         out.text.push(match relation {
             Relation::Equal if idle && rest.as_number().is_none() => {
                 let [unless, else_all] = [" does, unless ", " = 0, when every value does"];
-                sentence!["no value of ", parameter, unless, &rest, else_all]
+                sentence!("no value of {}{}{}{}", parameter, unless, &rest, else_all)
             }
             _ => always(&gap, relation, domains),
         });
@@ -98,7 +100,7 @@ pub(super) fn fill(
             out.form = Form::value(root.value.clone());
         } else {
             let count = roots.inside.len().to_string();
-            out.text.push(sentence![count, " solutions"]);
+            out.text.push(sentence!("{} solutions", count));
         }
         return;
     }
@@ -169,10 +171,14 @@ fn sides(
     let gap = &without_idle(out, parameter, gap, domains);
     if let Some(words) = jumps(gap, parameter, domains) {
         let values = roots.inside.iter().map(|r| Sentence::from(&r.value));
-        let meet = sentence!["the sides meet at ", parameter, " = "];
+        let meet = sentence!("the sides meet at {} = ", parameter);
         let values = Sentence::join(values, " and at ");
-        let end = ", so that it is not told where it holds";
-        out.text.push(sentence![meet, values, "; ", words, end]);
+        out.text.push(sentence!(
+            "{}{}; {}, so that it is not told where it holds",
+            meet,
+            values,
+            words
+        ));
         if let [root] = roots.inside.as_slice() {
             out.form = Form::value(root.value.clone());
         }
@@ -244,7 +250,7 @@ fn without_idle(out: &mut Answer, parameter: &Symbol, gap: &Expr, domains: &Doma
         return gap.clone();
     }
     for factor in &idle {
-        let needed = sentence![factor, " > 0 (otherwise both sides are the same)"];
+        let needed = sentence!("{} > 0 (otherwise both sides are the same)", factor);
         out.assumptions.push(needed);
     }
     Expr::product(rest)
@@ -268,8 +274,11 @@ fn exists(out: &mut Answer, roots: &Roots, domains: &Domains) -> Domains {
         if let Some(low) = own.and_then(|d| d.low.as_mut()) {
             low.open = true;
         }
-        let why = " (otherwise there is no such value)";
-        let needed = sentence![&symbol, " > ", &at_end, why];
+        let needed = sentence!(
+            "{} > {} (otherwise there is no such value)",
+            &symbol,
+            &at_end
+        );
         out.assumptions.push(needed);
     }
     domains
@@ -337,8 +346,11 @@ fn jumps(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sentence> 
         Ok(poles) if poles.open.is_none() => {
             let places = poles.inside.iter().map(|r| Sentence::from(&r.value));
             let places = Sentence::join(places, " and ");
-            let words = "their difference has no value at ";
-            Some(sentence![words, parameter, " = ", places])
+            Some(sentence!(
+                "their difference has no value at {} = {}",
+                parameter,
+                places
+            ))
         }
         _ => Some("their difference may have no value elsewhere".into()),
     }
@@ -361,9 +373,9 @@ fn always(gap: &Expr, relation: Relation, domains: &Domains) -> Sentence {
         " (seen at points, not proved)"
     };
     match everywhere(s, relation) {
-        Some(true) => sentence!["it always holds: ", reason(sign_words), how],
-        Some(false) => sentence!["it never holds: ", reason(sign_words), how],
-        None => sentence!["not decided: ", reason(sign_words)],
+        Some(true) => sentence!("it always holds: {}{}", reason(sign_words), how),
+        Some(false) => sentence!("it never holds: {}{}", reason(sign_words), how),
+        None => sentence!("not decided: {}", reason(sign_words)),
     }
 }
 
@@ -382,7 +394,7 @@ fn isolate(out: &mut Answer, parameter: &Symbol, gap: &Expr, coefficients: &[Exp
         })
         .collect();
     let Some(numbers) = numbers else {
-        out.text.push(sentence!["a polynomial of degree ", degree.to_string(), " in ", parameter, " has to vanish, which has no closed form here; with fractions as values of all other symbols its roots are enclosed"]);
+        out.text.push(sentence!("a polynomial of degree {} in {} has to vanish, which has no closed form here; with fractions as values of all other symbols its roots are enclosed", degree.to_string(), parameter));
         return;
     };
     let domain = scene.domains.symbols.get(parameter);
@@ -394,7 +406,8 @@ fn isolate(out: &mut Answer, parameter: &Symbol, gap: &Expr, coefficients: &[Exp
             decimal(&high, 12)
         );
         if domain.is_some_and(|d| !d.contains(&low) && !d.contains(&high)) {
-            out.discarded.push(sentence![words, ", outside the domain"]);
+            out.discarded
+                .push(sentence!("{}, outside the domain", words));
             continue;
         }
         // Squaring may have brought the root in: the two sides must change places across it.
@@ -405,19 +418,9 @@ fn isolate(out: &mut Answer, parameter: &Symbol, gap: &Expr, coefficients: &[Exp
         };
         match (side(&low), side(&high)) {
             (Some(a), Some(b)) if a * b <= 0.0 => {
-                out.text.push(sentence![
-                    words,
-                    ": one root of degree ",
-                    degree.to_string(),
-                    ", isolated exactly (Sturm); the sides change places there"
-                ]);
+                out.text.push(sentence!("{}: one root of degree {}, isolated exactly (Sturm); the sides change places there", words, degree.to_string()));
             }
-            _ => out.text.push(sentence![
-                words,
-                ": one root of degree ",
-                degree.to_string(),
-                ", isolated exactly (Sturm); the sides do not change places there"
-            ]),
+            _ => out.text.push(sentence!("{}: one root of degree {}, isolated exactly (Sturm); the sides do not change places there", words, degree.to_string())),
         }
     }
     if out.text.is_empty() {

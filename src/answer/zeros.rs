@@ -35,9 +35,9 @@ pub(super) fn of(e: &Expr, domains: &Domains) -> Vec<Sentence> {
             }) if inside.iter().all(|r| r.proved) => {
                 let name = &symbols[0];
                 let places = inside.iter();
-                out.extend(places.map(|r| sentence![name, " = ", &r.value]));
+                out.extend(places.map(|r| sentence!("{} = {}", name, &r.value)));
             }
-            _ => out.push(sentence![&base, " = 0"]),
+            _ => out.push(sentence!("{} = 0", &base)),
         }
     }
     out.sort();

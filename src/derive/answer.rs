@@ -483,7 +483,7 @@ impl Work<'_> {
         let determinant = algebra::determinant(&self.field, &rows)?;
         Ok(Some(match self.field.is_zero(&determinant) {
             true => Sentence::words("its determinant is 0: a row follows from the others"),
-            false => sentence!["its determinant is ", &self.field.expr(&determinant)],
+            false => sentence!("its determinant is {}", &self.field.expr(&determinant)),
         }))
     }
 }

@@ -10,12 +10,11 @@ use num_traits::Signed;
 use super::write_plain;
 use crate::expr::{Expr, Node, Symbol};
 
-/// A sentence from words, formulas and other sentences, in order: `sentence!["it holds for ", &h, " ≤ ", &limit]`.
+/// A sentence from a template, with words, formulas and other sentences in its gaps, in order:
+/// `sentence!("it holds for {} ≤ {}", &h, &limit)`.
 macro_rules! sentence {
-    ($($piece:expr),* $(,)?) => {
-        $crate::formula::Sentence(
-            [$($crate::formula::Sentence::from($piece).0),*].concat()
-        )
+    ($template:literal $(, $piece:expr)* $(,)?) => {
+        $crate::formula::Sentence::filled($template, [$($crate::formula::Sentence::from($piece)),*])
     };
 }
 pub(crate) use sentence;
@@ -73,6 +72,21 @@ impl Sentence {
         beyond_zero(e, [" > ", " < "])
     }
 
+    /// A template with a piece in each of its gaps `{}`.
+    pub fn filled<const N: usize>(template: &str, pieces: [Sentence; N]) -> Sentence {
+        debug_assert_eq!(template.matches("{}").count(), N, "{template}");
+        let mut out = Sentence::default();
+        let mut pieces = pieces.into_iter();
+        for words in template.split("{}") {
+            if !words.is_empty() {
+                out.0.push(Piece::Words(words.to_string()));
+            }
+            out.0
+                .extend(pieces.next().into_iter().flat_map(|piece| piece.0));
+        }
+        out
+    }
+
     /// Sentences with something between every two.
     pub fn join(all: impl IntoIterator<Item = Sentence>, between: &str) -> Sentence {
         let mut out = Sentence::default();
@@ -91,7 +105,11 @@ impl Sentence {
             [] => Sentence::default(),
             [one] => one.clone(),
             [first @ .., last] => {
-                sentence![Sentence::join(first.iter().cloned(), ", "), " and ", last]
+                sentence!(
+                    "{} and {}",
+                    Sentence::join(first.iter().cloned(), ", "),
+                    last
+                )
             }
         }
     }
@@ -149,12 +167,17 @@ fn beyond_zero(e: &Expr, [sign, turned]: [&str; 2]) -> Sentence {
     // A constant stands on the right, with the factor of the other side put in: `3 − 4μ ≥ 0` as `μ ≤ 3/4`.
     let solved = |side: &Expr, sign, constant: &Expr| {
         let (factor, rest) = side.split_number();
-        sentence![&rest, sign, &(constant * &Expr::from(factor.recip()))]
+        sentence!(
+            "{}{}{}",
+            &rest,
+            sign,
+            &(constant * &Expr::from(factor.recip()))
+        )
     };
     match (kept.is_constant(), taken.is_constant()) {
         (true, false) => solved(&taken, turned, &kept),
         (false, true) => solved(&kept, sign, &taken),
-        _ => sentence![&gathered(&kept), sign, &gathered(&taken)],
+        _ => sentence!("{}{}{}", &gathered(&kept), sign, &gathered(&taken)),
     }
 }
 

@@ -25,24 +25,19 @@ pub(super) fn assumed(readings: &[String], stages: &[StageTold]) -> Vec<Sentence
     let impacts = named(|kind| matches!(kind, StageKind::Impact { .. }));
     if !impacts.is_empty() {
         let takes = if impacts.len() == 1 { "takes" } else { "take" };
-        out.push(sentence![
-            listed(&impacts),
-            format!(" {takes} no time: nothing moves while velocities jump, and finite forces have no impulse")
-        ]);
+        out.push(sentence!("{}{}", listed(&impacts), format!(" {takes} no time: nothing moves while velocities jump, and finite forces have no impulse")));
     }
     let falls = named(|kind| matches!(kind, StageKind::Fall(_)));
     if !falls.is_empty() {
-        out.push(sentence!["in ", listed(&falls), " there is no drag"]);
+        out.push(sentence!("in {} there is no drag", listed(&falls)));
     }
     let strung = named(|kind| matches!(kind, StageKind::Slide(s) if !s.strings.is_empty()));
     if !strung.is_empty() {
-        let why = " strings have no mass, keep their length and do not slip on their pulleys, whose axles are frictionless";
-        out.push(sentence!["in ", listed(&strung), why]);
+        out.push(sentence!("in {} strings have no mass, keep their length and do not slip on their pulleys, whose axles are frictionless", listed(&strung)));
     }
     let linked = named(|kind| matches!(kind, StageKind::Linkage(_)));
     if !linked.is_empty() {
-        let why = " joints and guides hold the bodies all the way, pulling where need be, and are frictionless";
-        out.push(sentence!["in ", listed(&linked), why]);
+        out.push(sentence!("in {} joints and guides hold the bodies all the way, pulling where need be, and are frictionless", listed(&linked)));
     }
     // Rotations about one point are told together.
     let mut turns: Vec<(String, Vec<String>)> = Vec::new();
@@ -69,7 +64,7 @@ pub(super) fn assumed(readings: &[String], stages: &[StageTold]) -> Vec<Sentence
         }
     }
     let turns = turns.into_iter();
-    out.extend(turns.map(|(holds, names)| sentence!["in ", listed(&names), holds]));
+    out.extend(turns.map(|(holds, names)| sentence!("in {}{}", listed(&names), holds)));
     out.extend(stages.iter().flat_map(|told| told.assumptions.clone()));
     let mut seen: Vec<Sentence> = Vec::new();
     out.retain(|s| {

@@ -46,13 +46,7 @@ pub(super) fn share(mut out: Answer, given: [&Expr; 3], domains: &Domains) -> Ve
         _ if all.iter().all(|x| *x == Some(true)) => Some(true),
         _ => None,
     };
-    out.text.push(sentence![
-        "with the blow J spread evenly over the time ",
-        during,
-        ", the body obeys m y″ + k y = J/τ from rest; so y = J (1 − cos(t √(k/m)))/(k τ), and at the end the body has the momentum J sin φ/φ with φ = ",
-        &phase,
-        ": the spring has taken the rest"
-    ]);
+    out.text.push(sentence!("with the blow J spread evenly over the time {}, the body obeys m y″ + k y = J/τ from rest; so y = J (1 − cos(t √(k/m)))/(k τ), and at the end the body has the momentum J sin φ/φ with φ = {}: the spring has taken the rest", during, &phase));
     out.checks.push(Check::new("identity", "substituted into the equation of motion, this motion satisfies it and its initial conditions, and its momentum at the end leaves the share", holds));
     out.checks.push(integrate::share(domains, given, &share));
     let mut short = out.clone();
@@ -62,11 +56,10 @@ pub(super) fn share(mut out: Answer, given: [&Expr; 3], domains: &Domains) -> Ve
     short.checks.clear();
     let leading = &phase.powi(2) / &Expr::from(6);
     let leading = tidy(&leading, domains).unwrap_or(leading);
-    short.text = vec![sentence![
-        "for a short blow the share is φ²/6 = ",
-        &leading,
-        " and higher powers of φ: it vanishes with the square of the time, and so the spring has no impulse"
-    ]];
+    short.text = vec![sentence!(
+        "for a short blow the share is φ²/6 = {} and higher powers of φ: it vanishes with the square of the time, and so the spring has no impulse",
+        &leading
+    )];
     // (1 − sin φ/φ)/φ² → 1/6.
     let phi = Expr::symbol(PHASE);
     let ratio = &(Expr::one() - &phi.sin() / &phi) / &phi.powi(2);

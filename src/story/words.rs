@@ -1,6 +1,5 @@
 //! Sentences about stages, made from what was found of them: what happens, which forces have impulses, what is open.
 
-
 use super::{Case, StageTold, change, line};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, is_zero, sign, tidy};
@@ -75,12 +74,12 @@ impl Case {
                 true => (one, other),
                 false => (other, one),
             };
-            return sentence![&low.at, " ≤ ", &low.of, " ≤ ", &high.at];
+            return sentence!("{} ≤ {} ≤ {}", &low.at, &low.of, &high.at);
         }
         let each = all.into_iter().zip(bounds);
         let each = each.map(|(e, bound)| match bound {
-            Some(b) if b.is_least => sentence![&b.of, " ≥ ", &b.at],
-            Some(b) => sentence![&b.of, " ≤ ", &b.at],
+            Some(b) if b.is_least => sentence!("{} ≥ {}", &b.of, &b.at),
+            Some(b) => sentence!("{} ≤ {}", &b.of, &b.at),
             None => Sentence::not_negative(e),
         });
         Sentence::join(each, " and ")
@@ -133,7 +132,7 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
                 // Of several, an outcome is one sentence, with the condition that it hangs on.
                 if several && !case.conditions.is_empty() && !all.is_empty() {
                     let does = Sentence::join(all, "; ");
-                    out.push(sentence!["where ", case.holds_where(), ": ", does]);
+                    out.push(sentence!("where {}: {}", case.holds_where(), does));
                 } else {
                     out.extend(all);
                 }
@@ -153,8 +152,8 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
             let coordinate = Expr::symbol(&linkage.coordinate);
             let [from, to] = &linkage.ends;
             out.push(match *from == coordinate {
-                true => sentence![lead, " from ", from, " to ", to],
-                false => sentence![lead, ": ", &coordinate, " goes from ", from, " to ", to],
+                true => sentence!("{} from {} to {}", lead, from, to),
+                false => sentence!("{}: {} goes from {} to {}", lead, &coordinate, from, to),
             });
             let by_it = |e: &Expr| e.symbols().contains(&linkage.coordinate);
             let points = scene.points.iter();
@@ -167,8 +166,12 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
         }
         StageKind::Wind(wind) => {
             let (free, name) = (" of it is free; `", &scene.bodies[wind.body].name);
-            let words = "the rope winds up until ";
-            out.push(sentence![words, &wind.to, free, name, "` keeps its speed"]);
+            out.push(sentence!(
+                "the rope winds up until {}{}{}` keeps its speed",
+                &wind.to,
+                free,
+                name
+            ));
         }
     }
     out
@@ -181,26 +184,29 @@ fn falling(told: &StageTold, fall: &Fall) -> Vec<Sentence> {
     let falls = goes_down(told, fall.body);
     let mut out = vec![match (&fall.until, &fall.gravity) {
         (FallEnd::Drop(h), Some(_)) if fall.rising => {
-            sentence!["`", name, "` rises freely through ", measured(&-h, "m")]
+            sentence!("`{}` rises freely through {}", name, measured(&-h, "m"))
         }
         (FallEnd::Drop(h), Some(_)) if h.is_zero() => {
-            sentence!["`", name, "` flies freely until it is as high as at first"]
+            sentence!("`{}` flies freely until it is as high as at first", name)
         }
         (FallEnd::Drop(h), Some(_)) => match counted(h, [" lower", " higher"]) {
             (_, " lower") if falls => {
-                sentence!["`", name, "` falls freely through ", measured(h, "m")]
+                sentence!("`{}` falls freely through {}", name, measured(h, "m"))
             }
             (down, " lower") => flown(name, (down, " lower")),
             (up, _) => {
-                let flies = "` flies freely until it comes down to a place ";
-                sentence!["`", name, flies, measured(&up, "m"), " higher"]
+                sentence!(
+                    "`{}` flies freely until it comes down to a place {} higher",
+                    name,
+                    measured(&up, "m")
+                )
             }
         },
         (FallEnd::Time(t), Some(_)) if falls => {
-            sentence!["`", name, "` falls freely for ", measured(t, "s")]
+            sentence!("`{}` falls freely for {}", name, measured(t, "s"))
         }
         (FallEnd::Time(t), _) => {
-            sentence!["`", name, "` flies freely for ", measured(t, "s")]
+            sentence!("`{}` flies freely for {}", name, measured(t, "s"))
         }
         (FallEnd::Range(s), _) => flown(name, counted(s, [" further right", " further left"])),
         (FallEnd::Drop(h), None) => flown(name, counted(h, [" lower", " higher"])),
@@ -211,18 +217,14 @@ fn falling(told: &StageTold, fall: &Fall) -> Vec<Sentence> {
             true => "falls",
             false => "flies",
         };
-        out.push(sentence![
-            "`",
-            other,
-            "` meanwhile ",
-            verb,
-            " freely as well"
-        ]);
+        out.push(sentence!("`{}` meanwhile {} freely as well", other, verb));
     }
     for b in fall.bodies() {
         if is_zero(&told.after.spin[b], &scene.domains) == Some(false) {
-            let why = "` keeps its spin, since nothing has a moment about its center of mass";
-            out.push(sentence!["`", &scene.bodies[b].name, why]);
+            out.push(sentence!(
+                "`{}` keeps its spin, since nothing has a moment about its center of mass",
+                &scene.bodies[b].name
+            ));
         }
     }
     out
@@ -259,16 +261,16 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
         let below = below.join(" and ");
         let lead = format!("{lead} {verb} on {below}, which moves on a {floor} floor,");
         return match &slide.until {
-            SlideEnd::Distance(s) => sentence![lead, " through ", measured(s, "m"), " along it"],
-            SlideEnd::Time(t) => sentence![lead, " for ", measured(t, "s")],
-            _ => sentence![lead, " until both move together"],
+            SlideEnd::Distance(s) => sentence!("{} through {} along it", lead, measured(s, "m")),
+            SlideEnd::Time(t) => sentence!("{} for {}", lead, measured(t, "s")),
+            _ => sentence!("{} until both move together", lead),
         };
     }
     if told.time.as_ref().is_some_and(Expr::is_zero) {
         return match (&slide.until, one) {
-            (SlideEnd::Rolls, _) => sentence![lead, " rolls already"],
-            (_, true) => sentence![lead, " is at rest already"],
-            (_, false) => sentence![lead, " are at rest already"],
+            (SlideEnd::Rolls, _) => sentence!("{} rolls already", lead),
+            (_, true) => sentence!("{} is at rest already", lead),
+            (_, false) => sentence!("{} are at rest already", lead),
         };
     }
     let lead = lead + how;
@@ -288,11 +290,11 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
     };
     let lead = lead + spring;
     match &slide.until {
-        SlideEnd::Distance(s) => sentence![lead, " through ", measured(s, "m"), strings],
-        SlideEnd::Time(t) => sentence![lead, " for ", measured(t, "s"), strings],
-        SlideEnd::Stops if one => sentence![lead, " until it stops", strings],
-        SlideEnd::Stops => sentence![lead, " until they stop", strings],
-        SlideEnd::Rolls | SlideEnd::Together => sentence![lead, " until it rolls", strings],
+        SlideEnd::Distance(s) => sentence!("{} through {}{}", lead, measured(s, "m"), strings),
+        SlideEnd::Time(t) => sentence!("{} for {}{}", lead, measured(t, "s"), strings),
+        SlideEnd::Stops if one => sentence!("{} until it stops{}", lead, strings),
+        SlideEnd::Stops => sentence!("{} until they stop{}", lead, strings),
+        SlideEnd::Rolls | SlideEnd::Together => sentence!("{} until it rolls{}", lead, strings),
     }
 }
 
@@ -307,7 +309,7 @@ fn goes_down(told: &StageTold, body: usize) -> bool {
 /// A formula, or a number with its unit.
 fn measured(e: &Expr, unit: &str) -> Sentence {
     match e.is_constant() && !e.is_zero() {
-        true => sentence![e, " ", unit],
+        true => sentence!("{} {}", e, unit),
         false => e.into(),
     }
 }
@@ -315,7 +317,7 @@ fn measured(e: &Expr, unit: &str) -> Sentence {
 /// A flight that ends at a place so far away.
 fn flown(name: &str, (far, way): (Expr, &'static str)) -> Sentence {
     let far = measured(&far, "m");
-    sentence!["`", name, "` flies freely until it is ", far, way]
+    sentence!("`{}` flies freely until it is {}{}", name, far, way)
 }
 
 /// A distance without the minus sign it may begin with, and the word for its direction.
@@ -363,37 +365,36 @@ fn turning(stage: &Stage, told: &StageTold, turn: &Turn) -> Sentence {
         None => "",
     };
     let turns = format!(" {turns}{sense} about `{}`", turn.about_name);
-    sentence![names.join(" and "), turns, rate]
+    sentence!("{}{}{}", names.join(" and "), turns, rate)
 }
 
 /// Which forces have an impulse, and why; which have none.
 pub(super) fn impulsive(told: &StageTold) -> Vec<Sentence> {
     let stage = &told.placed;
     let StageKind::Impact { one_sided, .. } = &stage.kind else {
-        let why = "` is a motion: nothing jumps, and no force has an impulse";
-        return vec![sentence!["`", &stage.name, why]];
+        return vec![sentence!(
+            "`{}` is a motion: nothing jumps, and no force has an impulse",
+            &stage.name
+        )];
     };
     let scene = &stage.scene;
     let mut out: Vec<Sentence> = Vec::new();
     for blow in &scene.blows {
         let size = match &blow.impulse {
-            BlowImpulse::Given([x, y]) => sentence![" (", x, ", ", y, ")"],
+            BlowImpulse::Given([x, y]) => sentence!(" ({}, {})", x, y),
             BlowImpulse::Along(_) => Sentence::default(),
         };
-        let given = " is what is given, however short it lasts";
-        out.push(sentence![
-            "`",
+        out.push(sentence!(
+            "`{}` is a blow: its impulse{} is what is given, however short it lasts",
             &blow.name,
-            "` is a blow: its impulse",
-            size,
-            given
-        ]);
+            size
+        ));
     }
     for c in &scene.contacts {
-        out.push(sentence!["`", &c.name, "` is impulsive: the bodies are stiff there, and only a force that grows without bound as the time shrinks can change a velocity at once"]);
+        out.push(sentence!("`{}` is impulsive: the bodies are stiff there, and only a force that grows without bound as the time shrinks can change a velocity at once", &c.name));
     }
     for h in &scene.hinges {
-        out.push(sentence!["`", &h.name, "` is impulsive: the joint cannot give way, and answers with whatever impulse keeps it together"]);
+        out.push(sentence!("`{}` is impulsive: the joint cannot give way, and answers with whatever impulse keeps it together", &h.name));
     }
     for o in one_sided {
         let verb = if o.is_string { "pull" } else { "push" };
@@ -402,20 +403,13 @@ pub(super) fn impulsive(told: &StageTold) -> Vec<Sentence> {
             let size = value.map_or_else(|| "none".into(), |v| Sentence::from(&v));
             match case.conditions.is_empty() {
                 true => size,
-                false => sentence![size, " where ", case.holds_where()],
+                false => sentence!("{} where {}", size, case.holds_where()),
             }
         });
-        out.push(sentence![
-            "`",
-            &o.name,
-            "` can only ",
-            verb,
-            ", and is stiff, so it is impulsive where it is needed: its impulse is ",
-            Sentence::join(cases, ", and ")
-        ]);
+        out.push(sentence!("`{}` can only {}, and is stiff, so it is impulsive where it is needed: its impulse is {}", &o.name, verb, Sentence::join(cases, ", and ")));
     }
     for f in &scene.forces {
-        out.push(sentence!["`", &f.name, "` on `", &scene.bodies[f.body].name, "` is finite: its impulse is at most its largest size times the duration of the contact, and vanishes with it"]);
+        out.push(sentence!("`{}` on `{}` is finite: its impulse is at most its largest size times the duration of the contact, and vanishes with it", &f.name, &scene.bodies[f.body].name));
     }
     out
 }
@@ -432,13 +426,13 @@ pub(super) fn missing(told: &StageTold) -> Vec<Sentence> {
     let mut used: Vec<Sentence> = Vec::new();
     for c in &mut bare.contacts {
         used.push(match &c.law {
-            ContactLaw::Sticking => sentence!["at `", &c.name, "` the bodies stick"],
+            ContactLaw::Sticking => sentence!("at `{}` the bodies stick", &c.name),
             ContactLaw::Frictionless { restitution } => {
                 let law = "` there is no friction, the normal is the one given, and the coefficient of restitution is ";
-                sentence!["at `", &c.name, law, restitution]
+                sentence!("at `{}{}{}", &c.name, law, restitution)
             }
             ContactLaw::None | ContactLaw::Friction(_) | ContactLaw::Decided(_) => {
-                sentence!["nothing is supposed at `", &c.name, "`"]
+                sentence!("nothing is supposed at `{}`", &c.name)
             }
         });
         c.law = ContactLaw::None;
@@ -453,14 +447,14 @@ pub(super) fn missing(told: &StageTold) -> Vec<Sentence> {
                     (false, true) => "goes slack and has no impulse",
                     (false, false) => "is left and has no impulse",
                 };
-                used.push(sentence!["`", &o.name, "` ", does]);
+                used.push(sentence!("`{}` {}", &o.name, does));
             }
         }
     }
     let counting = match derive::count(&bare) {
         Ok(counting) => counting,
         Err(stop) => {
-            out.push(sentence!["not counted: ", stop.to_string()]);
+            out.push(sentence!("not counted: {}", stop.to_string()));
             return out;
         }
     };
@@ -472,7 +466,7 @@ pub(super) fn missing(told: &StageTold) -> Vec<Sentence> {
     );
     out.push(words.into());
     let closing = counting.closing_laws.iter();
-    out.extend(closing.map(|law| sentence!["what could close them: ", law]));
-    out.extend(used.into_iter().map(|u| sentence!["supposed here: ", u]));
+    out.extend(closing.map(|law| sentence!("what could close them: {}", law)));
+    out.extend(used.into_iter().map(|u| sentence!("supposed here: {}", u)));
     out
 }

@@ -112,7 +112,7 @@ pub(super) fn each(
                 number_case(a, k + 1);
             }
             let given =
-                (given.iter()).map(|(why, e)| sentence![Sentence::not_negative(e), " (", why, ")"]);
+                (given.iter()).map(|(why, e)| sentence!("{} ({})", Sentence::not_negative(e), why));
             a.assumptions.extend(given);
             a.worlds = holds.clone();
         }

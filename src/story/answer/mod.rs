@@ -99,8 +99,8 @@ fn needs_open(ask: &Ask, known: &Known, earlier: &[Answer]) -> Option<Sentence> 
         let why = open.text.first().cloned().unwrap_or_default();
         let name = Expr::symbol(&open.name);
         Some(match why.to_string().strip_prefix("not determined: it ") {
-            Some(why) => sentence!["it needs ", &name, ", which ", why],
-            None => sentence!["it needs ", &name, ", which is ", why],
+            Some(why) => sentence!("it needs {}, which {}", &name, why),
+            None => sentence!("it needs {}, which is {}", &name, why),
         })
     })
 }
@@ -290,10 +290,10 @@ fn without(scene: &Scene, of: &str, earlier: &[Answer]) -> Sentence {
     let unused = unused(scene, &asked.cloned().collect::<Vec<_>>());
     let of = Symbol::from(of);
     if unused.is_empty() {
-        return sentence![&of, " needs all of the data"];
+        return sentence!("{} needs all of the data", &of);
     }
     let unused: Vec<Sentence> = unused.iter().map(Sentence::from).collect();
-    sentence![&of, " is found without ", Sentence::list(&unused)]
+    sentence!("{} is found without {}", &of, Sentence::list(&unused))
 }
 
 /// Parameters that no answer so far depends on.
@@ -418,7 +418,7 @@ fn rests_on(case: &Case) -> Vec<Sentence> {
 
 /// What must be ≥ 0, with the words for it.
 fn supposed((why, e): &(String, Expr)) -> Sentence {
-    sentence![Sentence::not_negative(e), " (", why, ")"]
+    sentence!("{} ({})", Sentence::not_negative(e), why)
 }
 
 /// Velocities, spins, impulses and energies at the end of a stage.
@@ -519,7 +519,7 @@ fn of_case(question: &Question, case: &Case, several: bool) -> Vec<Answer> {
         if let Form::Open(names) = &a.form {
             let names = names.join(", ");
             a.text
-                .push(sentence!["not determined: it depends on ", names]);
+                .push(sentence!("not determined: it depends on {}", names));
         }
         a.assumptions.extend(rests_on(case));
         let identities = case.identities().map(|check| for_any(case, check));
@@ -531,7 +531,7 @@ fn of_case(question: &Question, case: &Case, several: bool) -> Vec<Answer> {
         a.form = Form::value(Expr::zero());
         let acts = words::active(case);
         a.text
-            .push(sentence!["nothing is transmitted there: ", acts]);
+            .push(sentence!("nothing is transmitted there: {}", acts));
         a.assumptions.extend(case.conditions.iter().map(supposed));
         a.dimension = Dimension::new(1, 1, -1);
         a.checks = case.identities().cloned().collect();

@@ -61,19 +61,17 @@ pub(super) fn held(
             let seen = sign(&there, &scene.domains);
             let words = |e: &Expr| {
                 let need = at_least_zero(e, &scene.domains);
-                sentence![need, ", so that `", &told.name, "` comes to its end"]
+                sentence!("{}, so that `{}` comes to its end", need, &told.name)
             };
             match seen {
                 Seen::Proved(Sign::Negative) if relation == Relation::Equal => {
-                    never = Some(sentence![
+                    never = Some(sentence!(
+                        "{} = {}, with which `{}` never comes to its end: that needs {}",
                         &symbol,
-                        " = ",
                         &value,
-                        ", with which `",
                         &told.name,
-                        "` never comes to its end: that needs ",
                         at_least_zero(need, &scene.domains)
-                    ]);
+                    ));
                 }
                 Seen::Proved(s) if relation == Relation::Equal && s.is_not_negative() => {}
                 _ if relation == Relation::Equal => besides.push(words(&there)),
@@ -103,11 +101,10 @@ pub(super) fn held(
         answer.form = Form::Words;
         answer.put_in.clear();
         answer.checks.clear();
-        answer.text = vec![sentence![
-            "no value does: ",
-            closed,
-            " solves the equation, but the scene does not get there with it"
-        ]];
+        answer.text = vec![sentence!(
+            "no value does: {} solves the equation, but the scene does not get there with it",
+            closed
+        )];
     }
 }
 

@@ -169,36 +169,31 @@ impl Asked<'_> {
         // Where it is follows from how it moves.
         let told = if motion.is_empty() { places } else { motion };
         let moves = told.into_iter();
-        let moves = moves.map(|(lead, part)| sentence![lead, &part.put(self.number, &before)]);
+        let moves =
+            moves.map(|(lead, part)| sentence!("{}{}", lead, &part.put(self.number, &before)));
         let moves: Vec<Sentence> = moves.collect();
         let mut out = Vec::new();
         if !moves.is_empty() {
             let lead = ["suppose that, as turn ", " begins, "];
-            out.push(sentence![lead[0], &n, lead[1], Sentence::list(&moves)]);
-            let ends = "worked out like the first turn, it ends with the same, ";
-            let so = "; the first begins with it for ";
+            out.push(sentence!(
+                "{}{}{}{}",
+                lead[0],
+                &n,
+                lead[1],
+                Sentence::list(&moves)
+            ));
             let is_one = &Expr::one();
-            out.push(sentence![
-                ends,
-                &n,
-                " in place of ",
-                &before,
-                so,
-                &n,
-                " = ",
-                is_one,
-                ", so every turn does"
-            ]);
+            out.push(sentence!("worked out like the first turn, it ends with the same, {} in place of {}; the first begins with it for {} = {}, so every turn does", &n, &before, &n, is_one));
         } else {
             out.push(Sentence::words("every turn begins as the first does"));
         }
         out.extend(match &law.by {
-            By::Factor(ratio) => Some(sentence!["each turn multiplies it by ", ratio]),
-            By::Step(step) => Some(sentence!["each turn adds ", step]),
-            By::Sum(ratio) => {
-                let series = " times what the one before adds: a geometric series";
-                Some(sentence!["each turn adds ", ratio, series])
-            }
+            By::Factor(ratio) => Some(sentence!("each turn multiplies it by {}", ratio)),
+            By::Step(step) => Some(sentence!("each turn adds {}", step)),
+            By::Sum(ratio) => Some(sentence!(
+                "each turn adds {} times what the one before adds: a geometric series",
+                ratio
+            )),
             By::Nothing => None,
         });
         out
@@ -283,11 +278,10 @@ fn law(terms: &[Expr], number: &Symbol, domains: &Domains) -> Result<Law, Senten
     }
     let is_positive = |e: &Expr| sign(e, domains) == Seen::Proved(Sign::Positive);
     if !is_positive(&ratio) {
-        return Err(sentence![
-            "its powers are taken of what is positive, and ",
-            &ratio,
-            " is not known to be"
-        ]);
+        return Err(sentence!(
+            "its powers are taken of what is positive, and {} is not known to be",
+            &ratio
+        ));
     }
     if is(&(second - &(&ratio * first))) {
         return Ok(Law {
@@ -299,7 +293,7 @@ fn law(terms: &[Expr], number: &Symbol, domains: &Domains) -> Result<Law, Senten
     let gap = &Expr::one() - &ratio;
     let given = match is_positive(&gap) || is_positive(&-&gap) {
         true => None,
-        false => Some(sentence![&ratio, " ≠ 1"]),
+        false => Some(sentence!("{} ≠ 1", &ratio)),
     };
     // Of what gets less from turn to turn the loss is told.
     let falls = sign(step, domains).is_negative() == is_positive(&gap);

@@ -112,7 +112,7 @@ pub(super) fn tell(
     places.sort_by(|a, b| a.1.cmp(&b.1));
     places.dedup_by(|a, b| a.1 == b.1);
     for (words, e) in cases[0].conditions.iter().chain(&places) {
-        assumptions.push(sentence![Sentence::not_negative(e), " (", words, ")"]);
+        assumptions.push(sentence!("{} ({})", Sentence::not_negative(e), words));
     }
     assumptions.extend(cases.iter().filter_map(|case| gain(&base, case)));
     let checks = cases[0].proof.scene.clone();
@@ -174,10 +174,10 @@ fn kept(scene: &Scene, one_sided: &[OneSided], cases: &[Case]) -> Vec<Kept> {
             what: "momentum".into(),
             conserved: false,
             why: match names.as_slice() {
-                [one] => sentence!["an impulse from outside acts at ", one],
+                [one] => sentence!("an impulse from outside acts at {}", one),
                 several => {
                     let all: Vec<Sentence> = several.iter().map(Sentence::from).collect();
-                    sentence!["impulses from outside act at ", Sentence::list(&all)]
+                    sentence!("impulses from outside act at {}", Sentence::list(&all))
                 }
             },
         },
@@ -186,11 +186,10 @@ fn kept(scene: &Scene, one_sided: &[OneSided], cases: &[Case]) -> Vec<Kept> {
         out.push(Kept {
             what: format!("angular momentum about {name}"),
             conserved: true,
-            why: sentence![
-                "the only impulse from outside acts at `",
-                name,
-                "` and has no moment about it"
-            ],
+            why: sentence!(
+                "the only impulse from outside acts at `{}` and has no moment about it",
+                name
+            ),
         });
     }
     if let ([case], true) = (cases, scene.blows.is_empty())
@@ -207,7 +206,7 @@ fn kept(scene: &Scene, one_sided: &[OneSided], cases: &[Case]) -> Vec<Kept> {
             Kept {
                 what: "kinetic energy".into(),
                 conserved: false,
-                why: sentence!["the loss comes out as ", closed],
+                why: sentence!("the loss comes out as {}", closed),
             }
         });
     }

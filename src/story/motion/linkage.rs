@@ -347,20 +347,16 @@ fn sets_out(
                 return Err(Refused::new(&stage.name, why, hint));
             }
             _ => {
-                assumptions.push(sentence![
-                    Sentence::not_negative(&begins),
-                    ", so that weight sets it going"
-                ]);
+                assumptions.push(sentence!(
+                    "{}, so that weight sets it going",
+                    Sentence::not_negative(&begins)
+                ));
                 needs.push(begins);
             }
         }
     }
     if !falls_all_the_way(stage, linkage, &drawn) {
-        assumptions.push(sentence![
-            "it does not come to rest while ",
-            name,
-            " changes"
-        ]);
+        assumptions.push(sentence!("it does not come to rest while {} changes", name));
     }
     Ok(())
 }

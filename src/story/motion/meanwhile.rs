@@ -46,11 +46,10 @@ pub(super) fn others(
         // What is prescribed goes on as it does, whatever acts on the others.
         let weightless = body.is_fixed() || stage.kind.gravity().is_none();
         match (&before.part[b], time) {
-            (Part::Waits, _) if !body.is_fixed() => out.push(sentence![
-                "`",
-                &body.name,
-                "` comes into play at the place that the scene gives"
-            ]),
+            (Part::Waits, _) if !body.is_fixed() => out.push(sentence!(
+                "`{}` comes into play at the place that the scene gives",
+                &body.name
+            )),
             (Part::Free | Part::Waits, Some(time)) if weightless => {
                 for k in 0..2 {
                     after.center[b][k] = put(&before.center[b][k], &before.velocity[b][k], time);

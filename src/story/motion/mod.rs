@@ -91,23 +91,20 @@ fn arrival(stage: &Stage, body: usize, end: &Expr, seen: Seen) -> Option<Sentenc
 /// What must hold, with what it is needed for.
 fn arrives(stage: &Stage, body: usize, need: Sentence) -> Sentence {
     let name = &stage.scene.bodies[body].name;
-    sentence![
+    sentence!(
+        "{}, so that `{}` gets to the end of `{}`",
         need,
-        ", so that `",
         name,
-        "` gets to the end of `",
-        &stage.name,
-        "`"
-    ]
+        &stage.name
+    )
 }
 
 /// What is granted of a body that is at rest and in balance when its motion begins.
 fn pushed(body: &str) -> Sentence {
-    sentence![
-        "a small push sets `",
-        body,
-        "` going: at rest and in balance it could stay"
-    ]
+    sentence!(
+        "a small push sets `{}` going: at rest and in balance it could stay",
+        body
+    )
 }
 
 /// A motion that begins with something that is not determined: where it leads is open as well.
@@ -127,6 +124,6 @@ pub(super) fn open(stage: &Stage, before: State) -> Option<StageTold> {
     }
     meanwhile::others(stage, &before, &mut after, None);
     let mut out = StageTold::new(stage, before, after);
-    out.words = vec![sentence!["where this leads is open: ", &why]];
+    out.words = vec![sentence!("where this leads is open: {}", &why)];
     Some(out)
 }

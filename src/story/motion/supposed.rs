@@ -66,7 +66,7 @@ impl<'a> Supposed<'a> {
 
     fn needs(&mut self, e: &Expr, need: Sentence, so_that: impl Into<Sentence>) {
         self.words
-            .push(sentence![need, ", so that ", so_that.into()]);
+            .push(sentence!("{}, so that {}", need, so_that.into()));
         self.needs.push(e.clone());
     }
 

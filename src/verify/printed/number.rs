@@ -1,6 +1,5 @@
 //! Printed numbers: the exact value, rounded to the digits that are printed, in the unit that is printed.
 
-
 use num_traits::Signed;
 
 use super::{Desk, Finding, remainder};

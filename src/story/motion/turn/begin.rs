@@ -45,7 +45,7 @@ pub(in crate::story) fn sense(
                 Some(Sign::Negative) => -1,
                 _ => 1,
             };
-            let words = sentence!["`", body, "` turns ", sense_words(way)];
+            let words = sentence!("`{}` turns {}", body, sense_words(way));
             Ok((way, Some((&Expr::from(way) * spin, words))))
         }
     }
@@ -110,19 +110,17 @@ fn from_rest(
     let need = tidied(stage, &(&Expr::from(way) * &moment))?;
     let condition = crate::answer::calc::at_least_zero(&need, &stage.scene.domains);
     let words = match declared {
-        Some(_) => sentence![
+        Some(_) => sentence!(
+            "{}, so that `{}` begins to turn {}",
             condition,
-            ", so that `",
             body,
-            "` begins to turn ",
             sense_words(way)
-        ],
-        None => sentence![
+        ),
+        None => sentence!(
+            "{}, so that `{}` begins to turn as it does at the values given",
             condition,
-            ", so that `",
-            body,
-            "` begins to turn as it does at the values given"
-        ],
+            body
+        ),
     };
     Ok((way, Some((need, words))))
 }

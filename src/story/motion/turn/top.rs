@@ -97,7 +97,7 @@ pub(super) fn stops(
         )),
         _ => {
             let least = crate::answer::calc::above_zero(&left, domains);
-            let words = sentence![least, ", so that ", why];
+            let words = sentence!("{}, so that {}", least, why);
             Ok(Some((Some(left), words)))
         }
     }
@@ -126,11 +126,10 @@ pub(super) fn hurdle(
         Until::For(_) | Until::Stops => return Ok(None),
     };
     if turn.torque.is_some() {
-        let words = sentence![
-            "the body does not come to rest on the way through `",
-            &stage.name,
-            "`"
-        ];
+        let words = sentence!(
+            "the body does not come to rest on the way through `{}`",
+            &stage.name
+        );
         return Ok(Some((None, words)));
     }
     if matches!(turn.until, Until::Above) {
@@ -176,15 +175,12 @@ pub(super) fn hurdle(
             },
         )),
         _ => {
-            let words = sentence![
-                "where the way through `",
+            let words = sentence!(
+                "where the way through `{}` leads over its highest place, {}, so that `{}` gets over it",
                 &stage.name,
-                "` leads over its highest place, ",
                 crate::answer::calc::at_least_zero(&left, &stage.scene.domains),
-                ", so that `",
-                &body.name,
-                "` gets over it"
-            ];
+                &body.name
+            );
             Ok(Some((Some(left), words)))
         }
     }
