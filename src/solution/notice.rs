@@ -3,8 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use super::words::{self, say};
-use super::{Claim, Inline, Math, Part, Writer};
+use super::words::{self, fill, say};
+use super::{Claim, Inline, Part, Writer};
 use crate::algebra::{Field, Sign};
 use crate::answer::calc::{real, solve};
 use crate::answer::{Answer, Form};
@@ -87,8 +87,7 @@ impl Writer<'_> {
             after.push(squares(&v, &w));
         }
         let before = Expr::sum(before);
-        let tidy_before = self.field.element(&before).ok()?;
-        let tidy_before = self.field.expr(&tidy_before);
+        let tidy_before = self.normal(&before)?;
         let asked = self.scene.asked_of_impact().find(|q| is_lost(&q.ask));
         let answered = self
             .closed()
@@ -102,8 +101,13 @@ impl Writer<'_> {
         if lost.size() > LONGEST {
             return None;
         }
-        let lost = self.field.element(&lost).ok()?;
-        Some((tidy_before, self.field.expr(&lost)))
+        Some((tidy_before, self.normal(&lost)?))
+    }
+
+    /// The normal form, unless a limit is met.
+    fn normal(&mut self, e: &Expr) -> Option<Expr> {
+        let element = self.field.element(e).ok()?;
+        Some(self.field.expr(&element))
     }
 
     /// What happens to the kinetic energy, and where.
@@ -129,12 +133,8 @@ impl Writer<'_> {
         let places: Vec<String> = contacts.map(|c| words::place(&c.name, "contact")).collect();
         let sign = self.sign(&lost)?;
         // Only a short fraction is worth telling.
-        let fraction = (lost.size() < 80).then(|| {
-            let element_before = self.field.element(&before).ok()?;
-            let element_lost = self.field.element(&lost).ok()?;
-            let fraction = self.field.div(&element_lost, &element_before).ok()?;
-            Some(self.field.expr(&fraction)).filter(|f| f.size() < 40)
-        });
+        let fraction =
+            (lost.size() < 80).then(|| self.normal(&(&lost / &before)).filter(|f| f.size() < 40));
         if !sign.is_not_negative() {
             return None;
         }
@@ -147,27 +147,23 @@ impl Writer<'_> {
             [one] => format!(", none at the hinge {}", one.name),
             _ => String::from(", none at the hinges"),
         };
-        let mut text = vec![];
-        if let Some(fraction) = fraction.flatten() {
-            text.push(say("Of the kinetic energy, the fraction "));
-            text.push(words::formula(&fraction));
-            text.push(say(format!(" is lost{at}{joints}.")));
-            let claim = Claim::new(lost, fraction * before);
-            self.step(
-                Vec::new(),
-                vec![claim],
-                "the fraction of kinetic energy lost",
-            );
-        } else if sign == Sign::Positive {
-            text.push(say(format!(
-                "Kinetic energy is lost{at}{joints}: the loss is positive for all admitted values."
-            )));
-        } else {
-            text.push(say(format!(
-                "Kinetic energy is never gained; any loss is{at}{joints}."
-            )));
-        }
-        Some(text)
+        let Some(fraction) = fraction.flatten() else {
+            let words = match sign == Sign::Positive {
+                true => format!(
+                    "Kinetic energy is lost{at}{joints}: the loss is positive for all admitted values."
+                ),
+                false => format!("Kinetic energy is never gained; any loss is{at}{joints}."),
+            };
+            return Some(vec![say(words)]);
+        };
+        let parts = [words::formula(&fraction), say(at), say(joints)];
+        let claim = Claim::new(lost, fraction * before);
+        let reason = "the fraction of kinetic energy lost";
+        self.step(Vec::new(), vec![claim], reason);
+        Some(fill(
+            "Of the kinetic energy, the fraction # is lost##.",
+            parts,
+        ))
     }
 
     /// Spins and impulses whose sign is proved.
@@ -181,24 +177,19 @@ impl Writer<'_> {
             let Some(Ask::Spin { body, clockwise }) = question.map(|q| q.ask.clone()) else {
                 continue;
             };
-            let whom = words::body(self.scene, body);
-            if closed.is_zero() {
-                continue;
-            }
-            let sense = match (self.sign(&closed), clockwise) {
-                (Some(Sign::Positive), true) | (Some(Sign::Negative), false) => "clockwise",
-                (Some(Sign::Negative), true) | (Some(Sign::Positive), false) => "counterclockwise",
+            let (is, positive) = match self.sign(&closed) {
+                Some(Sign::Positive) => ("positive", true),
+                Some(Sign::Negative) => ("negative", false),
                 _ => continue,
             };
-            let sign = if matches!(self.sign(&closed), Some(Sign::Positive)) {
-                "positive"
-            } else {
-                "negative"
+            let sense = match positive == clockwise {
+                true => "clockwise",
+                false => "counterclockwise",
             };
-            items.push(vec![
-                words::formula(&Expr::symbol(&answer.name)),
-                say(format!(" is {sign}: {whom} turns {sense}.")),
-            ]);
+            let whom = words::body(self.scene, body);
+            let symbol = words::formula(&Expr::symbol(&answer.name));
+            let parts = [symbol, say(is), say(whom), say(sense)];
+            items.push(fill("# is #: # turns #.", parts));
         }
         items
     }
@@ -209,58 +200,45 @@ impl Writer<'_> {
         let each = each.filter_map(|(i, contact)| {
             let ratio = needed_friction(self.scene, self.d, i)?;
             let place = words::place(&contact.name, "contact");
-            Some(vec![
-                say(format!(
-                    "To stick, {place} needs a coefficient of friction of at least "
-                )),
-                words::formula(&ratio),
-                say("."),
-            ])
+            Some(fill(
+                "To stick, # needs a coefficient of friction of at least #.",
+                [say(place), words::formula(&ratio)],
+            ))
         });
         each.collect()
     }
 
     /// Masses that cancel, and lengths that do not matter.
     fn independent(&mut self) -> Vec<Vec<Inline>> {
-        let mut items: Vec<(Symbol, Vec<Symbol>)> = Vec::new();
         let answers = self.closed();
-        for parameter in &self.scene.parameters {
-            let used = self
-                .d
-                .motion
-                .values()
-                .any(|e| e.symbols().contains(&parameter.name));
-            if !used || parameter.dimension.mass == crate::expr::ratio(0, 1) {
-                continue;
-            }
-            let free: Vec<Symbol> = answers
-                .iter()
-                .filter(|(a, closed)| {
-                    !closed.is_zero()
-                        && !closed.symbols().contains(&parameter.name)
-                        && !a.dimension.is_none()
-                })
-                .map(|(a, _)| Symbol::from(a.name.as_str()))
-                .collect();
-            if !free.is_empty() {
-                items.push((parameter.name.clone(), free));
-            }
-        }
         // What does not matter for the same answers is said at once.
         let mut said: Vec<(Vec<Symbol>, Vec<Symbol>)> = Vec::new();
-        for (mass, free) in items {
+        for parameter in &self.scene.parameters {
+            let mass = &parameter.name;
+            let mut motion = self.d.motion.values();
+            if parameter.dimension.mass == crate::expr::ratio(0, 1)
+                || !motion.any(|e| e.mentions(mass))
+            {
+                continue;
+            }
+            let free = answers.iter().filter(|(a, closed)| {
+                !closed.is_zero() && !closed.mentions(mass) && !a.dimension.is_none()
+            });
+            let free: Vec<Symbol> = free.map(|(a, _)| Symbol::from(a.name.as_str())).collect();
             match said.iter_mut().find(|(_, answers)| *answers == free) {
-                Some((masses, _)) => masses.push(mass),
-                None => said.push((vec![mass], free)),
+                Some((masses, _)) => masses.push(mass.clone()),
+                None if free.is_empty() => {}
+                None => said.push((vec![mass.clone()], free)),
             }
         }
         let depends = |(masses, free): (Vec<Symbol>, Vec<Symbol>)| {
             let verb = if free.len() == 1 { "does" } else { "do" };
-            let mut text = words::symbols(&free, " and ");
-            text.push(say(format!(" {verb} not depend on ")));
-            text.extend(words::symbols(&masses, " or "));
-            text.push(say("."));
-            text
+            let [free, masses] = [
+                words::symbols(&free, " and "),
+                words::symbols(&masses, " or "),
+            ];
+            let verb = say(format!(" {verb} not depend on "));
+            [free, vec![verb], masses, vec![say(".")]].concat()
         };
         said.into_iter().map(depends).collect()
     }
@@ -325,17 +303,16 @@ impl Writer<'_> {
         said.truncate(LIMITS);
         let each = said.into_iter().map(|(names, at, percussion)| {
             let verb = if names.len() == 1 {
-                " vanishes for "
+                "vanishes"
             } else {
-                " vanish for "
+                "vanish"
             };
-            let mut text = words::symbols(&names, " and ");
-            text.extend([say(verb), at]);
-            text.push(say(match percussion {
+            let end = match percussion {
                 true => ", where the center of percussion is hit.",
                 false => ".",
-            }));
-            text
+            };
+            let tail = fill(" # for ##", [say(verb), at, say(end)]);
+            [words::symbols(&names, " and "), tail].concat()
         });
         each.collect()
     }
@@ -380,27 +357,20 @@ impl Writer<'_> {
                     continue;
                 }
                 let symbol = Expr::symbol(&parameter.name);
-                let mut text = match to {
-                    To::Value => vec![say("At "), words::equation(&symbol, &value), say(", ")],
-                    To::Infinity => vec![
-                        say("As "),
-                        Inline::Math(vec![Math::Expr(symbol), Math::Op("→"), Math::Op("∞")]),
-                        say(", "),
-                    ],
+                let (lead, there, arrow) = match to {
+                    To::Value => ("At #, ", words::related(&symbol, "=", &value), "="),
+                    To::Infinity => {
+                        let grows = words::set("# → ∞", [symbol.into()]);
+                        ("As #, ", grows, "→")
+                    }
                 };
-                let arrow = if to == To::Value { "=" } else { "→" };
-                let pieces = zeros
-                    .iter()
-                    .map(|n| (n.clone(), Expr::zero()))
-                    .chain(others.iter().cloned())
-                    .take(3)
-                    .map(|(n, e)| Inline::Math(words::related(&Expr::symbol(&n), arrow, &e)));
-                text.extend(words::row(pieces, " and "));
-                text.push(say("."));
-                let rank = match to {
-                    To::Value => 0,
-                    To::Infinity => 1,
-                };
+                let zeros = zeros.into_iter().map(|n| (n, Expr::zero()));
+                let pieces = zeros.chain(others).take(3);
+                let pieces =
+                    pieces.map(|(n, e)| Inline::Math(words::related(&Expr::symbol(&n), arrow, &e)));
+                let row = words::row(pieces, " and ");
+                let text = [fill(lead, [Inline::Math(there)]), row, vec![say(".")]].concat();
+                let rank = usize::from(to == To::Infinity);
                 found.push((rank, text));
             }
         }
@@ -426,19 +396,9 @@ impl Writer<'_> {
                 out.push((value, To::Value));
             }
         }
-        let mass = self
-            .scene
-            .parameters
-            .iter()
-            .find(|p| p.name == *name)
-            .is_some_and(|p| p.dimension == crate::dimension::Dimension::new(1, 0, 0));
-        let masses = self
-            .scene
-            .parameters
-            .iter()
-            .filter(|p| p.dimension == crate::dimension::Dimension::new(1, 0, 0))
-            .count();
-        if mass && masses > 1 {
+        let is_mass = |p: &&Parameter| p.dimension == Dimension::new(1, 0, 0);
+        let masses: Vec<_> = self.scene.parameters.iter().filter(is_mass).collect();
+        if masses.len() > 1 && masses.iter().any(|p| p.name == *name) {
             out.push((Expr::zero(), To::Infinity));
         }
         out
@@ -446,20 +406,12 @@ impl Writer<'_> {
 
     /// The closed form at an end, where it has a value there.
     fn value_at(&mut self, closed: &Expr, name: &Symbol, value: &Expr, to: To) -> Option<Expr> {
-        let put = match to {
-            To::Value => value.clone(),
-            To::Infinity => {
-                // x → ∞ is 1/x → 0: first in normal form, so that nothing is divided by zero on the way.
-                let inverse = BTreeMap::from([(name.clone(), Expr::symbol(name).powi(-1))]);
-                let turned = closed.substitute(&inverse);
-                let mut field = Field::new(&self.scene.domains);
-                field.prepare([&turned]);
-                let element = field.element(&turned).ok()?;
-                let tidy = field.expr(&element);
-                return self.put(&tidy, name, &Expr::zero());
-            }
-        };
-        self.put(closed, name, &put)
+        if to == To::Value {
+            return self.put(closed, name, value);
+        }
+        // x → ∞ is 1/x → 0: first in normal form, so that nothing is divided by zero on the way.
+        let turned = self.put(closed, name, &Expr::symbol(name).powi(-1))?;
+        self.put(&turned, name, &Expr::zero())
     }
 
     fn put(&mut self, e: &Expr, name: &Symbol, value: &Expr) -> Option<Expr> {

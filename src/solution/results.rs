@@ -2,7 +2,7 @@
 
 use super::known;
 use super::opening::NUMBERS;
-use super::words::{self, say};
+use super::words::{self, fill, say};
 use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Writer};
 use crate::answer::Form;
 use crate::expr::{Expr, Symbol};
@@ -73,14 +73,15 @@ impl Writer<'_> {
             self.push(Part::Result(lines));
         }
         if !open.is_empty() {
-            let mut text = vec![say("Momentum balance and the given laws do not determine ")];
-            text.extend(words::row(open.iter().map(words::formula), " and "));
+            let row = words::row(open.iter().map(words::formula), " and ");
             let counting = &self.d.counting;
-            text.push(say(format!(
-                ": {} equations, {} of them independent, for {} unknowns.",
-                counting.equations, counting.rank, counting.unknowns
-            )));
-            self.text(text);
+            let counts = [counting.equations, counting.rank, counting.unknowns];
+            let counts = fill(
+                ": # equations, # of them independent, for # unknowns.",
+                counts.map(|n| say(n.to_string())),
+            );
+            let lead = vec![say("Momentum balance and the given laws do not determine ")];
+            self.text([lead, row, counts].concat());
             let closing = &self.d.counting.closing_laws;
             if !closing.is_empty() {
                 let items = closing.iter().map(|c| vec![say(c.clone())]).collect();
@@ -145,21 +146,13 @@ impl Writer<'_> {
         }
         self.push(Part::Display(lines));
         if self.detail() != Detail::Brief {
-            let mut text = vec![say("that is, ")];
-            for (i, (symbols, words)) in meanings.into_iter().enumerate() {
-                if i > 0 {
-                    text.push(say("; "));
-                }
-                for (k, symbol) in symbols.iter().enumerate() {
-                    if k > 0 {
-                        text.push(say(", "));
-                    }
-                    text.push(words::formula(symbol));
-                }
-                text.push(say(format!(": {words}")));
-            }
-            text.push(say("."));
-            self.text(text);
+            let each = meanings.into_iter().map(|(symbols, words)| {
+                let row = words::row(symbols.iter().map(words::formula), ", ");
+                [row, vec![say(format!(": {words}"))]].concat()
+            });
+            let each: Vec<_> = each.collect();
+            let all = each.join(&say("; "));
+            self.text([vec![say("that is, ")], all, vec![say(".")]].concat());
         }
     }
 
@@ -248,12 +241,10 @@ impl Writer<'_> {
                 }
             }
             if !conditions.is_empty() {
-                text.push(say(if text.is_empty() {
-                    "Valid for "
-                } else {
-                    " Valid for "
-                }));
-                text.extend(words::row(conditions, " and "));
+                let all = words::row(conditions, " and ");
+                let lead = if text.is_empty() { "" } else { " " };
+                text.push(say(format!("{lead}Valid for ")));
+                text.extend(all);
                 text.push(say("."));
             }
         }
@@ -279,21 +270,18 @@ impl Writer<'_> {
                 continue;
             }
             let sign = |open: bool| if open { "<" } else { "≤" };
-            let mut math = Vec::new();
-            let symbol = Math::Expr(Expr::symbol(name));
-            match (&domain.low, &domain.high) {
+            let symbol = || Math::from(Expr::symbol(name));
+            let mut math = match (&domain.low, &domain.high) {
                 // One limit stands behind the symbol.
                 (Some(low), None) => {
                     let over = if low.open { ">" } else { "≥" };
-                    math.extend([symbol, Math::Op(over), Math::Expr(low.expr())]);
+                    vec![symbol(), Math::Op(over), low.expr().into()]
                 }
-                (Some(low), _) => {
-                    math.extend([Math::Expr(low.expr()), Math::Op(sign(low.open)), symbol]);
-                }
-                (None, _) => math.push(symbol),
-            }
+                (Some(low), _) => vec![low.expr().into(), Math::Op(sign(low.open)), symbol()],
+                (None, _) => vec![symbol()],
+            };
             if let Some(high) = &domain.high {
-                math.extend([Math::Op(sign(high.open)), Math::Expr(high.expr())]);
+                math.extend([Math::Op(sign(high.open)), high.expr().into()]);
             }
             all.push(Inline::Math(math));
         }

@@ -3,7 +3,7 @@
 
 use super::Writer;
 use super::neat::neat;
-use super::words::{self, say};
+use super::words::{self, fill, say};
 use crate::derive::{Block, Equation};
 use crate::expr::{Expr, Symbol};
 use crate::laws::{Direction, Law, Place, Unknown};
@@ -249,32 +249,28 @@ impl Writer<'_> {
 
     /// What the impulses along normals in a block are.
     fn name_impulses(&mut self, block: &Block) {
-        let mut text = Vec::new();
+        let mut all = Vec::new();
         for u in &block.unknowns {
             let Unknown::Normal(c) = u else {
                 continue;
             };
             let contact = &self.scene.contacts[*c];
-            let lead = if text.is_empty() { "Let " } else { ", and " };
-            let be = if text.is_empty() { " be" } else { "" };
             let line = match self.scene.figure.string(&contact.name) {
                 Some(_) => "the string",
                 None => "the normal",
             };
-            let symbol = words::formula(&Expr::symbol(self.d.names.plain(*u)));
-            text.extend([
-                say(lead),
-                symbol,
-                say(format!(
-                    "{be} the impulse at {} on {}, along {line}",
-                    words::at(self.scene, Place::Contact(*c)),
-                    words::body(self.scene, contact.bodies[1])
-                )),
-            ]);
+            let parts = [
+                words::formula(&Expr::symbol(self.d.names.plain(*u))),
+                say(if all.is_empty() { " be" } else { "" }),
+                say(words::at(self.scene, Place::Contact(*c))),
+                say(words::body(self.scene, contact.bodies[1])),
+                say(line),
+            ];
+            all.push(fill("## the impulse at # on #, along #", parts));
         }
-        if !text.is_empty() {
-            text.push(say("."));
-            self.text(text);
+        if !all.is_empty() {
+            let all = all.join(&say(", and "));
+            self.text([vec![say("Let ")], all, vec![say(".")]].concat());
         }
     }
 

@@ -365,7 +365,7 @@ fn turning(stage: &Stage, told: &StageTold, turn: &Turn) -> Sentence {
         None => "",
     };
     let turns = format!(" {turns}{sense} about `{}`", turn.about_name);
-    sentence!("{}{}{}", names.join(" and "), turns, rate)
+    sentence!("{}{}{}", listed(&names), turns, rate)
 }
 
 /// Which forces have an impulse, and why; which have none.
@@ -385,7 +385,7 @@ pub(super) fn impulsive(told: &StageTold) -> Vec<Sentence> {
             BlowImpulse::Along(_) => Sentence::default(),
         };
         out.push(sentence!(
-            "`{}` is a blow: its impulse{} is what is given, however short it lasts",
+            "`{}` is a blow: its impulse{} is given, however briefly it lasts",
             &blow.name,
             size
         ));

@@ -202,7 +202,7 @@ impl Page<'_> {
         let why = "the work of all forces takes up the kinetic energy";
         let step = Some(self.solution.step(Vec::new(), vec![claim], why));
         let taken = neat(self.scene, &-work);
-        let mut math = set("# = #", [words::kinetic("", "-"), taken.into()]);
+        let mut math = set("# = #", [taken.into(), words::kinetic("", "-")]);
         if asked.is_none() {
             math.extend(set("⇒ # = #", [symbol.into(), way.into()]));
         }
@@ -270,17 +270,28 @@ impl Page<'_> {
             ),
             _ => {}
         }
-        let time = match &stage.kind {
-            StageKind::Linkage(_) => {
-                "The acceleration is the same all the way, and the time is the change of the velocity over it."
-            }
-            StageKind::Slide(slide) if slide.spring.is_some() && told.time.is_some() => {
-                "The motion is a part of a harmonic oscillation about the place where the forces balance; the time to its turning point follows from the place and the velocity at the beginning."
+        let time = match (&stage.kind, &told.time) {
+            (StageKind::Linkage(_), _) => vec![say(
+                "The acceleration is the same all the way, and the time is the change of the velocity over it.",
+            )],
+            (StageKind::Slide(slide), Some(time)) if slide.spring.is_some() => {
+                let relaxed = slide.spring.iter().any(|s| s.relaxed.is_zero());
+                let alone = told.work.iter().all(|(what, _)| *what == "spring");
+                let period = tidied(self.scene, &(Expr::from(4) * time));
+                match relaxed && alone && matches!(slide.until, SlideEnd::Stops) {
+                    true => fill(
+                        "The motion is a quarter of a harmonic oscillation of period #.",
+                        [words::formula(&period)],
+                    ),
+                    false => vec![say(
+                        "The motion is a part of a harmonic oscillation about the place where the forces balance; the time to its turning point follows from the place and the velocity at the beginning.",
+                    )],
+                }
             }
             _ => return,
         };
         if takes {
-            self.solution.say(time);
+            self.solution.text(time);
         }
     }
 

@@ -17,7 +17,7 @@ impl Page<'_> {
             return;
         };
         let lump = turn.lump(&stage.scene);
-        let weight = &lump.mass * g;
+        let weight = tidied(self.scene, &lump.mass) * g;
         let height = tidied(self.scene, &(start / &weight));
         let is_free = |letter: &String| {
             let mut parameters = self.scene.parameters.iter();
