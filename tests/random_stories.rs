@@ -237,6 +237,8 @@ fn on_what_gives() -> impl Strategy<Value = String> {
         r#""friction": "mu", "with": ["D"], "spring": {"stiffness": "k"}, "force": "F""#,
         r#""friction": "mu", "spring": {"stiffness": "k", "relaxed": "b"}"#,
         r#""spring": {"stiffness": "k", "relaxed": "-b"}, "force": "F""#,
+        r#""rolling": true, "spring": {"stiffness": "k"}"#,
+        r#""rolling": true, "spring": {"stiffness": "k", "relaxed": "b"}, "force": "F""#,
     ]);
     let end = select(vec![
         r#""distance": "s""#,
@@ -254,15 +256,20 @@ fn on_what_gives() -> impl Strategy<Value = String> {
     (along, other, end, begin).prop_map(|([x, y], other, end, (v, w))| {
         let rides_below = other.contains(r#""on": {"body": "C", "with""#);
         let third = if rides_below { w } else { v };
+        let turn = if x.starts_with('-') { "" } else { "-" };
+        let body = match other.contains("rolling") {
+            true => format!(r#""shape": "disk", "radius": "R", "spin": "{turn}({v})/R""#),
+            false => String::from(r#""shape": "particle""#),
+        };
         format!(
             r#"{{
   "parameters": {{
     "m": {{"unit": "kg"}}, "M": {{"unit": "kg"}}, "v": {{"unit": "m/s"}}, "w": {{"unit": "m/s"}}, "g": {{"unit": "m/s^2"}},
     "s": {{"unit": "m"}}, "b": {{"unit": "m"}}, "t": {{"unit": "s"}}, "F": {{"unit": "N"}}, "k": {{"unit": "N/m"}},
-    "mu": {{"unit": "1"}}, "nu": {{"unit": "1"}}
+    "R": {{"unit": "m"}}, "mu": {{"unit": "1"}}, "nu": {{"unit": "1"}}
   }},
   "bodies": {{
-    "B": {{"shape": "particle", "mass": "m", "velocity": ["({v})*({x})", "({v})*({y})"]}},
+    "B": {{{body}, "mass": "m", "velocity": ["({v})*({x})", "({v})*({y})"]}},
     "C": {{"shape": "particle", "mass": "M", "velocity": ["({w})*({x})", "({w})*({y})"]}},
     "D": {{"shape": "particle", "mass": "m", "velocity": ["({third})*({x})", "({third})*({y})"]}}
   }},

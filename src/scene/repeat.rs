@@ -100,6 +100,10 @@ fn turns(node: &Node<'_>, before: usize, faults: &mut Vec<Fault>) -> Option<Turn
             "write \"repeat\": 3; a question \"h_n\": {\"turn\": \"n\", \"of\": \"h_#\"} goes on from there to any number of turns",
         ),
     }
+    if group.stages.is_empty() {
+        let hint = "write the stages of one turn, such as one named \"bounce #\"";
+        refuse(group.span, "this group has no stages".into(), hint);
+    }
     let stages = group.stages.iter().map(|stage| &stage.name);
     let questions = group.questions.iter().flat_map(|map| &map.0);
     for name in stages.chain(questions.map(|(name, _)| name)) {

@@ -25,6 +25,7 @@ const REACHED: f64 = 1e-12;
 const CLOSE: f64 = 2e-16;
 
 /// Something that bodies cannot do.
+#[derive(Clone)]
 pub(super) enum Constraint {
     /// A point of a body stays at the origin; the arm leads from the body's center to it, in the body's frame.
     Pin {
@@ -45,6 +46,7 @@ pub(super) enum Constraint {
 }
 
 /// Bodies, what they cannot do, and what acts on them.
+#[derive(Clone)]
 pub(super) struct Mechanism {
     /// Mass and moment of inertia about the center, of each body.
     pub inertias: Vec<[f64; 2]>,
@@ -57,7 +59,7 @@ pub(super) struct Mechanism {
 }
 
 /// How often accelerations were asked for, and what was found last.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Asked {
     looks: Cell<u32>,
     last: RefCell<Option<(Vec<f64>, Solved)>>,
@@ -238,8 +240,10 @@ pub(super) struct Sprung<'a> {
     pub smooth: &'a Mechanism,
     /// Direction of the line.
     pub along: [f64; 2],
-    /// Stiffness over mass.
-    pub rate: f64,
+    /// Stiffness.
+    pub stiffness: f64,
+    /// How all rates change by one unit of force along the line.
+    pub push: Vec<f64>,
     /// The way of the first body at which the spring is relaxed; it begins at the origin.
     pub relaxed: f64,
 }
@@ -248,10 +252,9 @@ impl Mobile for Sprung<'_> {
     fn accelerations_of(&self, y: &[f64]) -> Option<Vec<f64>> {
         let mut all = self.smooth.accelerations_of(y)?;
         let way = y[0] * self.along[0] + y[1] * self.along[1];
-        let push = self.rate * (self.relaxed - way);
-        for body in all.chunks_mut(3) {
-            body[0] += push * self.along[0];
-            body[1] += push * self.along[1];
+        let force = self.stiffness * (self.relaxed - way);
+        for (rate, push) in all.iter_mut().zip(&self.push) {
+            *rate += force * push;
         }
         Some(all)
     }

@@ -120,13 +120,13 @@ fn unfit(scene: &Scene, slide: &Slide) -> Option<(String, &'static str)> {
         ),
         () if slide.on.is_some() => return not_carried(slide, is_round || !goes_alone),
         () if slide.spring.is_some()
-            && (!goes_alone
+            && (!slide.strings.is_empty()
                 || is_round && is_rough
                 || matches!(slide.until, SlideEnd::Time(_))) =>
         {
             (
                 String::from(
-                    "a spring acts on a body that slides without rolling or strings, through a distance or until it stops",
+                    "a spring acts on a body without strings that slides without turning or rolls, through a distance or until it stops",
                 ),
                 "end the stage with `distance` or with \"until\": \"stops\"",
             )

@@ -146,10 +146,12 @@ pub(in crate::numeric::follow) fn slide(
         return Err(course.contradiction("a string goes slack"));
     }
     let way = if slip < 0.0 { -1.0 } else { 1.0 };
+    let push = pushed(&mechanism, &start, acting.along).ok_or_else(|| unsolved(course))?;
     let sprung = acting.spring.map(|[stiffness, relaxed]| Sprung {
         smooth: &mechanism,
         along: acting.along,
-        rate: stiffness / own * units.time * units.time,
+        stiffness: stiffness / mass * units.time * units.time,
+        push,
         relaxed: relaxed / units.length,
     });
     let mobile: &dyn Mobile = match &sprung {
@@ -217,6 +219,15 @@ fn begun(
         }
     }
     Some((begin, from))
+}
+
+/// How the rates of all bodies change by one unit of force on the first one along a line.
+fn pushed(mechanism: &Mechanism, start: &[f64], along: [f64; 2]) -> Option<Vec<f64>> {
+    let mut with = mechanism.clone();
+    rub(&mut with, 0, along, [0.0; 2], 1.0);
+    let [with, without] = [&with, mechanism].map(|m| m.accelerations(start));
+    let ((with, _), (without, _)) = (with?, without?);
+    Some(with.iter().zip(without).map(|(a, b)| a - b).collect())
 }
 
 fn unsolved(course: &Course<'_>) -> Lost {

@@ -37,7 +37,10 @@ impl Line<'_> {
     fn square_after(&self, s: &Expr) -> Expr {
         let square = &self.speed.powi(2) + &(&(&Expr::from(2) * &self.acceleration) * s);
         match &self.slide.spring {
-            Some(spring) => &square + &(&(&Expr::from(2) * &spring_work(spring, s)) / &self.mass),
+            Some(spring) => {
+                let [_, mass] = self.driven();
+                &square + &(&(&Expr::from(2) * &spring_work(spring, s)) / &mass)
+            }
             None => square,
         }
     }
@@ -78,6 +81,9 @@ impl Line<'_> {
             }
         };
         let spin = match (&self.round, &time) {
+            (Some(round), _) if self.slide.spring.is_some() => {
+                self.tidied(&-(&speed / &round.arm))?
+            }
             (Some(_), Some(t)) => self.tidied(&self.spin_after(t))?,
             _ => self.spin.clone(),
         };
@@ -152,8 +158,9 @@ impl Line<'_> {
             return Err(self.refused("no spring stops it", ""));
         };
         let k = &spring.stiffness;
+        let [net, mass] = self.driven();
         // m v₀²/2 + f s − k s²/2 = 0, f the force at the beginning; the other root lies behind.
-        let force = self.tidied(&(&self.net() + &(k * &spring.relaxed)))?;
+        let force = self.tidied(&(&net + &(k * &spring.relaxed)))?;
         let from_rest = is_zero(&self.speed, self.domains()) == Some(true);
         if from_rest {
             let begins = format!("`{}` begins to move", self.name());
@@ -162,10 +169,10 @@ impl Line<'_> {
             })?;
         }
         let is_free = is_zero(&force, self.domains()) == Some(true);
-        let root = &force.powi(2) + &(&(k * &self.mass) * &self.speed.powi(2));
+        let root = &force.powi(2) + &(&(k * &mass) * &self.speed.powi(2));
         let distance = match (from_rest, is_free) {
             (true, _) => &(&Expr::from(2) * &force) / k,
-            (_, true) => &self.speed * &(&self.mass / k).sqrt(),
+            (_, true) => &self.speed * &(&mass / k).sqrt(),
             _ => &(&force + &root.sqrt()) / k,
         };
         // x = (1 − cos ωt) f/k + (v₀/ω) sin ωt with ω² = k/m is greatest where tan ωt = −v₀ √(km)/f, ωt between 0 and π.
@@ -174,13 +181,13 @@ impl Line<'_> {
             (_, true) => half(&Expr::pi()),
             _ => match sign(&force, self.domains()) {
                 Seen::Proved(Sign::Negative) => {
-                    let swing = &self.speed * &(k * &self.mass).sqrt();
+                    let swing = &self.speed * &(k * &mass).sqrt();
                     Expr::call(Function::Atan, self.tidied(&-(&swing / &force))?)
                 }
                 _ => Expr::call(Function::Acos, self.tidied(&-(&force / &root.sqrt()))?),
             },
         };
-        let raw = &phase * &(&self.mass / k).sqrt();
+        let raw = &phase * &(&mass / k).sqrt();
         let time = self.tidied(&raw)?;
         let why = "the time until it stops, of a harmonic oscillation about the place where the forces balance";
         steps.push(Step::new("t", &raw, &time, why));

@@ -205,10 +205,7 @@ impl<'a> Line<'a> {
         } else {
             "the acceleration of all bodies along the string, which also turns the pulleys"
         };
-        let (force, inertia) = match self.radius().filter(|_| rolls) {
-            Some(radius) => self.rolling(radius),
-            None => (self.net(), self.mass.clone()),
-        };
+        let [force, inertia] = self.driven();
         let force = match is_zero(&self.acceleration, self.domains()) {
             Some(true) => Expr::zero(),
             _ => force,
@@ -233,6 +230,15 @@ impl<'a> Line<'a> {
     fn rolling(&self, radius: &Expr) -> (Expr, Expr) {
         let inertia = &self.mass + &self.apparent(radius);
         (&self.pull + &self.drag, inertia)
+    }
+
+    /// What gets it faster without a spring \[N\], and the mass that this moves, with what turning adds to it \[kg\].
+    pub fn driven(&self) -> [Expr; 2] {
+        let rolls = self.round.is_some() && !self.slips();
+        match self.radius().filter(|_| rolls) {
+            Some(radius) => self.rolling(radius).into(),
+            None => [self.net(), self.mass.clone()],
+        }
     }
 
     fn radius(&self) -> Option<&'a Expr> {
@@ -270,6 +276,17 @@ impl<'a> Line<'a> {
             () if self.slide.force.is_some() => {
                 (false, "the force does work, its size times the distance")
             }
+            () if self.slide.spring.is_some() && self.round.is_some() => (
+                true,
+                match self.slide.along[1].is_zero() {
+                    true => {
+                        "the spring keeps what it takes, and the lowest point is at rest, so that friction there does no work"
+                    }
+                    false => {
+                        "the spring keeps what it takes, weight has a potential, and the lowest point is at rest, so that friction there does no work"
+                    }
+                },
+            ),
             () if self.slide.spring.is_some() && self.slide.along[1].is_zero() => {
                 (true, "the spring keeps what it takes, and gives it back")
             }

@@ -41,7 +41,7 @@ pub(in crate::story) fn slide(
     let mut steps = line.steps();
     let course = line.course(&mut steps, &mut supposed, &mut limits)?;
     let by_newton = !matches!(slide.until, SlideEnd::Distance(_)) && slide.spring.is_none();
-    if by_newton || line.round.is_some() || is_driven {
+    if by_newton || line.round.is_some() && slide.spring.is_none() || is_driven {
         line.told(&course, &mut steps);
     } else {
         steps.clear();
@@ -149,10 +149,14 @@ impl Line<'_> {
             let turned = &before.angle[pulley] + &(spin * &course.distance);
             after.angle[pulley] = self.tidied(&turned)?;
         }
-        if self.round.is_some() {
+        if let Some(round) = &self.round {
             let b = self.slide.body;
             after.spin[b] = course.spin.clone();
             after.angle[b] = match &course.time {
+                _ if self.slide.spring.is_some() => {
+                    let turned = &course.distance / &round.arm;
+                    self.tidied(&(&before.angle[b] - &turned))?
+                }
                 Some(t) => {
                     let turned = half(&(&(&self.spin + &course.spin) * t));
                     self.tidied(&(&before.angle[b] + &turned))?
