@@ -78,9 +78,9 @@ impl Writer<'_> {
         if at_rest {
             let whom = words::capital(&words::bodies(self.scene, system));
             let is = if system.len() == 1 { "is" } else { "are" };
-            let zero = Inline::Math(set("# = #", [h("-"), Expr::zero().into()]));
+            let zero = Inline::Math(set("{} = {}", [h("-"), Expr::zero().into()]));
             self.text(fill(
-                "# # at rest before, so #.",
+                "{} {} at rest before, so {}.",
                 [whom.into(), is.into(), zero],
             ));
         }
@@ -94,9 +94,9 @@ impl Writer<'_> {
         for x in &outside {
             let q = words::point(self.scene, x.place);
             let arm = vector("r", &format!("{q}/{o}"), "");
-            law.extend(set("+ # × #", [arm, vector("P", &q, "")]));
+            law.extend(set("+ {} × {}", [arm, vector("P", &q, "")]));
         }
-        law.extend(set("= #", [h("+")]));
+        law.extend(set("= {}", [h("+")]));
         self.show(law, None);
         self.definition(system, about, vector("H", &index, ""));
         if !at_rest {
@@ -130,14 +130,14 @@ impl Writer<'_> {
             if moves {
                 let arm = vector("r", &format!("{c}/{o}"), "");
                 let mass = Math::Factor(self.g.mass(b).clone());
-                sum.push(set("# × # #", [arm, mass, vector("v", &c, "")]));
+                sum.push(set("{} × {} {}", [arm, mass, vector("v", &c, "")]));
             }
             if spins {
                 sum.push(vec![self.inertia_name(b), words::spin(self.scene, b, "")]);
             }
         }
         if !sum.is_empty() {
-            let mut math = set("# =", [h]);
+            let mut math = set("{} =", [h]);
             math.extend(sum.join(&Math::Op("+")));
             self.show(math, None);
         }
@@ -155,7 +155,7 @@ impl Writer<'_> {
             x.impulse.clone().into(),
             Math::Along(x.moment.clone()),
         ];
-        let math = set("# × # = (#) × (#) = #", parts);
+        let math = set("{} × {} = ({}) × ({}) = {}", parts);
         let id = self.step(
             Vec::new(),
             vec![Claim::new(raw, x.moment.clone())],
@@ -197,13 +197,13 @@ impl Writer<'_> {
             raw.push(&mass * cross(&arm, v));
             if moves && !mass.is_zero() {
                 let parts = [arm.into(), Math::Factor(mass), v.clone().into()];
-                pieces.push(set("(#) × # (#)", parts));
+                pieces.push(set("({}) × {} ({})", parts));
             }
             if !self.scene.bodies[b].is_particle() && !self.inertia_vanishes(b) && !w.is_zero() {
                 let inertia = self.g.inertia(b).clone();
                 let inertia = self.tidy(&inertia);
                 let turns = [Math::Factor(inertia.clone()), Math::Along(w.clone())];
-                pieces.push(set("# (#)", turns));
+                pieces.push(set("{} ({})", turns));
                 raw.push(&inertia * w);
             }
         }
@@ -215,7 +215,7 @@ impl Writer<'_> {
         if system.len() == 1 && pieces.len() == 1 && pieces.iter().all(spins) {
             pieces.clear();
         }
-        let mut math = set("# =", [symbol]);
+        let mut math = set("{} =", [symbol]);
         if !pieces.is_empty() {
             math.extend(pieces.join(&Math::Op("+")));
             math.push(Math::Op("="));

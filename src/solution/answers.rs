@@ -122,14 +122,14 @@ impl Writer<'_> {
         let carried = (!still && (turns || base != point)).then(|| vector("v", &base, "+"));
         let round = turns.then(|| {
             let r = vector("r", &format!("{point}/{base}"), "");
-            words::set("# × #", [words::spin(self.scene, body, "+"), r])
+            words::set("{} × {}", [words::spin(self.scene, body, "+"), r])
         });
         let terms = carried.map(|v| vec![v]).into_iter().chain(round);
-        let mut math = words::set("# =", [of()]);
+        let mut math = words::set("{} =", [of()]);
         math.extend(terms.collect::<Vec<_>>().join(&Math::Op("+")));
         if turns && still {
             let put_in = [Math::Along(self.spin_after(body)), arm.into()];
-            math.extend(words::set("= (#) × (#)", put_in));
+            math.extend(words::set("= ({}) × ({})", put_in));
         }
         math.extend((math.len() > 2).then_some(Math::Op("=")));
         math.push(v.clone().into());
@@ -167,7 +167,7 @@ impl Writer<'_> {
             return;
         };
         let symbol = Expr::symbol(&answer.name);
-        let product = words::set("# · (#)", [whole, d.clone().into()]);
+        let product = words::set("{} · ({})", [whole, d.clone().into()]);
         let claim = Claim::new(symbol.clone(), raw.clone());
         // A component that has a name already needs no line of its own.
         if raw.size() <= NAMED {
@@ -203,7 +203,7 @@ impl Writer<'_> {
         if !claims.is_empty() {
             let id = self.step(Vec::new(), claims, "components of the impulse");
             self.say("In components,");
-            self.show(words::set("# = #", [whole, v.clone().into()]), Some(id));
+            self.show(words::set("{} = {}", [whole, v.clone().into()]), Some(id));
         }
         self.values(&v, answers, None);
     }

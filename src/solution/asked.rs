@@ -120,7 +120,7 @@ fn slope(
     if at.as_symbol() != Some(p) || !vanishes || slope.size() > READABLE {
         return false;
     }
-    let lead = "It is largest where its derivative with respect to # vanishes:";
+    let lead = "It is largest where its derivative with respect to {} vanishes:";
     solution.text(fill(lead, [words::formula(at)]));
     let math = words::related(&slope, "=", &Expr::zero());
     solution.display(vec![Line::plain(math)]);
@@ -217,12 +217,12 @@ fn moment_of_momentum(scene: &Scene, b: usize, about: Option<&str>) -> Option<Li
     let about = about?;
     let body = &scene.bodies[b];
     let c = words::center(scene, b);
-    let mut math = words::set("# =", [words::vector("H", about, "")]);
+    let mut math = words::set("{} =", [words::vector("H", about, "")]);
     if about != body.name {
         let arm = words::vector("r", &format!("{c}/{about}"), "");
         let mass = Math::Factor(body.mass.clone());
         math.extend(words::set(
-            "# × # #",
+            "{} × {} {}",
             [arm, mass, words::vector("v", &c, "")],
         ));
     }

@@ -186,10 +186,10 @@ impl Writer<'_> {
             let turns = !arm.iter().all(Expr::is_zero) && !body.is_particle();
             let round = turns.then(|| {
                 let r = vector("r", &format!("{c}/{at}"), "");
-                set("# × #", [words::spin(self.scene, b, "+"), r])
+                set("{} × {}", [words::spin(self.scene, b, "+"), r])
             });
             let terms: Vec<Vec<Math>> = carried.into_iter().chain(round).collect();
-            let mut math = set("# =", [vector("v", &c, "+")]);
+            let mut math = set("{} =", [vector("v", &c, "+")]);
             math.extend(terms.join(&Math::Op("+")));
             // Of a body hinged at its center of mass nothing stands between the name and the value.
             math.extend((!terms.is_empty()).then_some(Math::Op("=")));
@@ -197,7 +197,7 @@ impl Writer<'_> {
             let spin = laws::Unknown::Spin(b);
             if self.d.names.is_reversed(spin) {
                 let symbol = words::formula(&Expr::symbol(self.d.names.plain(spin)));
-                let text = fill("#; with # counted clockwise,", [lead.into(), symbol]);
+                let text = fill("{}; with {} counted clockwise,", [lead.into(), symbol]);
                 self.text(text);
             } else {
                 self.say(&format!("{lead}:"));
@@ -213,7 +213,7 @@ impl Writer<'_> {
             if !self.scene.bodies[b].is_particle() {
                 let w = self.spin_after(b);
                 let spin = words::spin(self.scene, b, "+");
-                self.show(set("# = #", [spin, Math::Along(w)]), None);
+                self.show(set("{} = {}", [spin, Math::Along(w)]), None);
             }
             self.show(math, Some(id));
         }
@@ -313,7 +313,7 @@ impl Writer<'_> {
             let c = words::center(self.scene, b);
             let [after, before] = ["+", "-"].map(|mark| vector("v", &c, mark));
             let mass = Math::Factor(self.g.mass(b).clone());
-            set("# (# − #)", [mass, after, before])
+            set("{} ({} − {})", [mass, after, before])
         });
         let changes: Vec<Vec<Math>> = changes.collect();
         math.extend(changes.join(&Math::Op("+")));

@@ -104,7 +104,7 @@ impl Writer<'_> {
             | Ask::Impulse { along: Some(d), .. }
             | Ask::Balance { along: d, .. } => {
                 let along = Inline::Math(vec![d.clone().into()]);
-                fill("# along #", [say(text), along])
+                fill("{} along {}", [say(text), along])
             }
             _ => vec![say(text)],
         }
@@ -124,7 +124,7 @@ impl Writer<'_> {
             let unknowns: Vec<Inline> = self.symbols(&block.unknowns);
             let count = words::count(n);
             let [many, same] = [say(words::capital(&count)), say(count)];
-            let lead = fill("# equations determine the # unknowns ", [many, same]);
+            let lead = fill("{} equations determine the {} unknowns ", [many, same]);
             self.text([lead, unknowns, vec![say(".")]].concat());
             for equation in &block.equations {
                 self.balance(equation, n <= WRITTEN_OUT);
@@ -310,7 +310,7 @@ impl Writer<'_> {
         self.zero.extend(zero.map(|(u, _)| *u));
         for divisor in &divisors {
             let divisor = [words::formula(divisor)];
-            self.text(fill("This divides by #, which must not be zero.", divisor));
+            self.text(fill("This divides by {}, which must not be zero.", divisor));
         }
     }
 
@@ -335,7 +335,7 @@ impl Writer<'_> {
                 words::formula(&Expr::symbol(&symbol)),
                 say(words::at(self.scene, place)),
             ];
-            self.text(fill("# is the impulse at #, found below.", [of, at]));
+            self.text(fill("{} is the impulse at {}, found below.", [of, at]));
         }
     }
 

@@ -45,7 +45,7 @@ impl Writer<'_> {
                 math = match to {
                     Some(to) => {
                         let other = words::center(scene, *to);
-                        set("(# − #)", [own, vector("v", &other, "+")])
+                        set("({} − {})", [own, vector("v", &other, "+")])
                     }
                     None => vec![own],
                 };
@@ -54,7 +54,7 @@ impl Writer<'_> {
             None => return self.say(&format!("The given velocity of {body}{from}:")),
         };
         let along = self.tidy_vector(along);
-        math.extend(set("· (#) = #", [along.into(), (&known.value).into()]));
+        math.extend(set("· ({}) = {}", [along.into(), (&known.value).into()]));
         self.say(&format!("A component of {of} just after is given:"));
         self.show(math, None);
     }
@@ -168,23 +168,23 @@ impl Writer<'_> {
         let relative = |mark| {
             let [one, two] = [1, 0].map(|i| vector("v", &indices[i], mark));
             match both {
-                true => set("(# − #)", [one, two]).remove(0),
+                true => set("({} − {})", [one, two]).remove(0),
                 false => one,
             }
         };
         let n = || vector("n", "", "");
-        let mut math = set("# · # =", [relative("+"), n()]);
+        let mut math = set("{} · {} =", [relative("+"), n()]);
         let turns = |index: &String| index.starts_with(at.as_str());
         // Of a single point the relation of rigid bodies stands in the same line.
         if !both && turns(&indices[1]) {
-            math.extend(set("# · # =", [self.rigid(to, &at), n()]));
+            math.extend(set("{} · {} =", [self.rigid(to, &at), n()]));
         }
         if restitution.is_zero() {
             math.push(Expr::zero().into());
         } else {
             math.push(Math::Op("−"));
             math.extend((!restitution.is_one()).then(|| Math::Factor(restitution.clone())));
-            math.extend(set("# · #", [relative("-"), n()]));
+            math.extend(set("{} · {}", [relative("-"), n()]));
         }
         self.show(math, None);
         for (b, index) in [to, from].into_iter().zip(indices.iter().rev()) {
@@ -220,8 +220,8 @@ impl Writer<'_> {
         ];
         let spin = words::spin(self.scene, b, "+");
         let mut whole = match link.is_some_and(|l| self.stands(l.to, l.at)) {
-            true => set("(# × #)", [spin, arm]),
-            false => set("(# + # × #)", [carried, spin, arm]),
+            true => set("({} × {})", [spin, arm]),
+            false => set("({} + {} × {})", [carried, spin, arm]),
         };
         whole.remove(0)
     }
@@ -236,11 +236,11 @@ impl Writer<'_> {
         let v = [0, 1].map(|axis| self.form(&forms[axis]));
         let along = self.tidy(&(&v[0] * &n[0] + &v[1] * &n[1]));
         let n = || vector("n", "", "");
-        let mut math = set("# · # =", [vector("v", index, "+"), n()]);
+        let mut math = set("{} · {} =", [vector("v", index, "+"), n()]);
         let rigid = self.rigid(b, &self.scene.contacts[c].name);
-        math.extend(set("# · #", [rigid, n()]));
+        math.extend(set("{} · {}", [rigid, n()]));
         if along.size() <= READABLE {
-            math.extend(set("= #", [along.into()]));
+            math.extend(set("= {}", [along.into()]));
         }
         self.show(math, None);
     }

@@ -48,7 +48,7 @@ impl Writer<'_> {
                 self.row_line(&block.unknowns, &row, "earlier results substituted");
             }
             if !rhs.is_zero() {
-                self.text(fill("Dividing by #,", [words::formula(&factor)]));
+                self.text(fill("Dividing by {},", [words::formula(&factor)]));
             }
             return;
         }
@@ -111,7 +111,7 @@ impl Writer<'_> {
             }
             rows = next;
             left = others;
-            self.text(fill("Solve for #:", [words::formula(&named)]));
+            self.text(fill("Solve for {}:", [words::formula(&named)]));
             self.claim(named, right, "solved for one unknown");
         }
         if let Some(row) = rows.first().cloned()

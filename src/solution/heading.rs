@@ -81,10 +81,10 @@ pub(super) fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> 
             vec![say(words::capital(&called(scene, meaning)))]
         }
         Ask::Value { with, .. } if with.is_empty() => {
-            fill("Derived quantity #", [math(&Expr::symbol(&answer.name))])
+            fill("Derived quantity {}", [math(&Expr::symbol(&answer.name))])
         }
         Ask::Value { formula, with, .. } => {
-            let lead = fill("# at ", [math(formula)]);
+            let lead = fill("{} at ", [math(formula)]);
             [lead, words::values(with)].concat()
         }
         Ask::Condition {
@@ -95,21 +95,21 @@ pub(super) fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> 
             ..
         } => {
             let form = match relation {
-                Relation::Equal => "For which # is #?",
-                _ => "For which # does # hold?",
+                Relation::Equal => "For which {} is {}?",
+                _ => "For which {} does {} hold?",
             };
             let of = math(&Expr::symbol(parameter));
             fill(form, [of, related(left, *relation, right)])
         }
         Ask::Maximum { of, over } => {
-            let lead = fill("Largest value of # over ", [math(of)]);
+            let lead = fill("Largest value of {} over ", [math(of)]);
             [lead, words::symbols(over, " and ")].concat()
         }
         Ask::Limit { of, parameter, to } => {
             let p = Math::Expr(Expr::symbol(parameter));
             let end = to.as_ref().map_or(Math::Op("∞"), Math::from);
-            let tends = Inline::Math(words::set("# → #", [p, end]));
-            fill("Limit of # as #", [math(of), tends])
+            let tends = Inline::Math(words::set("{} → {}", [p, end]));
+            fill("Limit of {} as {}", [math(of), tends])
         }
         Ask::Approximate {
             of,
@@ -119,10 +119,10 @@ pub(super) fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> 
         } => {
             let p = Expr::symbol(parameter);
             let mut out = match to.is_zero() {
-                true => fill("# for small #", [math(of), math(&p)]),
+                true => fill("{} for small {}", [math(of), math(&p)]),
                 false => {
                     let near = Inline::Math(words::related(&p, "≈", to));
-                    fill("# for #", [math(of), near])
+                    fill("{} for {}", [math(of), near])
                 }
             };
             match order {
@@ -143,9 +143,9 @@ pub(super) fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> 
             claim => vec![say("To show: "), say(claim)],
         },
         Ask::Turn { number, .. } => {
-            fill("In turn #, whichever it is", [math(&Expr::symbol(number))])
+            fill("In turn {}, whichever it is", [math(&Expr::symbol(number))])
         }
-        Ask::Unused(of) => fill("Data not needed for #", [math(&Expr::symbol(of))]),
+        Ask::Unused(of) => fill("Data not needed for {}", [math(&Expr::symbol(of))]),
         _ => vec![say(words::capital(&called(scene, &answer.words)))],
     }
 }

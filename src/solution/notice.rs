@@ -161,7 +161,7 @@ impl Writer<'_> {
         let reason = "the fraction of kinetic energy lost";
         self.step(Vec::new(), vec![claim], reason);
         Some(fill(
-            "Of the kinetic energy, the fraction # is lost##.",
+            "Of the kinetic energy, the fraction {} is lost{}{}.",
             parts,
         ))
     }
@@ -189,7 +189,7 @@ impl Writer<'_> {
             let whom = words::body(self.scene, body);
             let symbol = words::formula(&Expr::symbol(&answer.name));
             let parts = [symbol, say(is), say(whom), say(sense)];
-            items.push(fill("# is #: # turns #.", parts));
+            items.push(fill("{} is {}: {} turns {}.", parts));
         }
         items
     }
@@ -201,7 +201,7 @@ impl Writer<'_> {
             let ratio = needed_friction(self.scene, self.d, i)?;
             let place = words::place(&contact.name, "contact");
             Some(fill(
-                "To stick, # needs a coefficient of friction of at least #.",
+                "To stick, {} needs a coefficient of friction of at least {}.",
                 [say(place), words::formula(&ratio)],
             ))
         });
@@ -311,7 +311,7 @@ impl Writer<'_> {
                 true => ", where the center of percussion is hit.",
                 false => ".",
             };
-            let tail = fill(" # for ##", [say(verb), at, say(end)]);
+            let tail = fill(" {} for {}{}", [say(verb), at, say(end)]);
             [words::symbols(&names, " and "), tail].concat()
         });
         each.collect()
@@ -358,10 +358,10 @@ impl Writer<'_> {
                 }
                 let symbol = Expr::symbol(&parameter.name);
                 let (lead, there, arrow) = match to {
-                    To::Value => ("At #, ", words::related(&symbol, "=", &value), "="),
+                    To::Value => ("At {}, ", words::related(&symbol, "=", &value), "="),
                     To::Infinity => {
-                        let grows = words::set("# → ∞", [symbol.into()]);
-                        ("As #, ", grows, "→")
+                        let grows = words::set("{} → ∞", [symbol.into()]);
+                        ("As {}, ", grows, "→")
                     }
                 };
                 let zeros = zeros.into_iter().map(|n| (n, Expr::zero()));

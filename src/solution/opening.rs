@@ -95,12 +95,12 @@ pub(super) fn composites(solution: &mut Solution, scene: &Scene) {
             false => Inline::Math(vec![place.into()]),
         };
         solution.text(fill(
-            "The parts of # have their common center of mass at #; each adds its own moment of inertia and its mass times the square of its distance from there:",
+            "The parts of {} have their common center of mass at {}; each adds its own moment of inertia and its mass times the square of its distance from there:",
             [say(words::body(scene, b)), there],
         ));
-        let mut math = set("# =", [words::name("I", &c, "", false)]);
+        let mut math = set("{} =", [words::name("I", &c, "", false)]);
         if !alike(&raw, &whole) {
-            math.extend(set("# =", [raw.into()]));
+            math.extend(set("{} =", [raw.into()]));
         }
         math.push(whole.into());
         solution.push(Part::Display(vec![Line {
@@ -187,13 +187,13 @@ impl Writer<'_> {
             }
             let c = words::center(self.scene, b);
             let v = [words::vector("v", &c, "-"), body.velocity.clone().into()];
-            text.push(Inline::Math(set("# = #", v)));
+            text.push(Inline::Math(set("{} = {}", v)));
             if !body.is_particle() && !body.spin.is_zero() {
                 let w = [
                     words::spin(self.scene, b, "-"),
                     Math::Along(body.spin.clone()),
                 ];
-                text.extend(fill(" and #", [Inline::Math(set("# = #", w))]));
+                text.extend(fill(" and {}", [Inline::Math(set("{} = {}", w))]));
             }
         }
         if text.len() > 1 {

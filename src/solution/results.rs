@@ -77,7 +77,7 @@ impl Writer<'_> {
             let counting = &self.d.counting;
             let counts = [counting.equations, counting.rank, counting.unknowns];
             let counts = fill(
-                ": # equations, # of them independent, for # unknowns.",
+                ": {} equations, {} of them independent, for {} unknowns.",
                 counts.map(|n| say(n.to_string())),
             );
             let lead = vec![say("Momentum balance and the given laws do not determine ")];

@@ -35,7 +35,7 @@ impl Writer<'_> {
             // Its square is a sum, and so breaks over lines.
             let square = Claim::new(symbol.powi(2), radicand(&root));
             let id = self.step(Vec::new(), vec![square.clone()], "the square of the root");
-            let lead = "Let # be the positive root of";
+            let lead = "Let {} be the positive root of";
             self.text(fill(lead, [words::formula(&symbol)]));
             let math = words::related(&square.left, "=", &square.right);
             let step = Some(id);

@@ -24,12 +24,12 @@ pub(super) fn law(scene: &Scene) -> Option<Vec<Inline>> {
     let at = say(words::place(&at.name, "contact"));
     let [mu, e] = [&law.mu, &law.restitution].map(words::formula);
     let mut text = fill(
-        "The contact at # is rough, with coefficient of friction # and coefficient of restitution #",
+        "The contact at {} is rough, with coefficient of friction {} and coefficient of restitution {}",
         [at, mu, e],
     );
     if let Hypothesis::ChatterjeeRuina { tangential } = &law.hypothesis {
         let both = [words::formula(tangential)];
-        text.extend(fill(" along the normal and # along the surface", both));
+        text.extend(fill(" along the normal and {} along the surface", both));
     }
     let name = law.hypothesis.name();
     text.push(say(format!(" ({name}’s hypothesis).")));
@@ -87,14 +87,14 @@ impl Writer<'_> {
         let (e, mode) = (&decided.law.restitution, decided.mode);
         let [here, begins] = [say(&at), say(words::capital(&at))];
         let text = match decided.conditions[index].words {
-            "no slip after" => fill("# does not slip just after:", [begins]),
-            "restitution" if e.is_zero() => fill("# does not rebound:", [begins]),
+            "no slip after" => fill("{} does not slip just after:", [begins]),
+            "restitution" if e.is_zero() => fill("{} does not rebound:", [begins]),
             "restitution" => {
                 let parts = [begins, words::formula(e)];
-                fill("# rebounds at # times its speed of approach:", parts)
+                fill("{} rebounds at {} times its speed of approach:", parts)
             }
             "friction of a sliding contact" => {
-                fill("# slides against friction all the while:", [begins])
+                fill("{} slides against friction all the while:", [begins])
             }
             "friction before and after the reversal of slip" => {
                 vec![say(
@@ -111,7 +111,7 @@ impl Writer<'_> {
                 return self.compression(&at, e, (mode, slips), rate.flatten());
             }
             "restitution by energy" => fill(
-                "Restitution gives back # times the work that the normal impulse took in compression, which leaves # the normal velocity",
+                "Restitution gives back {} times the work that the normal impulse took in compression, which leaves {} the normal velocity",
                 [words::formula(&e.powi(2)), here],
             ),
             "impulse ratio" => {
@@ -120,13 +120,13 @@ impl Writer<'_> {
                 )]
             }
             "tangential impulse (Chatterjee and Ruina)" => fill(
-                "Along the surface the impulse is one plus the tangential coefficient times the one that brings # to rest:",
+                "Along the surface the impulse is one plus the tangential coefficient times the one that brings {} to rest:",
                 [here],
             ),
             "normal impulse (Chatterjee and Ruina)" => vec![say(
                 "Along the normal it is one plus the coefficient of restitution times the impulse that would end the approach without friction, plus what the tangential impulse adds:",
             )],
-            other => fill("# at #:", [say(words::capital(other)), here]),
+            other => fill("{} at {}:", [say(words::capital(other)), here]),
         };
         self.text(text);
     }
@@ -168,12 +168,12 @@ impl Writer<'_> {
             "Compression ends when {at} has no normal velocity left; {state}."
         ))];
         if let Some([approach, rate]) = rate {
-            let slows = " Each unit of normal impulse takes # off the speed of approach, #.";
+            let slows = " Each unit of normal impulse takes {} off the speed of approach, {}.";
             text.extend(fill(slows, [&rate, &approach].map(words::formula)));
         }
         let rest = match e.is_zero() {
             true => " Without rebound that is all:",
-            false => " Restitution adds # times as much:",
+            false => " Restitution adds {} times as much:",
         };
         text.extend(fill(rest, [words::formula(e)]));
         self.text(text);

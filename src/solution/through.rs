@@ -266,7 +266,7 @@ impl Writer<'_> {
                 say(words::body(self.scene, contact.bodies[1])),
                 say(line),
             ];
-            all.push(fill("## the impulse at # on #, along #", parts));
+            all.push(fill("{}{} the impulse at {} on {}, along {}", parts));
         }
         if !all.is_empty() {
             let all = all.join(&say(", and "));

@@ -290,11 +290,11 @@ pub const FURTHER: &str = "the further conditions of this case";
 /// Longest condition, in nodes, that a sentence holds.
 const LONG_CONDITION: usize = 80;
 
-/// A sentence with the next of some pieces, words or formulas, in place of each `#`.
+/// A sentence with the next of some pieces, words or formulas, in place of each `{}`.
 pub fn fill(form: &'static str, pieces: impl IntoIterator<Item = Inline>) -> Vec<Inline> {
     let mut pieces = pieces.into_iter();
     let mut out: Vec<Inline> = Vec::new();
-    for (i, words) in form.split('#').enumerate() {
+    for (i, words) in form.split("{}").enumerate() {
         let piece = if i > 0 { pieces.next() } else { None };
         for piece in piece.into_iter().chain([say(words)]) {
             match (out.last_mut(), piece) {
@@ -307,21 +307,22 @@ pub fn fill(form: &'static str, pieces: impl IntoIterator<Item = Inline>) -> Vec
     out
 }
 
-/// A formula: the next piece in place of each `#`, brackets, and what stands between as operators.
+/// A formula: the next piece in place of each `{}`, brackets, and what stands between as operators.
 pub fn set(form: &'static str, pieces: impl IntoIterator<Item = Math>) -> Vec<Math> {
     let mut open = vec![Vec::new()];
     let mut pieces = pieces.into_iter();
     let mut rest = form;
     while let Some(c) = rest.chars().next() {
         let width = match c {
-            '#' | '(' | ')' | ' ' => c.len_utf8(),
-            _ => rest.find(['#', '(', ')', ' ']).unwrap_or(rest.len()),
+            '{' => "{}".len(),
+            '(' | ')' | ' ' => c.len_utf8(),
+            _ => rest.find(['{', '(', ')', ' ']).unwrap_or(rest.len()),
         };
         let (part, behind) = rest.split_at(width);
         rest = behind;
         let piece = match c {
             ' ' => None,
-            '#' => pieces.next(),
+            '{' => pieces.next(),
             '(' => {
                 open.push(Vec::new());
                 None

@@ -62,7 +62,7 @@ impl Writer<'_> {
         let mu = Expr::symbol(name);
         let case = say(again.case.to_string());
         self.text(fill(
-            "Friction acts the other way: the results are those of case # with # in place of #.",
+            "Friction acts the other way: the results are those of case {} with {} in place of {}.",
             [case, words::formula(&-&mu), words::formula(&mu)],
         ));
         self.boxed();

@@ -72,7 +72,7 @@ impl Page<'_> {
             let square = self.rate(linkage).powi(2);
             let energy = Expr::ratio(1, 2) * inertia * square;
             let energies = [energy.into(), words::kinetic("", "+")];
-            lines.push(Line::plain(set("# = #", energies)));
+            lines.push(Line::plain(set("{} = {}", energies)));
         }
         self.solution.display(lines);
         self.whirled(stage, told);
@@ -133,12 +133,12 @@ impl Page<'_> {
             lines.push(self.chain(vec![letter(what)], raw, value, &why));
         }
         let after = start + &Expr::sum(told.work.iter().map(|(_, w)| w.clone()));
-        let mut math = set("# = #", ["+", "-"].map(|mark| words::kinetic("", mark)));
+        let mut math = set("{} = {}", ["+", "-"].map(|mark| words::kinetic("", mark)));
         for (what, _) in &told.work {
-            math.extend(set("+ #", [letter(what)]));
+            math.extend(set("+ {}", [letter(what)]));
         }
         if !named {
-            math.extend(set("= #", [end.into()]));
+            math.extend(set("= {}", [end.into()]));
         }
         let why = "work changes kinetic energy";
         lines.push(self.claimed(math, &after, end, why));
@@ -202,9 +202,9 @@ impl Page<'_> {
         let why = "the work of all forces takes up the kinetic energy";
         let step = Some(self.solution.step(Vec::new(), vec![claim], why));
         let taken = neat(self.scene, &-work);
-        let mut math = set("# = #", [taken.into(), words::kinetic("", "-")]);
+        let mut math = set("{} = {}", [taken.into(), words::kinetic("", "-")]);
         if asked.is_none() {
-            math.extend(set("⇒ # = #", [symbol.into(), way.into()]));
+            math.extend(set("⇒ {} = {}", [symbol.into(), way.into()]));
         }
         Some(Line { math, step })
     }
@@ -217,7 +217,7 @@ impl Page<'_> {
         let opposite = tidied(self.scene, &-turned);
         let is_size = [turned, &opposite].contains(&through.formula()?);
         let work = braking * Expr::symbol(&through.name);
-        let math = set("# = #", [work.into(), words::kinetic("", "-")]);
+        let math = set("{} = {}", [work.into(), words::kinetic("", "-")]);
         is_size.then_some(Line::plain(math))
     }
 
@@ -280,7 +280,7 @@ impl Page<'_> {
                 let period = tidied(self.scene, &(Expr::from(4) * time));
                 match relaxed && alone && matches!(slide.until, SlideEnd::Stops) {
                     true => fill(
-                        "The motion is a quarter of a harmonic oscillation of period #.",
+                        "The motion is a quarter of a harmonic oscillation of period {}.",
                         [words::formula(&period)],
                     ),
                     false => vec![say(
@@ -325,7 +325,7 @@ impl Page<'_> {
             let step = Some(self.solution.step(Vec::new(), vec![claim], why));
             let symbol = Expr::symbol(&answer.name);
             let inertia = name("I", &turn.about_name, "", false);
-            let math = set("# # = #", [inertia, symbol.into(), moment.into()]);
+            let math = set("{} {} = {}", [inertia, symbol.into(), moment.into()]);
             lines.push(Line { math, step });
         }
         self.solution.say(&format!(
@@ -382,7 +382,7 @@ impl Page<'_> {
         let asked = self.answered(told).find(|a| a.formula() == Some(&speed));
         if let Some(answer) = asked.filter(|_| letter == "v") {
             let energy = Expr::ratio(1, 2) * &inertia * Expr::symbol(&answer.name).powi(2);
-            let math = set("# = #", [energy.into(), words::kinetic("", "+")]);
+            let math = set("{} = {}", [energy.into(), words::kinetic("", "+")]);
             return Some(Line::plain(math));
         }
         // No name of a scene ends so.
@@ -393,7 +393,7 @@ impl Page<'_> {
         let energy = Expr::ratio(1, 2) * &inertia * symbol.powi(2);
         let kinetic = words::kinetic("", "+");
         let parts = [energy.into(), kinetic, symbol.into(), speed.into()];
-        let math = set("# = # ⇒ # = #", parts);
+        let math = set("{} = {} ⇒ {} = {}", parts);
         Some(Line::plain(math))
     }
 
@@ -436,24 +436,24 @@ impl Page<'_> {
             });
             let [x, y, angle] = per;
             if !(x.is_zero() && y.is_zero()) {
-                let math = set("# = #", [vector("v", &called, ""), [x, y].into()]);
+                let math = set("{} = {}", [vector("v", &called, ""), [x, y].into()]);
                 lines.push(Line::plain(math));
             }
             if !scene.bodies[*b].is_particle() && !angle.is_zero() {
                 let index = if called == "G" { "" } else { &called };
                 let omega = name("omega", index, "", false);
-                lines.push(Line::plain(set("# = #", [omega, angle.into()])));
+                lines.push(Line::plain(set("{} = {}", [omega, angle.into()])));
             }
         }
         let coordinate = Expr::symbol(&linkage.coordinate);
         let both = [&coordinate, &rate].map(words::formula);
         let mut text = fill(
-            "The position of every body follows from #, and its velocity from the rate #; translation and rotation together make up the kinetic energy",
+            "The position of every body follows from {}, and its velocity from the rate {}; translation and rotation together make up the kinetic energy",
             both,
         );
         if linkage.ends[0] == coordinate {
             text.extend(fill(
-                " (here # is the value on the way, elsewhere the one at the beginning)",
+                " (here {} is the value on the way, elsewhere the one at the beginning)",
                 [words::formula(&coordinate)],
             ));
         }

@@ -36,7 +36,7 @@ impl Page<'_> {
             let stage = words::stage(&told.name);
             let along_it = Inline::Math(vec![along.clone().into()]);
             let parts = [say(at), say(when), say(stage), along_it];
-            let heading = fill("Force at # at the # of # along #", parts);
+            let heading = fill("Force at {} at the {} of {} along {}", parts);
             self.solution.section(1, heading);
             let raw = match &turn.torque {
                 None => self.on_a_circle(told, turn, along, *at_end),
@@ -107,22 +107,22 @@ impl Page<'_> {
         let arm_name = || vector("r", &format!("{g}/{at}"), "");
         let mut lines = Vec::new();
         if !square.is_zero() {
-            lines.push(set("# = #", [square_of(), square.clone().into()]));
+            lines.push(set("{} = {}", [square_of(), square.clone().into()]));
         }
-        let mut math = set("# =", [vector("a", &g, "")]);
+        let mut math = set("{} =", [vector("a", &g, "")]);
         if !angular.is_zero() {
             let raw = neat(self.scene, &(&moment / inertia));
             let alpha = name("alpha", "", "", false);
             lines.push(set(
-                "# = # = #",
+                "{} = {} = {}",
                 [alpha, raw.into(), angular.clone().into()],
             ));
-            math.extend(set("# × #", [vector("alpha", "", ""), arm_name()]));
+            math.extend(set("{} × {}", [vector("alpha", "", ""), arm_name()]));
         }
         if !square.is_zero() {
-            math.extend(set("− # #", [square_of(), arm_name()]));
+            math.extend(set("− {} {}", [square_of(), arm_name()]));
         }
-        math.extend(set("= #", [acceleration.clone().into()]));
+        math.extend(set("= {}", [acceleration.clone().into()]));
         lines.push(math);
         let lines = lines.into_iter().map(Line::plain);
         self.solution.display(lines.collect());
@@ -160,7 +160,7 @@ impl Page<'_> {
         self.solution.push(Part::Result(vec![Line { math, step }]));
         if let Some(number) = number(self.scene, answer) {
             let parts = [say(NUMBERS), words::formula(&symbol), say(number)];
-            self.solution.text(fill("###.", parts));
+            self.solution.text(fill("{}{}{}.", parts));
         }
     }
 }

@@ -38,16 +38,16 @@ impl Page<'_> {
         let arm = [0, 1].map(|k| &(&told.after.center[*body][k] + &from_center[k]) - &from[k]);
         let arm = arm.map(|e| tidied(self.scene, &e));
         let spin = self.named(&told.after.spin[*body]);
-        let mut math = set("# =", [vector("v", point, "+")]);
+        let mut math = set("{} =", [vector("v", point, "+")]);
         if carrier.is_some() {
-            math.extend(set("# +", [vector("v", &base, "+")]));
+            math.extend(set("{} +", [vector("v", &base, "+")]));
         }
         let r = vector("r", &format!("{point}/{base}"), "");
-        math.extend(set("# × # =", [words::spin(self.scene, *body, "+"), r]));
+        math.extend(set("{} × {} =", [words::spin(self.scene, *body, "+"), r]));
         if let Some(velocity) = carrier {
-            math.extend(set("(#) +", [velocity.into()]));
+            math.extend(set("({}) +", [velocity.into()]));
         }
-        math.extend(set("(#) × (#)", [Math::Along(spin), arm.into()]));
+        math.extend(set("({}) × ({})", [Math::Along(spin), arm.into()]));
         vec![Line::plain(math)]
     }
 
@@ -82,7 +82,7 @@ impl Page<'_> {
         }
         let left = energy(&Expr::symbol(symbol));
         Some(Line::plain(set(
-            "# = #",
+            "{} = {}",
             [left.into(), words::kinetic("", "+")],
         )))
     }
@@ -121,7 +121,7 @@ impl Page<'_> {
         }
         let left = energy(&Expr::symbol(symbol));
         Some(Line::plain(set(
-            "# = #",
+            "{} = {}",
             [left.into(), words::kinetic("", "+")],
         )))
     }

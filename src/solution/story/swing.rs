@@ -37,7 +37,7 @@ impl Page<'_> {
             .meanings
             .insert(letter.clone(), Meaning::Defined);
         self.solution.text(fill(
-            "The rotation ends where weight has taken up the kinetic energy. The center of mass has then risen by #:",
+            "The rotation ends where weight has taken up the kinetic energy. The center of mass has then risen by {}:",
             [words::formula(&h)],
         ));
         let claim = Claim::new(h.clone(), height.clone());
@@ -47,7 +47,7 @@ impl Page<'_> {
         if let Some(step) = self.solution.steps.last_mut() {
             step.defines = Some(letter);
         }
-        let balance = set("# = #", [(&weight * &h).into(), words::kinetic("", "-")]);
+        let balance = set("{} = {}", [(&weight * &h).into(), words::kinetic("", "-")]);
         let math = words::related(&h, "=", &height);
         let step = Some(step);
         let lines = vec![Line::plain(balance), Line { math, step }];
@@ -81,7 +81,7 @@ impl Page<'_> {
             let about = say(&turn.about_name);
             let [length, part] = [&length, &part].map(words::formula);
             self.solution.text(fill(
-                "It began # #, at the distance # from it, and is in the end that distance times # # it:",
+                "It began {} {}, at the distance {} from it, and is in the end that distance times {} {} it:",
                 [say(first), about, length, part, say(last)],
             ));
             let math = words::related(&h, "=", &swung);
