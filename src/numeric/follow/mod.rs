@@ -293,6 +293,18 @@ impl Course<'_> {
         Ok([self.number(&v[0], what)?, self.number(&v[1], what)?])
     }
 
+    /// A motion that got to its end; what it does not name waits, rests or flies on, unless forces act that nobody tells of it.
+    fn moved(
+        &self,
+        [before, mut after]: [State; 2],
+        time: Component,
+        has_forces: bool,
+        moved: Moved,
+    ) -> Passed {
+        motion::others(self, &before, &mut after, &moved.bodies, &time, has_forces);
+        self.passed(time, before, after, What::Motion(moved))
+    }
+
     fn passed(&self, time: Component, before: State, after: State, what: What) -> Passed {
         Passed {
             time,

@@ -7,8 +7,7 @@
 use super::super::given::Freedom;
 use super::super::number::{cross, dot};
 use super::mechanism::integrated;
-use super::motion::others;
-use super::{Course, Lost, Moved, Passed, State, What, Why};
+use super::{Course, Lost, Moved, Passed, State, Why};
 use crate::scene::Wind;
 
 /// Radii of the poles, as shares of the rope.
@@ -37,13 +36,12 @@ pub(super) fn wind(course: &Course<'_>, before: State, wind: &Wind) -> Result<Pa
             }
         }
     }
-    let time = Err(course.open(Why::Pole));
-    others(course, &before, &mut after, &[wind.body], &time, false);
     let moved = Moved {
         bodies: vec![wind.body],
         ..Moved::default()
     };
-    Ok(course.passed(time, before, after, What::Motion(moved)))
+    let time = Err(course.open(Why::Pole));
+    Ok(course.moved([before, after], time, false, moved))
 }
 
 /// Speed when the free rope is as long as `to`, on a thin pole.

@@ -10,7 +10,7 @@ mod outcome;
 mod posed;
 mod tried;
 
-use super::{BodyState, Component, Course, Loss, Lost, Open, State};
+use super::{BodyState, Component, Course, Loss, Lost, State};
 use crate::numeric::given::{Freedom, Given};
 use crate::scene::{Mode, OneSided};
 use tried::Tried;
@@ -169,9 +169,4 @@ pub(super) fn velocity_at(freedom: Freedom, body: &BodyState, at: &[f64; 2]) -> 
 
 fn norm(v: &[f64; 2]) -> f64 {
     v[0].hypot(v[1])
-}
-
-/// An open component for what several bodies share.
-pub(super) fn first_open<'a>(all: impl IntoIterator<Item = &'a Component>) -> Option<&'a Open> {
-    all.into_iter().find_map(|c| c.as_ref().err())
 }

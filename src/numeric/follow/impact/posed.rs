@@ -22,39 +22,10 @@ impl<'a> Table<'a> {
             ..Scene::default()
         };
         let mut kept = [Vec::new(), Vec::new(), Vec::new()];
-        for (i, c) in scene
-            .contacts
-            .iter()
-            .enumerate()
-            .filter(|(_, c)| keeps(&c.bodies))
-        {
-            kept[0].push(i);
-            part.contacts.push(c.clone());
-        }
-        for (i, h) in scene
-            .hinges
-            .iter()
-            .enumerate()
-            .filter(|(_, h)| keeps(&h.bodies))
-        {
-            kept[1].push(i);
-            part.hinges.push(h.clone());
-        }
-        for (i, b) in scene
-            .blows
-            .iter()
-            .enumerate()
-            .filter(|(_, b)| keeps(&[b.body]))
-        {
-            kept[2].push(i);
-            part.blows.push(b.clone());
-        }
-        part.after = scene
-            .after
-            .iter()
-            .filter(|k| keeps(&[k.body]))
-            .cloned()
-            .collect();
+        (kept[0], part.contacts) = picked(&scene.contacts, |c| keeps(&c.bodies));
+        (kept[1], part.hinges) = picked(&scene.hinges, |h| keeps(&h.bodies));
+        (kept[2], part.blows) = picked(&scene.blows, |b| keeps(&[b.body]));
+        (_, part.after) = picked(&scene.after, |k| keeps(&[k.body]));
         let bodies: Vec<GivenBody<f64>> = before
             .bodies
             .iter()
@@ -150,6 +121,12 @@ impl<'a> Table<'a> {
         }
         Ok(())
     }
+}
+
+/// What is kept, with its places in the list.
+fn picked<T: Clone>(all: &[T], keeps: impl Fn(&T) -> bool) -> (Vec<usize>, Vec<T>) {
+    let kept = all.iter().enumerate().filter(|(_, one)| keeps(one));
+    kept.map(|(i, one)| (i, one.clone())).unzip()
 }
 
 /// Bodies that touch, in pairs; a blow or a known value touches its body alone.

@@ -6,9 +6,9 @@
 
 use super::slide::rub;
 use super::strings::{across, fixed};
-use super::{Driven, Moved, Movers, REST, ROUNDING, Units, others, stopped};
-use crate::numeric::follow::mechanism::{Asked, Constraint, Goal, Mechanism, Mobile, Run, Stop};
-use crate::numeric::follow::{Course, Lost, Passed, State, What};
+use super::{Driven, Moved, Movers, REST, ROUNDING, Units, stopped, unsolved};
+use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism, Mobile, Run, Stop};
+use crate::numeric::follow::{Course, Lost, Passed, State};
 use crate::numeric::number::{cross, dot};
 use crate::scene::{Carrier, Slide, SlideEnd};
 
@@ -37,35 +37,13 @@ impl Pair<'_> {
             fixed(2),
             fixed(first + 2),
         ];
-        for i in 1..movers.bodies.len() {
-            let lead = if i < self.company { 0 } else { self.company };
-            if i == lead {
-                continue;
-            }
-            let [from, to] = [lead, i].map(|i| movers.arm(i));
-            held.push(Constraint::Weld {
-                bodies: [lead, i],
-                arm: [0, 1].map(|k| (to[k] - from[k]) / units.length),
-            });
-        }
-        let masses = movers.inertias.iter().map(|[m, _]| m / units.force());
-        let mut forces: Vec<[f64; 3]> = masses.map(|m| [0.0, -m * self.gravity, 0.0]).collect();
+        held.extend(movers.welds(0, 0..self.company, units));
+        held.extend(movers.welds(self.company, self.company..movers.bodies.len(), units));
+        let mut out = movers.mechanism(units, [0.0, -self.gravity], held, |_| false);
         for (body, force) in [0, self.company].into_iter().zip(self.forces) {
-            for (total, along) in forces[body].iter_mut().zip(self.along) {
-                *total += force * along / units.force();
-            }
+            rub(&mut out, body, self.along, [0.0; 2], force / units.force());
         }
-        let mut inertias = movers.scaled(units);
-        for inertia in inertias.iter_mut().filter(|i| i[1] <= 0.0) {
-            // What does not turn needs no inertia; none would leave the equations open.
-            inertia[1] = 1.0;
-        }
-        Mechanism {
-            inertias,
-            constraints: held,
-            forces,
-            asked: Asked::default(),
-        }
+        out
     }
 
     /// Velocities of both along the line, in the units of a state.
@@ -83,7 +61,7 @@ impl Pair<'_> {
     fn rough(&self, course: &Course<'_>, units: &Units) -> Result<(Mechanism, f64), Lost> {
         let mut mechanism = self.smooth(units);
         let start = self.movers.start(units);
-        let broken = || course.out_of_reach("the equations of motion have no solution");
+        let broken = || unsolved(course);
         let (_, held) = mechanism.accelerations(&start).ok_or_else(broken)?;
         let rubs = self.rough[0] * held[0].abs();
         rub(&mut mechanism, 0, self.along, [0.0; 2], -rubs);
@@ -191,8 +169,7 @@ pub(super) fn carried(
     let (mechanism, way) = pair.rough(course, &plain)?;
     let start = movers.start(&plain);
     let slip = pair.slip(&start);
-    let unsolved = || course.out_of_reach("the equations of motion have no solution");
-    let (rates, _) = mechanism.accelerations(&start).ok_or_else(unsolved)?;
+    let (rates, _) = (mechanism.accelerations(&start)).ok_or_else(|| unsolved(course))?;
     let grows = |i: usize| dot(&[rates[3 * i], rates[3 * i + 1]], &pair.along);
     let rate = grows(0) - grows(pair.company);
     let fastest = pair.speeds(&start).map(f64::abs).into_iter().sum::<f64>();
@@ -228,9 +205,8 @@ pub(super) fn carried(
     if pair.rough[1] > 0.0 && way * pair.speeds(&run.end)[1] < -tiny {
         return Err(course.never("the floor stops the body below before"));
     }
-    let (mut after, samples) = movers.ended(course, &units, &run, &before);
+    let (after, samples) = movers.ended(course, &units, &run, &before);
     let time = Ok(run.time * units.time);
-    others(course, &before, &mut after, &movers.bodies, &time, true);
     let driven = movers.bodies.iter().enumerate().map(|(i, body)| Driven {
         body: *body,
         acceleration: grows(if i < pair.company { 0 } else { pair.company }),
@@ -242,7 +218,7 @@ pub(super) fn carried(
         samples,
         ..Moved::default()
     };
-    Ok(course.passed(time, before, after, What::Motion(moved)))
+    Ok(course.moved([before, after], time, true, moved))
 }
 
 /// Both begin to move along the line without turning, each with its company.

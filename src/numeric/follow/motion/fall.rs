@@ -1,8 +1,8 @@
 //! Flight of bodies, with gravity or without, until a time, a height or a horizontal distance.
 
-use super::{Moved, Movers, REST, Units, all_open, others, stopped};
-use crate::numeric::follow::mechanism::{Asked, Goal, Mechanism, Mobile, Run};
-use crate::numeric::follow::{BodyState, Component, Course, Lost, Open, Passed, State, What, Why};
+use super::{Moved, Movers, REST, Units, all_open, stopped};
+use crate::numeric::follow::mechanism::{Goal, Mechanism, Mobile, Run};
+use crate::numeric::follow::{BodyState, Component, Course, Lost, Open, Passed, State, Why};
 use crate::scene::{Fall, FallEnd};
 
 /// Said of a height that is not on the way.
@@ -76,20 +76,12 @@ pub(in crate::numeric::follow) fn fall(
     }
     let is_known = bodies.iter().all(|b| before.bodies[*b].known().is_ok());
     let time = Ok(run.time * units.time);
-    others(
-        course,
-        &before,
-        &mut after,
-        &bodies,
-        &time,
-        fall.gravity.is_some(),
-    );
     let moved = Moved {
         bodies,
         samples: if is_known { samples } else { Vec::new() },
         ..Moved::default()
     };
-    Ok(course.passed(time, before, after, What::Motion(moved)))
+    Ok(course.moved([before, after], time, fall.gravity.is_some(), moved))
 }
 
 /// What was open stays open, and so do places that came from open velocities.
@@ -173,23 +165,15 @@ fn units_of(movers: &Movers, gravity: f64, end: &End) -> Units {
 
 /// Bodies that nothing but weight acts on.
 fn free(movers: &Movers, gravity: f64, units: &Units) -> Mechanism {
-    let weight = |m: f64| [0.0, -m * gravity / units.force(), 0.0];
-    let mut inertias = movers.scaled(units);
-    // Without forces and moments on it, inertia does not matter; none would leave the equations open.
-    for (inertia, _) in inertias.iter_mut().zip(&movers.bodies) {
-        inertia[1] = inertia[1].max(1.0);
-        inertia[0] = if inertia[0] > 0.0 { inertia[0] } else { 1.0 };
+    let mut out = movers.mechanism(units, [0.0, -gravity], Vec::new(), |_| false);
+    // What has no mass falls as all else does.
+    for (inertia, force) in out.inertias.iter_mut().zip(&mut out.forces) {
+        if inertia[0] <= 0.0 {
+            inertia[0] = 1.0;
+            force[1] = -gravity * units.mass / units.force();
+        }
     }
-    let forces = inertias
-        .iter()
-        .map(|[m, _]| weight(m * units.mass))
-        .collect();
-    Mechanism {
-        inertias,
-        constraints: Vec::new(),
-        forces,
-        asked: Asked::default(),
-    }
+    out
 }
 
 /// Velocity upward of the body that decides the end.

@@ -7,11 +7,11 @@
 use std::cell::Cell;
 use std::collections::BTreeSet;
 
-use super::{Moved, NUDGE, REST, ROUNDING, SAMPLES, Sample, all_open, others, stopped};
+use super::{Moved, Movers, NUDGE, REST, ROUNDING, all_open, arrived, sampled, stopped};
 use crate::expr::{Expr, Point, Symbol};
-use crate::numeric::follow::impact::first_open;
+
 use crate::numeric::follow::mechanism::{Goal, Mobile, Run};
-use crate::numeric::follow::{Course, Lost, Passed, State, What, Why};
+use crate::numeric::follow::{Course, Lost, Passed, State, Why};
 use crate::numeric::given::Freedom;
 use crate::numeric::jet::Jet;
 use crate::scene::Linkage;
@@ -127,16 +127,10 @@ pub(in crate::numeric::follow) fn linkage(
 ) -> Result<Passed, Lost> {
     let bodies: Vec<usize> = linkage.places.iter().map(|(b, _)| *b).collect();
     let has_forces = linkage.gravity.is_some();
-    let mut known = Vec::new();
-    for b in &bodies {
-        let body = &before.bodies[*b];
-        let Ok(state) = body.known() else {
-            debug_assert!(first_open(body.components()).is_some());
-            let time = Err(course.open(Why::Needed));
-            return Ok(all_open(course, before, &bodies, has_forces, time));
-        };
-        known.push(state);
-    }
+    let Ok(movers) = Movers::of(course, &bodies, &before, [0.0; 2]) else {
+        let time = Err(course.open(Why::Needed));
+        return Ok(all_open(course, before, &bodies, has_forces, time));
+    };
     let ends = linkage.ends.each_ref();
     let [from, to] = ends.map(|end| course.number(end, "coordinate"));
     let mut moving = Moving {
@@ -150,7 +144,7 @@ pub(in crate::numeric::follow) fn linkage(
     };
     let lost = || course.out_of_reach("the places of the linkage have no value on its way");
     let first = moving.shape(0.0).ok_or_else(lost)?;
-    let rate = begins(course, &moving, &first, &known)?;
+    let rate = begins(course, &moving, &first, &movers.states)?;
     let mut fastest = 0.0f64;
     for k in 0..=16 {
         let there = moving.acceleration(f64::from(k) / 16.0, 0.0);
@@ -184,36 +178,17 @@ pub(in crate::numeric::follow) fn linkage(
         true => Err(course.open(Why::Push)),
         false => Ok(run.time * moving.time),
     };
-    let mut after = before.clone();
     let ended = moving.states([1.0, run.end[1]]).ok_or_else(lost)?;
-    for (b, state) in bodies.iter().zip(ended) {
-        let body = &mut after.bodies[*b];
-        let angle = body.angle.clone();
-        body.set(state);
-        body.has_begun = true;
-        if course.solids[*b].freedom == Freedom::Particle {
-            (body.angle, body.spin) = (angle, Ok(0.0));
-        }
-    }
+    let after = arrived(course, &before, &bodies, ended);
     let angular = moving.angular_accelerations([[0.0, start[1]], [1.0, run.end[1]]]);
     let angular = angular.ok_or_else(lost)?;
-    let stride = run.samples.len().div_ceil(SAMPLES);
-    let sample = |(at, y): &(f64, Vec<f64>)| {
-        Some(Sample {
-            time: at * moving.time,
-            poses: moving.shape(y[0])?.places,
-        })
-    };
-    let samples = run.samples.iter().step_by(stride);
-    let samples = samples.filter_map(sample).collect();
-    others(course, &before, &mut after, &bodies, &time, has_forces);
     let moved = Moved {
         bodies,
         angular_accelerations: angular,
-        samples,
+        samples: sampled(&run, moving.time, |y| Some(moving.shape(y[0])?.places)),
         ..Moved::default()
     };
-    Ok(course.passed(time, before, after, What::Motion(moved)))
+    Ok(course.moved([before, after], time, has_forces, moved))
 }
 
 /// What the places hold besides the coordinate, and nothing else: they are looked at thousands of times.

@@ -16,9 +16,12 @@ pub(super) use linkage::linkage;
 pub(super) use slide::slide;
 pub(super) use turn::turn;
 
+use std::ops::Range;
+
 use super::super::given::Freedom;
-use super::mechanism::{Run, Stop};
-use super::{Component, Course, Lost, Open, Passed, State, What, Why};
+use super::mechanism::{Asked, Constraint, Mechanism, Run, Stop};
+use super::{Component, Course, Lost, Open, Passed, State, Why};
+use crate::numeric::number::difference;
 
 /// Differences below this share of what is at hand are rounding.
 const ROUNDING: f64 = 1e-9;
@@ -168,32 +171,84 @@ impl Movers {
         run: &Run,
         before: &State,
     ) -> (State, Vec<Sample>) {
-        let mut after = before.clone();
-        for (b, state) in self.bodies.iter().zip(self.told(units, &run.end)) {
-            let body = &mut after.bodies[*b];
-            let angle = std::mem::replace(&mut body.angle, Ok(0.0));
-            body.set(state);
-            body.has_begun = true;
-            if course.solids[*b].freedom == Freedom::Particle {
-                (body.angle, body.spin) = (angle, Ok(0.0));
-            } else if angle.is_err() {
-                body.angle = angle;
+        let after = arrived(course, before, &self.bodies, self.told(units, &run.end));
+        let poses = |y: &[f64]| {
+            let states = self.told(units, y).into_iter();
+            Some(states.map(|[x, y, angle, ..]| [x, y, angle]).collect())
+        };
+        (after, sampled(run, units.time, poses))
+    }
+
+    /// The bodies under an acceleration by gravity. What neither turns nor has a moment of inertia needs one, for none would
+    /// leave the equations open.
+    fn mechanism(
+        &self,
+        units: &Units,
+        fall: [f64; 2],
+        constraints: Vec<Constraint>,
+        turns: impl Fn(usize) -> bool,
+    ) -> Mechanism {
+        let mut inertias = self.scaled(units);
+        for (i, inertia) in inertias.iter_mut().enumerate() {
+            if inertia[1] <= 0.0 && !turns(i) {
+                inertia[1] = 1.0;
             }
         }
-        let stride = run.samples.len().div_ceil(SAMPLES);
-        let last = run.samples.len() - 1;
-        let picked = run.samples.iter().enumerate();
-        let picked = picked.filter(|(k, _)| k % stride == 0 || *k == last);
-        let samples = picked.map(|(_, (time, y))| Sample {
-            time: time * units.time,
-            poses: self
-                .told(units, y)
-                .iter()
-                .map(|s| [s[0], s[1], s[2]])
-                .collect(),
-        });
-        (after, samples.collect())
+        let weights = self.inertias.iter().map(|[m, _]| m / units.force());
+        Mechanism {
+            inertias,
+            constraints,
+            forces: weights.map(|m| [m * fall[0], m * fall[1], 0.0]).collect(),
+            asked: Asked::default(),
+        }
     }
+
+    /// Bodies keep their places in the frame of another.
+    fn welds(&self, lead: usize, bodies: Range<usize>, units: &Units) -> Vec<Constraint> {
+        let arm = |i: usize| difference(&self.arm(i), &self.arm(lead)).map(|r| r / units.length);
+        let each = bodies.filter(|i| *i != lead);
+        each.map(|i| Constraint::Weld {
+            bodies: [lead, i],
+            arm: arm(i),
+        })
+        .collect()
+    }
+}
+
+/// The state after a motion that brings bodies to these places, angles, velocities and spins.
+fn arrived(course: &Course<'_>, before: &State, bodies: &[usize], states: Vec<[f64; 6]>) -> State {
+    let mut after = before.clone();
+    for (b, state) in bodies.iter().zip(states) {
+        let body = &mut after.bodies[*b];
+        let angle = std::mem::replace(&mut body.angle, Ok(0.0));
+        body.set(state);
+        body.has_begun = true;
+        if course.solids[*b].freedom == Freedom::Particle {
+            (body.angle, body.spin) = (angle, Ok(0.0));
+        } else if angle.is_err() {
+            body.angle = angle;
+        }
+    }
+    after
+}
+
+/// Places on the way of a run, its beginning and end among them.
+fn sampled(run: &Run, unit: f64, poses: impl Fn(&[f64]) -> Option<Vec<[f64; 3]>>) -> Vec<Sample> {
+    let stride = run.samples.len().div_ceil(SAMPLES);
+    let last = run.samples.len() - 1;
+    let picked = run.samples.iter().enumerate();
+    let picked = picked.filter(|(k, _)| k % stride == 0 || *k == last);
+    let samples = picked.filter_map(|(_, (time, y))| {
+        Some(Sample {
+            time: time * unit,
+            poses: poses(y)?,
+        })
+    });
+    samples.collect()
+}
+
+fn unsolved(course: &Course<'_>) -> Lost {
+    course.out_of_reach("the equations of motion have no solution")
 }
 
 /// What to say of a motion that stopped.
@@ -221,12 +276,11 @@ fn all_open(
         after.bodies[*b].leave_open(&open);
         after.bodies[*b].has_begun = true;
     }
-    others(course, &before, &mut after, bodies, &time, has_forces);
     let moved = Moved {
         bodies: bodies.to_vec(),
         ..Moved::default()
     };
-    course.passed(time, before, after, What::Motion(moved))
+    course.moved([before, after], time, has_forces, moved)
 }
 
 /// Bodies that the stage does not name: they wait, rest, fly on, or nobody knows.

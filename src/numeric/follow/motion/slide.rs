@@ -5,10 +5,9 @@
 
 use super::carried::carried;
 use super::strings::{Ropes, across, fixed};
-use super::{Driven, Moved, Movers, REST, ROUNDING, Units, all_open, others, stopped};
-use crate::numeric::follow::impact::first_open;
-use crate::numeric::follow::mechanism::{Asked, Constraint, Goal, Mechanism, Mobile, Run, Sprung};
-use crate::numeric::follow::{Course, Lost, Passed, State, What, Why};
+use super::{Driven, Moved, Movers, REST, ROUNDING, Units, all_open, stopped, unsolved};
+use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism, Mobile, Run, Sprung};
+use crate::numeric::follow::{Course, Lost, Passed, State, Why};
 use crate::numeric::number::{cross, dot};
 use crate::scene::{Slide, SlideEnd};
 /// What acts along the line, in numbers.
@@ -85,12 +84,12 @@ pub(in crate::numeric::follow) fn slide(
 ) -> Result<Passed, Lost> {
     let bodies = slide.bodies();
     let has_forces = slide.gravity.is_some() || slide.force.is_some();
-    let Some((begin, from)) = begun(course, slide, &before, &bodies) else {
+    let begin = begun(course, slide, &before);
+    let Ok(mut movers) = Movers::of(course, &bodies, &begin, [0.0; 2]) else {
         let time = Err(course.open(Why::Needed));
         return Ok(all_open(course, before, &bodies, has_forces, time));
     };
-    let movers = Movers::of(course, &bodies, &begin, from)
-        .map_err(|_| course.out_of_reach("the place of the body is open"))?;
+    movers.from = movers.arm(0);
     if let Some(below) = &slide.on {
         return carried(course, before, (slide, below), &movers);
     }
@@ -171,13 +170,12 @@ pub(in crate::numeric::follow) fn slide(
     if turns && slips && still(&run.end) {
         return Err(course.never("it rolls before"));
     }
-    let (mut after, samples) = movers.ended(course, &units, &run, &before);
+    let (after, samples) = movers.ended(course, &units, &run, &before);
     let way = gone(&before, &after, slide.body, acting.along);
     if ropes.room.iter().any(|room| way > room * (1.0 + ROUNDING)) {
         return Err(course.never("a body gets to the pulley of its string before"));
     }
     let time = Ok(run.time * units.time);
-    others(course, &before, &mut after, &bodies, &time, has_forces);
     let acceleration = units.length / (units.time * units.time);
     let driven = directions.iter().enumerate();
     let driven = driven.filter(|(_, (along, _))| *along != [0.0; 2]);
@@ -193,32 +191,18 @@ pub(in crate::numeric::follow) fn slide(
         samples,
         ..Moved::default()
     };
-    Ok(course.passed(time, before, after, What::Motion(moved)))
+    Ok(course.moved([before, after], time, has_forces, moved))
 }
 
-/// The state at the beginning, with no spin of light pulleys left open, and where the body is; nothing where it is open.
-fn begun(
-    course: &Course<'_>,
-    slide: &Slide,
-    before: &State,
-    bodies: &[usize],
-) -> Option<(State, [f64; 2])> {
-    let mut from = [0.0; 2];
+/// The state at the beginning, with no spin of light pulleys left open.
+fn begun(course: &Course<'_>, slide: &Slide, before: &State) -> State {
     let mut begin = before.clone();
     for p in slide.pulleys().filter(|p| course.solids[*p].mass == 0.0) {
         // Whatever a light pulley does takes nothing.
         let spin = &mut begin.bodies[p].spin;
         *spin = spin.clone().or(Ok(0.0));
     }
-    for b in bodies {
-        let body = &begin.bodies[*b];
-        match body.known() {
-            Ok([x, y, ..]) if *b == slide.body => from = [x, y],
-            Err(_) if first_open(body.components()).is_some() => return None,
-            _ => {}
-        }
-    }
-    Some((begin, from))
+    begin
 }
 
 /// How the rates of all bodies change by one unit of force on the first one along a line.
@@ -228,10 +212,6 @@ fn pushed(mechanism: &Mechanism, start: &[f64], along: [f64; 2]) -> Option<Vec<f
     let [with, without] = [&with, mechanism].map(|m| m.accelerations(start));
     let ((with, _), (without, _)) = (with?, without?);
     Some(with.iter().zip(without).map(|(a, b)| a - b).collect())
-}
-
-fn unsolved(course: &Course<'_>) -> Lost {
-    course.out_of_reach("the equations of motion have no solution")
 }
 
 /// The direction of each body, with its speed as a share of that of the first one; nothing for what only turns.
@@ -430,35 +410,24 @@ fn on_line(
     guides: Vec<Constraint>,
     ropes: &Ropes,
 ) -> Mechanism {
-    let welds = (1..company).map(|i| Constraint::Weld {
-        bodies: [0, i],
-        arm: movers.arm(i).map(|r| r / units.length),
-    });
-    let weights = movers.inertias.iter().map(|[m, _]| m / units.force());
-    let weights = weights.map(|m| [m * acting.fall[0], m * acting.fall[1], 0.0]);
-    let mut forces: Vec<[f64; 3]> = weights.collect();
-    for (total, along) in forces[0].iter_mut().zip(acting.along) {
-        *total += acting.force * along / units.force();
-    }
-    let mut inertias = movers.scaled(units);
-    for (i, inertia) in inertias.iter_mut().enumerate() {
-        // What does not turn needs no inertia; none would leave the equations open.
-        let is_pulley = ropes.pulleys.iter().any(|p| p.body == i);
-        if inertia[1] <= 0.0 && !is_pulley {
-            inertia[1] = 1.0;
-        }
-    }
+    let welds = movers.welds(0, 1..company, units);
     let held = guides.into_iter().chain(ropes.guides()).chain(welds);
-    let held = held.chain(ropes.joints(movers, units));
-    Mechanism {
-        inertias,
-        constraints: held.chain(ropes.parts(units)).collect(),
-        forces,
-        asked: Asked::default(),
-    }
+    let held = held
+        .chain(ropes.joints(movers, units))
+        .chain(ropes.parts(units));
+    let is_pulley = |i: usize| ropes.pulleys.iter().any(|p| p.body == i);
+    let mut out = movers.mechanism(units, acting.fall, held.collect(), is_pulley);
+    rub(
+        &mut out,
+        0,
+        acting.along,
+        [0.0; 2],
+        acting.force / units.force(),
+    );
+    out
 }
 
-/// Adds friction of this size along a line, in units of force, at an arm from the center of a body.
+/// Adds a force of this size along a line, in units of force, at an arm from the center of a body.
 pub(super) fn rub(
     mechanism: &mut Mechanism,
     body: usize,

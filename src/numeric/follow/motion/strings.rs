@@ -202,13 +202,8 @@ impl Ropes {
     pub fn joints(&self, movers: &Movers, units: &Units) -> Vec<Constraint> {
         let mut out = Vec::new();
         for end in &self.ends {
-            let [x, y] = movers.arm(end.bodies[0]);
             for i in &end.bodies[1..] {
-                let [u, v] = movers.arm(*i);
-                out.push(Constraint::Weld {
-                    bodies: [end.bodies[0], *i],
-                    arm: [(u - x) / units.length, (v - y) / units.length],
-                });
+                out.extend(movers.welds(end.bodies[0], *i..*i + 1, units));
             }
             // A movable pulley turns and does not leave what hangs on its axle.
             out.extend(end.under.into_iter().flat_map(|p| {

@@ -1,8 +1,8 @@
 //! Rotation of bodies welded together about a fixed point; sense, turning back and end come from the motion itself.
 
-use super::{Moved, Movers, NUDGE, REST, ROUNDING, Units, all_open, others, stopped};
-use crate::numeric::follow::mechanism::{Asked, Constraint, Goal, Mechanism, Mobile, Run};
-use crate::numeric::follow::{Course, Lost, Passed, State, What, Why};
+use super::{Moved, Movers, NUDGE, REST, ROUNDING, Units, all_open, stopped};
+use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism, Mobile, Run};
+use crate::numeric::follow::{Course, Lost, Passed, State, Why};
 use crate::numeric::given::Freedom;
 use crate::numeric::number::{cross, dot};
 use crate::scene::{Turn, Until};
@@ -143,29 +143,13 @@ impl Rotation {
     fn mechanism(&self, way: f64) -> Mechanism {
         let units = &self.units;
         let n = self.movers.bodies.len();
-        let scaled = |i: usize| self.movers.arm(i).map(|r| r / units.length);
-        let [x, y] = scaled(0);
-        let mut constraints = vec![Constraint::Pin {
-            body: 0,
-            arm: [-x, -y],
-        }];
-        constraints.extend((1..n).map(|i| {
-            let [u, v] = scaled(i);
-            Constraint::Weld {
-                bodies: [0, i],
-                arm: [u - x, v - y],
-            }
-        }));
-        let masses = self.movers.inertias.iter().map(|i| i[0]);
-        let weights = masses.map(|m| [0.0, -m * self.gravity / units.force(), 0.0]);
-        let mut forces: Vec<[f64; 3]> = weights.collect();
-        forces[0][2] = way * self.torque / (units.force() * units.length);
-        Mechanism {
-            inertias: self.movers.scaled(units),
-            constraints,
-            forces,
-            asked: Asked::default(),
-        }
+        let arm = self.movers.arm(0).map(|r| -r / units.length);
+        let mut constraints = vec![Constraint::Pin { body: 0, arm }];
+        constraints.extend(self.movers.welds(0, 1..n, units));
+        let fall = [0.0, -self.gravity];
+        let mut out = self.movers.mechanism(units, fall, constraints, |_| true);
+        out.forces[0][2] = way * self.torque / (units.force() * units.length);
+        out
     }
 
     /// Angular acceleration in the units.
@@ -340,12 +324,11 @@ pub(in crate::numeric::follow) fn turn(
     };
     let angular = [angular(&begin)?, angular(&run.end)?];
     let is_pushed = rotation.is_balanced && run.time > 0.0 && !matches!(turn.until, Until::For(_));
-    let (mut after, samples) = rotation.movers.ended(course, units, &run, &before);
+    let (after, samples) = rotation.movers.ended(course, units, &run, &before);
     let time = match is_pushed {
         true => Err(course.open(Why::Push)),
         false => Ok(run.time * units.time),
     };
-    others(course, &before, &mut after, &bodies, &time, has_forces);
     let moved = Moved {
         clockwise: Some(rotation.way < 0.0),
         turned: Some(run.end[2] - begin[2]),
@@ -355,5 +338,5 @@ pub(in crate::numeric::follow) fn turn(
         samples,
         ..Moved::default()
     };
-    Ok(course.passed(time, before, after, What::Motion(moved)))
+    Ok(course.moved([before, after], time, has_forces, moved))
 }
