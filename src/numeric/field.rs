@@ -1,23 +1,23 @@
-//! Sparse elimination over enclosures.
+//! Sparse elimination over fractions and enclosures.
 //!
-//! The pivot with the fewest fill-ins goes first, among equals the largest; what is exactly zero is never touched, and what
-//! may be zero is no pivot. The outcome is an enclosure of the true solution, whatever the pivots.
+//! The pivot with the fewest fill-ins goes first (Markowitz), among equals the largest; what is exactly zero is never touched,
+//! and what may be zero is no pivot. Over enclosures the outcome encloses the true solution, whatever the pivots.
 
 use super::number::Number;
 use super::system::System;
 
 /// The solution of a system with as many independent rows as unknowns; `None` where a pivot may be zero, where rows are
-/// left over, or beyond 64 unknowns or rows.
+/// left over, or beyond 128 unknowns or rows.
 pub fn eliminate<T: Number>(system: &System<T>) -> Option<Vec<T>> {
     let (m, n) = (system.laws.len(), system.unknowns.len());
-    if m != n || n > 64 {
+    if m != n || n > 128 {
         return None;
     }
     let mut cells = system.matrix.clone();
     let mut right = system.right.clone();
     // Bit c of pattern[r] tells whether row r has an entry in column c; open columns only.
-    let mut pattern = vec![0u64; n];
-    let mut in_column = [0u32; 64];
+    let mut pattern = vec![0u128; n];
+    let mut in_column = [0u32; 128];
     for (r, bits) in pattern.iter_mut().enumerate() {
         for (c, cell) in cells[r * n..(r + 1) * n].iter().enumerate() {
             if !cell.is_zero() {
@@ -80,7 +80,7 @@ pub fn eliminate<T: Number>(system: &System<T>) -> Option<Vec<T>> {
 
 /// Calls `f` for every bit that is set, lowest first.
 #[inline]
-fn each(mut bits: u64, mut f: impl FnMut(usize)) {
+fn each(mut bits: u128, mut f: impl FnMut(usize)) {
     while bits != 0 {
         f(bits.trailing_zeros() as usize);
         bits &= bits - 1;
@@ -92,8 +92,8 @@ fn pivot<T: Number>(
     cells: &[T],
     n: usize,
     open: &[usize],
-    pattern: &[u64],
-    in_column: &[u32; 64],
+    pattern: &[u128],
+    in_column: &[u32; 128],
 ) -> Option<(usize, usize)> {
     let mut best = None;
     let mut least = (u32::MAX, 0.0);

@@ -3,7 +3,7 @@
 //! Rows and columns are first scaled by powers of two, which is exact and takes the units out. A square system whose
 //! triangular factor shows no vanishing pivot is regular. Where one seems to vanish, a mass of 1e−15 beside one of 1 may be
 //! the reason: enclosures then tell whether any matrix within a few roundings of this one, entry by entry, is singular. The
-//! values are the nearest doubles, by enclosures or fractions, and by LU with refinement only beyond 64 unknowns: a light
+//! values are the nearest doubles, by enclosures or fractions, and by LU with refinement only beyond 128 unknowns: a light
 //! body loses no digits to a heavy one, and a contact at rest is at rest. All else goes to elimination with complete
 //! pivoting, which tells which unknowns are unique. Rank in doubles is a judgement (threshold 64·n·2⁻⁵² on the scaled matrix); rank in fractions, from `exact`, is
 //! a fact.
