@@ -122,25 +122,21 @@ pub(super) fn wheel(sheet: &mut Sheet, at: Pair, n: Pair) {
     );
 }
 
-/// A spring between a body above it and the ground.
-pub(super) fn spring(sheet: &mut Sheet, at: Pair) {
+/// A spring from a body that presses it, in the direction given, to the ground or a wall.
+pub(super) fn spring(sheet: &mut Sheet, at: Pair, along: Pair) {
     const TURNS: usize = 5;
     const LEAD: f64 = 4.0;
-    const HIGH: f64 = 30.0;
+    const LENGTH: f64 = 30.0;
     const HALF: f64 = 6.0;
-    let step = (HIGH - 2.0 * LEAD) / (2 * TURNS) as f64;
-    let mut points = vec![at, [at[0], at[1] - LEAD]];
+    let step = (LENGTH - 2.0 * LEAD) / (2 * TURNS) as f64;
+    let spot = |far: f64, side: f64| ahead(ahead(at, along, far), left(along), side);
+    let mut points = vec![at, spot(LEAD, 0.0)];
     for k in 0..2 * TURNS {
         let side = if k % 2 == 0 { HALF } else { -HALF };
-        points.push([at[0] + side, at[1] - LEAD - (k as f64 + 0.5) * step]);
+        points.push(spot(LEAD + (k as f64 + 0.5) * step, side));
     }
-    points.extend([[at[0], at[1] - HIGH + LEAD], [at[0], at[1] - HIGH]]);
+    points.extend([spot(LENGTH - LEAD, 0.0), spot(LENGTH, 0.0)]);
     sheet.path(points, false, Line::of(Ink::Ground), 1.0);
-    let foot = at[1] - HIGH - 0.8;
-    hatched(
-        sheet,
-        [at[0] - 16.0, foot],
-        [at[0] + 16.0, foot],
-        [0.0, -1.0],
-    );
+    let foot = LENGTH + 0.8;
+    hatched(sheet, spot(foot, 16.0), spot(foot, -16.0), along);
 }

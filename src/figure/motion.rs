@@ -101,6 +101,9 @@ pub fn motion(scene: &Scene, values: &Values, course: &Course) -> Option<Sheet> 
         stage.body(sheet, pose, [0.0, 0.0]);
     }
     stage.body(sheet, end, [0.0, 0.0]);
+    if let StageKind::Slide(slide) = kind {
+        stage.pressed(sheet, slide, end);
+    }
     for (b, pose) in &gone.carried {
         sheet.circle(stage.px(begin[*b].center), 4.0, Line::dashed(Ink::Body));
         stage.body(sheet, pose, [0.0, 0.0]);

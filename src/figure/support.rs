@@ -12,7 +12,7 @@ use super::pose::{Look, Pose};
 use super::sheet::{Ink, Line, Sheet};
 use super::stage::{DOT, PEG, Stage, THICK};
 use crate::expr::Vector;
-use crate::scene::{Body, Support};
+use crate::scene::{Body, Slide, Support};
 
 impl Stage<'_> {
     /// Draws what does not move, and the strings.
@@ -98,10 +98,20 @@ impl Stage<'_> {
         for force in &self.scene.forces {
             for at in self.scene.figure.springs(&force.name) {
                 if let Some(at) = self.values.pair(at) {
-                    spring(sheet, self.touch(force.body, at, [0.0, 1.0]));
+                    spring(sheet, self.touch(force.body, at, [0.0, 1.0]), [0.0, -1.0]);
                 }
             }
         }
+    }
+
+    /// The spring along a line, at a body that has come to its end: ahead of a body that comes to it relaxed, behind one that
+    /// it pushes on.
+    pub(super) fn pressed(&self, sheet: &mut Sheet, slide: &Slide, end: &Pose) -> Option<()> {
+        let pushes = !slide.spring.as_ref()?.relaxed.is_zero();
+        let along = unit(self.values.pair(&slide.along)?);
+        let way = if pushes { opposite(along) } else { along };
+        spring(sheet, self.rim(end, end.center, opposite(way)), way);
+        Some(())
     }
 
     /// The level ground, where the author gives its height.
@@ -329,7 +339,10 @@ impl Stage<'_> {
 
     /// The place on a body's outline next to what faces it with the normal `n`.
     fn touch(&self, other: usize, at: Pair, n: Pair) -> Pair {
-        let pose = &self.poses[other];
+        self.rim(&self.poses[other], at, n)
+    }
+
+    fn rim(&self, pose: &Pose, at: Pair, n: Pair) -> Pair {
         let thick = match &pose.look {
             Look::Bar(_) if pose.skin.is_empty() => THICK + 0.8,
             Look::Dot | Look::Parts(_) => DOT + 0.8,
