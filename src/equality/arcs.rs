@@ -85,11 +85,17 @@ fn without_shared(e: &Expr) -> Expr {
         let free = factor.as_number().is_none() && !is_pi(factor) && !has_arc(factor);
         free && terms.iter().all(|term| term.contains(factor))
     });
+    // A sum that was subtracted comes apart, so that a | b and b | a leave the same.
     let rest = |mut term: Vec<Expr>| {
         term.retain(|factor| !shared.contains(factor));
-        Expr::product(term)
+        match term.as_slice() {
+            [k, sum] if let (Some(_), Node::Sum(parts)) = (k.as_number(), sum.node()) => {
+                parts.iter().map(|part| k * part).collect()
+            }
+            _ => vec![Expr::product(term)],
+        }
     };
-    Expr::sum(terms.into_iter().map(rest).collect::<Vec<_>>())
+    Expr::sum(terms.into_iter().flat_map(rest).collect::<Vec<_>>())
 }
 
 fn has_arc(e: &Expr) -> bool {
