@@ -62,11 +62,13 @@ impl Field {
                 }
                 Ok(total)
             }
-            Node::Product(_) if let Some(term) = self.term(e) => Ok(term.element()),
-            Node::Product(factors) if factors.iter().any(is_high_power) => {
-                self.read_high_powers(factors, depth)
-            }
             Node::Product(factors) => {
+                if let Some(term) = self.term(e) {
+                    return Ok(term.element());
+                }
+                if factors.iter().any(is_high_power) {
+                    return self.read_high_powers(factors, depth);
+                }
                 let mut total = self.read(&factors[0], depth)?;
                 for factor in &factors[1..] {
                     // A quotient is read as one, so that b/b never passes through 1/b.
@@ -148,15 +150,16 @@ impl Field {
         let mut powers: Vec<(Expr, Rational)> = Vec::new();
         let mut total = self.integer(1);
         for factor in factors {
-            let (base, k) = match factor.node() {
-                Node::Power(base, k) if let Some(k) = k.as_number() => (base.clone(), k.clone()),
-                Node::Number(_) => {
-                    let number = self.read(factor, depth)?;
-                    total = self.mul(&total, &number)?;
-                    continue;
-                }
-                _ => (factor.clone(), Rational::one()),
+            if factor.as_number().is_some() {
+                let number = self.read(factor, depth)?;
+                total = self.mul(&total, &number)?;
+                continue;
+            }
+            let power = match factor.node() {
+                Node::Power(base, k) => k.as_number().map(|k| (base.clone(), k.clone())),
+                _ => None,
             };
+            let (base, k) = power.unwrap_or_else(|| (factor.clone(), Rational::one()));
             match powers.iter_mut().find(|(b, _)| *b == base) {
                 Some((_, sum)) => *sum += k,
                 None => powers.push((base, k)),

@@ -424,11 +424,11 @@ impl Field {
             let power = self.pow(&Element::from_poly(f.clone()), whole)?;
             total = self.mul(&total, &power)?;
             if left > 0 {
-                let root = match sign {
-                    _ if let Some((2, value)) = self.as_root(&f) => self.nested_root(&value, n)?,
-                    Some(_) => self.odd_root_generator(&f, n),
+                let root = match (sign, self.as_root(&f)) {
+                    (_, Some((2, value))) => self.nested_root(&value, n)?,
+                    (Some(_), _) => self.odd_root_generator(&f, n),
                     // Generators that are roots are not negative.
-                    None => {
+                    (None, _) => {
                         let part = self.number(&crate::expr::ratio(1, i64::from(n)));
                         self.opaque_power(Element::from_poly(f), part)
                     }

@@ -88,12 +88,12 @@ fn without_shared(e: &Expr) -> Expr {
     // A sum that was subtracted comes apart, so that a | b and b | a leave the same.
     let rest = |mut term: Vec<Expr>| {
         term.retain(|factor| !shared.contains(factor));
-        match term.as_slice() {
-            [k, sum] if let (Some(_), Node::Sum(parts)) = (k.as_number(), sum.node()) => {
-                parts.iter().map(|part| k * part).collect()
-            }
-            _ => vec![Expr::product(term)],
+        if let [k, sum] = term.as_slice()
+            && let (Some(_), Node::Sum(parts)) = (k.as_number(), sum.node())
+        {
+            return parts.iter().map(|part| k * part).collect();
         }
+        vec![Expr::product(term)]
     };
     Expr::sum(terms.into_iter().flat_map(rest).collect::<Vec<_>>())
 }

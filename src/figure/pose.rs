@@ -66,12 +66,6 @@ fn pose(scene: &Scene, values: &Values, body: &Body, index: Option<usize>) -> Op
         _ => Vec::new(),
     };
     let look = match &body.shape {
-        Shape::Other if let Some(hint) = hint => match hint {
-            Outline::Person(long) | Outline::Bat(long) => Look::Bar(length(long)? / 2.0),
-            Outline::Box([width, height]) => {
-                Look::Plate(length(width)? / 2.0, length(height)? / 2.0)
-            }
-        },
         Shape::Fixed => Look::Fixed,
         Shape::Particle => Look::Dot,
         Shape::Rod { length: l } => Look::Bar(length(l)? / 2.0),
@@ -86,7 +80,13 @@ fn pose(scene: &Scene, values: &Values, body: &Body, index: Option<usize>) -> Op
         Shape::Rectangle { width, height } => {
             Look::Plate(length(width)? / 2.0, length(height)? / 2.0)
         }
-        Shape::Other => Look::Blob(blob(&attached(scene, values, index?, center)?)),
+        Shape::Other => match hint {
+            Some(Outline::Person(long) | Outline::Bat(long)) => Look::Bar(length(long)? / 2.0),
+            Some(Outline::Box([width, height])) => {
+                Look::Plate(length(width)? / 2.0, length(height)? / 2.0)
+            }
+            None => Look::Blob(blob(&attached(scene, values, index?, center)?)),
+        },
         Shape::Composite { parts } => Look::Parts(
             parts
                 .iter()

@@ -95,7 +95,10 @@ fn number(w: &Written) -> Option<Rational> {
     match &w.shape {
         Shape::Fraction(a, b) => over(a, b),
         Shape::Bracket(inner) => number(inner),
-        Shape::Product(factors) if let [(_, a), (Link::Over, b)] = factors.as_slice() => over(a, b),
+        Shape::Product(factors) => match factors.as_slice() {
+            [(_, a), (Link::Over, b)] => over(a, b),
+            _ => None,
+        },
         _ => w.literal().map(|l| l.value),
     }
 }

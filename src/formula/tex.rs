@@ -188,12 +188,9 @@ impl<'a> Lexer<'a> {
         match function(&word) {
             Some(tok) => Ok(tok),
             None if matches!(&*word, "sgn" | "sign" | "signum") => Ok(Tok::Signum),
-            None if let Some(pair) = Pair::named(&word) => Ok(Tok::Pair(pair)),
-            None => Err(Fault::new(
-                format!("`{word}` is no function I know"),
-                start,
-                end,
-            )),
+            None => Pair::named(&word)
+                .map(Tok::Pair)
+                .ok_or_else(|| Fault::new(format!("`{word}` is no function I know"), start, end)),
         }
     }
 

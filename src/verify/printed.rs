@@ -392,12 +392,13 @@ impl<'a> Desk<'a> {
         let name = Symbol::from(item);
         let bound = self.bound(&name, &reading.content);
         let pairs: Vec<(Expr, Expr)> = match (
+            &bound,
             self.vectors.get(&name),
             self.closed.get(&name),
             reading.content.answer(),
         ) {
-            _ if let Some((_, value, derived)) = &bound => vec![(derived.clone(), value.clone())],
-            (_, Some(closed), content) => {
+            (Some((_, value, derived)), ..) => vec![(derived.clone(), value.clone())],
+            (_, _, Some(closed), content) => {
                 let value = match content {
                     // Along k, out of the page, whichever way the answer counts.
                     Content::Vector([x, y, z]) if x.is_zero() && y.is_zero() => {
@@ -413,16 +414,16 @@ impl<'a> Desk<'a> {
                 };
                 vec![(closed.clone(), value)]
             }
-            (Some(vector), None, Content::Vector(v)) => vector
+            (_, Some(vector), None, Content::Vector(v)) => vector
                 .iter()
                 .cloned()
                 .zip(v[..2].iter().cloned())
                 .chain([(Expr::zero(), v[2].clone())])
                 .collect(),
-            (Some(_), None, _) => {
+            (_, Some(_), None, _) => {
                 return Err(format!("{item} is a vector, and a number is printed"));
             }
-            (None, None, _) => return Err(self.unanswered(item)),
+            (_, None, None, _) => return Err(self.unanswered(item)),
         };
         let mut shown = Vec::new();
         let mut all = Vec::new();
