@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use carom::command;
 use carom::grade::sheet::{self, Sheet};
-use carom::grade::{Given, Options, Question, Strength, Verdict, entry, judge};
+use carom::grade::{Given, Grade, Options, Question, Strength, Verdict, entry, judge};
 use carom::scene;
 
 #[path = "grading/manual.rs"]
@@ -356,10 +356,11 @@ fn a_slash_without_brackets_is_refused_where_authors_ask_for_brackets() {
     }
     // Without that the author of an expected formula is told.
     let told = judge("3v/2l", "3*v/(2*l)", &none, &Options::default());
-    assert!(
-        told.diagnosis.iter().any(|d| d.code == "EXPECTED_READING"),
-        "{told:?}"
-    );
+    let is_told = |grade: &Grade| grade.diagnosis.iter().any(|d| d.code == "EXPECTED_READING");
+    assert!(is_told(&told), "{told:?}");
+    // A quotient of quantities is read in one way.
+    let quantity = judge("10 m / 2 s", "5 m/s", &none, &Options::default());
+    assert!(!is_told(&quantity), "{quantity:?}");
 }
 
 /// A formula of answers comes out wrong where a belief makes the answers wrong.

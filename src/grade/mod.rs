@@ -277,8 +277,11 @@ fn judge_within(key: &Key, answer: &str, options: &Options) -> Grade {
         return unreadable_key(fault.clone());
     }
     let mut grade = judge_here(key, answer, options);
+    // How a product of letters reads is no matter where the text is a quantity.
+    let is_quantity = |q: &Key| read::is_quantity(q, answer);
     if options.strength == Strength::Identity
         && let Some(told) = &key.told
+        && !key.quantity.as_deref().is_some_and(is_quantity)
     {
         let words = format!("the expected formula is ambiguous: {told}");
         let hint = "authors write brackets around all that stands below a slash";

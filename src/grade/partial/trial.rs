@@ -195,7 +195,7 @@ impl<'a> Trial<'a> {
         if calls || !shown.symbols().is_subset(&known) || shown.size() > 12 {
             return None;
         }
-        let message = format!("too large by the factor {}", ctx.say(&shown));
+        let message = format!("the expected formula times {}", ctx.say(&shown));
         let hint = "a factor is missing or too much; compare the dimensions";
         Some(Diagnosis::new("FACTOR_SYMBOL", message, hint))
     }
