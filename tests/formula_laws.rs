@@ -2,13 +2,15 @@
 //! work for long.
 
 use std::collections::BTreeSet;
-use std::time::Instant;
 
 use carom::expr::{Expr, Function, Point, ratio};
 use carom::formula::{
     Content, Symbols, other_readings, read, write_latex, write_plain, write_unicode,
 };
 use proptest::prelude::*;
+
+#[path = "shared/clock.rs"]
+mod clock;
 
 const NAMES: [&str; 12] = [
     "v",
@@ -251,13 +253,10 @@ const SOUP: [&str; 84] = [
 ];
 
 /// Runs the reader on a long or hostile text. The 10 ms of the promise hold for an optimized build; the limits here leave
-/// room for a machine under load, and still tell linear from quadratic.
+/// room for others, and still tell linear from quadratic.
 fn quickly(text: &str) -> Result<Content, String> {
-    let start = Instant::now();
-    let result = read(text, &Symbols::open())
-        .map(|r| r.content)
-        .map_err(|fault| fault.message);
-    let spent = start.elapsed();
+    let (reading, spent) = clock::spent(|| read(text, &Symbols::open()));
+    let result = reading.map(|r| r.content).map_err(|fault| fault.message);
     let limit = if cfg!(debug_assertions) { 5000 } else { 50 };
     assert!(
         spent.as_millis() < limit,
