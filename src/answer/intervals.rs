@@ -124,20 +124,9 @@ fn pieces(parameter: &Symbol, zeros: &[Expr], holds: &[bool], strict: bool) -> V
     let sign = if strict { "<" } else { "≤" };
     let words = |low: Option<&Expr>, high: Option<&Expr>| match (low, high) {
         (None, None) => sentence!("every {} within its domain", parameter),
-        (None, Some(b)) => sentence!("{}{}{}", parameter, format!(" {sign} "), b),
-        (Some(a), Some(b)) => {
-            sentence!(
-                "{}{}{}{}{}",
-                a,
-                format!(" {sign} "),
-                parameter,
-                format!(" {sign} "),
-                b
-            )
-        }
-        (Some(a), None) => {
-            sentence!("{}{}{}", parameter, if strict { " > " } else { " ≥ " }, a)
-        }
+        (None, Some(b)) => sentence!("{} {} {}", parameter, sign, b),
+        (Some(a), Some(b)) => sentence!("{} {} {} {} {}", a, sign, parameter, sign, b),
+        (Some(a), None) => sentence!("{} {} {}", parameter, if strict { ">" } else { "≥" }, a),
     };
     let mut out = Vec::new();
     let mut open: Option<Option<&Expr>> = None;

@@ -176,9 +176,8 @@ pub(super) fn approximate(
             return;
         }
         let lowest = series.lowest;
-        let near = sentence!("there is no such form: near {} = {}", parameter, to);
-        let how = format!(" it grows like the power {lowest} of the distance, beyond all bounds");
-        out.text.push(sentence!("{}{}", near, how));
+        let power = lowest.to_string();
+        out.text.push(sentence!("there is no such form: near {} = {} it grows like the power {} of the distance, beyond all bounds", parameter, to, power));
         return;
     }
     let order = order.unwrap_or(u32::try_from(power).unwrap_or_default());

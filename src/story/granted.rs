@@ -25,7 +25,11 @@ pub(super) fn assumed(readings: &[String], stages: &[StageTold]) -> Vec<Sentence
     let impacts = named(|kind| matches!(kind, StageKind::Impact { .. }));
     if !impacts.is_empty() {
         let takes = if impacts.len() == 1 { "takes" } else { "take" };
-        out.push(sentence!("{}{}", listed(&impacts), format!(" {takes} no time: nothing moves while velocities jump, and finite forces have no impulse")));
+        out.push(sentence!(
+            "{} {} no time: nothing moves while velocities jump, and finite forces have no impulse",
+            listed(&impacts),
+            takes
+        ));
     }
     let falls = named(|kind| matches!(kind, StageKind::Fall(_)));
     if !falls.is_empty() {

@@ -174,14 +174,8 @@ impl Asked<'_> {
         let moves: Vec<Sentence> = moves.collect();
         let mut out = Vec::new();
         if !moves.is_empty() {
-            let lead = ["suppose that, as turn ", " begins, "];
-            out.push(sentence!(
-                "{}{}{}{}",
-                lead[0],
-                &n,
-                lead[1],
-                Sentence::list(&moves)
-            ));
+            let moves = Sentence::list(&moves);
+            out.push(sentence!("suppose that, as turn {} begins, {}", &n, moves));
             let is_one = &Expr::one();
             out.push(sentence!("worked out like the first turn, it ends with the same, {} in place of {}; the first begins with it for {} = {}, so every turn does", &n, &before, &n, is_one));
         } else {
