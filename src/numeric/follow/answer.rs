@@ -95,7 +95,7 @@ pub fn answer(
         let given = scene.parameters.iter().find(|p| p.name == *number);
         let given = given.and_then(|p| p.value.as_ref()?.evaluate(values));
         let number = values.values.get(number).copied().or(given);
-        return turns::answer(scene, followed, turns, (&of[0], *total), number, values);
+        return turns::answer(scene, followed, turns, (of, *total), number, values);
     }
     let course = scene.course();
     let alone = (!scene.has_stages()).then_some(0);

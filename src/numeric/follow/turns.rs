@@ -9,12 +9,13 @@ use crate::scene::{Scene, Turns};
 /// Most turns that are followed.
 const MOST: usize = 10_000;
 
-/// A formula of the answers of one turn, or its sum over the turns up to that one.
+/// A formula of the answers of one turn, or its sum over the turns up to that one: as the file has it for each of the turns it
+/// writes out, as for the first of them afterwards.
 pub(super) fn answer(
     scene: &Scene,
     followed: &Followed,
     turns: &Turns,
-    (of, total): (&Expr, bool),
+    (of, total): (&[Expr], bool),
     number: Option<f64>,
     values: &Point<f64>,
 ) -> Result<Answer<f64>, Unanswered> {
@@ -27,15 +28,22 @@ pub(super) fn answer(
     let mut state = first.before.clone();
     let mut sum = 0.0;
     let mut value = 0.0;
-    for _ in 0..last {
-        let mine = through(&one, followed.solids.clone(), &state, &values);
+    for turn in 1..=last {
+        let later;
+        let (scene, followed, end, of) = match of.get(turn - 1) {
+            Some(of) => (scene, followed, turns.turn(turn).end, of),
+            None => {
+                later = through(&one, followed.solids.clone(), &state, &values);
+                (&one, &later, turns.stages, &of[0])
+            }
+        };
         let mut found = values.clone();
         for name in of.symbols() {
-            let answer = named(&one, &mine, &name, &values);
+            let answer = named(scene, followed, &name, &values);
             found.values.extend(answer.map(|value| (name, value)));
         }
-        let end = mine.stages.last().ok_or(Unanswered::NotANumber)?;
-        state = end.as_ref().map_err(lost)?.after.clone();
+        let end = followed.stages[end - 1].as_ref().map_err(lost)?;
+        state = end.after.clone();
         value = of.evaluate(&found).ok_or(Unanswered::NotANumber)?;
         sum += value;
     }

@@ -80,8 +80,9 @@ impl Asked<'_> {
             return open("what happens in a turn hangs on its number");
         };
         let end = &told[mine[mine.len() - 1]].after;
+        let mut after = states.iter().enumerate().skip(1);
         let is_so = is_same(end, &general, &scene.domains)
-            && is_same(states[1], &at(&Expr::one()), &scene.domains);
+            && after.all(|(k, state)| is_same(state, &at(&count(k)), &scene.domains));
         if !is_so {
             return open(NO_LAW);
         }
@@ -97,9 +98,12 @@ impl Asked<'_> {
                 Err(why) => return open(&why),
             }
         }
-        let first = &told_value.put(self.number, &Expr::one()) - &written[0];
-        if is_zero(&first, &scene.domains) != Some(true) {
-            return open("the first turn is not as those after it");
+        let is_told = |(k, value): (usize, &Expr)| {
+            let told = told_value.put(self.number, &count(k + 1));
+            is_zero(&(&told - value), &scene.domains) == Some(true)
+        };
+        if !written.iter().enumerate().all(is_told) {
+            return open("the turns that are written out are not alike in what is asked");
         }
         let Some(law) = self.law(&written, &told_value) else {
             return open("its sum over the turns has no closed form that was found");
@@ -209,6 +213,10 @@ impl Asked<'_> {
         }
         out
     }
+}
+
+fn count(turns: usize) -> Expr {
+    Expr::from(turns as i64)
 }
 
 /// How a sequence goes on.
