@@ -34,10 +34,8 @@ impl<'a> Supposed<'a> {
         so_that: impl Into<Sentence>,
         refused: impl FnOnce() -> Refused,
     ) -> Result<(), Refused> {
-        match sign(e, &self.stage.scene.domains) {
-            Seen::Proved(s) if s.is_not_negative() => return Ok(()),
-            Seen::Proved(_) | Seen::Negative => return Err(refused()),
-            _ => {}
+        if self.is_proved(e, Sign::is_not_negative, refused)? {
+            return Ok(());
         }
         // What decides the sign may be longer than what has it.
         let as_it_is = Sentence::not_negative(e);
@@ -54,14 +52,26 @@ impl<'a> Supposed<'a> {
         so_that: impl Into<Sentence>,
         refused: impl FnOnce() -> Refused,
     ) -> Result<(), Refused> {
-        match sign(e, &self.stage.scene.domains) {
-            Seen::Proved(Sign::Positive) => return Ok(()),
-            Seen::Proved(_) | Seen::Negative => return Err(refused()),
-            _ => {}
+        if self.is_proved(e, |sign| sign == Sign::Positive, refused)? {
+            return Ok(());
         }
         let need = above_zero(e, &self.stage.scene.domains);
         self.needs(e, need, so_that);
         Ok(())
+    }
+
+    /// Whether a sign is proved; refused where it is another one.
+    fn is_proved(
+        &self,
+        e: &Expr,
+        is_so: impl Fn(Sign) -> bool,
+        refused: impl FnOnce() -> Refused,
+    ) -> Result<bool, Refused> {
+        match sign(e, &self.stage.scene.domains) {
+            Seen::Proved(sign) if is_so(sign) => Ok(true),
+            Seen::Proved(_) | Seen::Negative => Err(refused()),
+            _ => Ok(false),
+        }
     }
 
     fn needs(&mut self, e: &Expr, need: Sentence, so_that: impl Into<Sentence>) {
