@@ -430,13 +430,12 @@ fn boxed(text: &str) -> Faulty<(usize, usize)> {
     const FONTS: [&str; 4] = ["\\text{", "\\textbf{", "\\mathrm{", "\\mathbf{"];
     let command = text.contains('\\').then(|| text.rfind(OPEN));
     let Some(at) = command.flatten() else {
-        let mut opened = FONTS.iter().filter_map(|font| text.strip_prefix(font));
-        let inside = opened.next().and_then(|behind| behind.strip_suffix('}'));
-        let number =
-            inside.filter(|i| i.starts_with(|c: char| c.is_ascii_digit()) && !i.contains('}'));
-        return Ok(number.map_or((0, text.len()), |i| {
-            (text.len() - 1 - i.len(), text.len() - 1)
-        }));
+        let inside = |font: &&str| text.strip_prefix(*font)?.strip_suffix('}');
+        let font = FONTS.iter().find(|font| {
+            inside(font)
+                .is_some_and(|i| i.starts_with(|c: char| c.is_ascii_digit()) && !i.contains('}'))
+        });
+        return Ok(font.map_or((0, text.len()), |font| (font.len(), text.len() - 1)));
     };
     let behind = &text[at + OPEN.len()..];
     let blanks = behind.len() - behind.trim_start().len();

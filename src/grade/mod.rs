@@ -330,7 +330,7 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         }
         return grade;
     }
-    unit::as_asked(key, &mut reading);
+    let meant = unit::as_asked(key, &mut reading);
     let names = key.question.symbols.iter().map(|g| &g.name);
     if let Some(content) = read::sizes(&reading.content, names) {
         reading.content = content;
@@ -343,6 +343,7 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
     doubt::unit_behind(key, answer, options, &mut reading, &mut finding);
     unit::behind(key, &reading, &mut finding);
     unit::of_relations(key, &reading, &mut finding);
+    finding.assumed.extend(meant);
     let settled = finding.note == "EQUIV_READING";
     let open_to_doubt = options.strength == Strength::Identity
         && !settled

@@ -6,6 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::unit::each_chain;
 use super::{Key, Question, declare};
 use crate::dimension;
 use crate::expr::{Expr, Symbol};
@@ -381,8 +382,9 @@ pub(super) fn quantity(text: &str, open: &Reading, question: &Question) -> Optio
 /// A text that says of names alone which quantities they are, or lie between: `2 m < x < 3 m`, `v = 2 m/s; s = 4 m`.
 fn bounds(text: &str, open: &Reading, question: &Question) -> Option<Reading> {
     let mut names = BTreeSet::new();
-    sides(&open.content, &mut |side| {
-        names.extend(side.expr().and_then(Expr::as_symbol).cloned())
+    each_chain(&open.content, &mut |sides| {
+        let all = sides.iter().filter_map(|side| side.expr()?.as_symbol());
+        names.extend(all.cloned());
     });
     if names.is_empty() || !text.contains(|c: char| c.is_ascii_digit()) {
         return None;
@@ -392,8 +394,10 @@ fn bounds(text: &str, open: &Reading, question: &Question) -> Option<Reading> {
     names.iter().for_each(|name| symbols.declare(name));
     let reading = formula::read(text, &symbols).ok()?;
     let mut units = false;
-    sides(&reading.content, &mut |side| {
-        units |= matches!(side, Content::Quantity(_));
+    each_chain(&reading.content, &mut |sides| {
+        units |= sides
+            .iter()
+            .any(|side| matches!(side, Content::Quantity(_)));
     });
     (units && reading.symbols() == names && measured(&reading.content)).then_some(reading)
 }
@@ -401,20 +405,11 @@ fn bounds(text: &str, open: &Reading, question: &Question) -> Option<Reading> {
 /// Whether every side of some relations is a name, a quantity or a number.
 fn measured(content: &Content) -> bool {
     let mut all = matches!(content, Content::Relations(..) | Content::Joined(..));
-    sides(content, &mut |side| {
-        let plain = |e: &Expr| e.is_constant() || e.as_symbol().is_some();
-        all &= side.expr().is_some_and(plain);
+    let plain = |e: &Expr| e.is_constant() || e.as_symbol().is_some();
+    each_chain(content, &mut |sides| {
+        all &= sides.iter().all(|side| side.expr().is_some_and(plain));
     });
     all
-}
-
-/// Calls `visit` for every side of the relations in a content.
-fn sides(content: &Content, visit: &mut dyn FnMut(&Content)) {
-    match content {
-        Content::Relations(sides, _) => sides.iter().for_each(visit),
-        Content::Joined(_, parts) => parts.iter().for_each(|part| sides(part, visit)),
-        _ => {}
-    }
 }
 
 /// Whether a formula, with nothing before it that would be passed over, begins with a letter that is no declared name.

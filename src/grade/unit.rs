@@ -104,7 +104,7 @@ pub(super) fn of_relations(key: &Key, reading: &Reading, finding: &mut Finding) 
 }
 
 /// The sides of every chain of relations in a content.
-fn each_chain(content: &Content, visit: &mut dyn FnMut(&[Content])) {
+pub(super) fn each_chain(content: &Content, visit: &mut dyn FnMut(&[Content])) {
     match content {
         Content::Relations(sides, _) => visit(sides),
         Content::Joined(_, parts) => parts.iter().for_each(|part| each_chain(part, visit)),
@@ -131,31 +131,31 @@ const MEANT: [(&str, &str); 6] = [
     ("pounds", "lbf"),
 ];
 
-/// Reads the unit of an answer as it fits what is asked, if it only fits so.
-pub(super) fn as_asked(key: &Key, reading: &mut Reading) {
+/// Reads the unit of an answer as it fits what is asked, if it only fits so, and says what is assumed of it.
+pub(super) fn as_asked(key: &Key, reading: &mut Reading) -> Option<String> {
     let asked = match key.reading.content.answer() {
         Content::Quantity(expected) => Some(expected.unit.dimension.clone()),
         _ => asked(key),
     };
-    let Some(asked) = asked else { return };
+    let asked = asked?;
     let said = match &mut reading.content {
         Content::Relations(sides, _) => sides.last_mut(),
         other => Some(other),
     };
     let Some(Content::Quantity(quantity)) = said else {
-        return;
+        return None;
     };
     if quantity.unit.dimension == asked {
-        return;
+        return None;
     }
-    let meant = MEANT.iter().filter_map(|(word, meant)| {
+    let (words, unit) = MEANT.iter().find_map(|(word, meant)| {
         let text = formula::plain_unit(&with_word(&quantity.unit_text, word, meant)?)?;
-        dimension::unit(&text).ok()
-    });
-    if let Some(unit) = meant.into_iter().find(|unit| unit.dimension == asked) {
-        quantity.value = &quantity.written * &unit.value();
-        quantity.unit = unit;
-    }
+        let unit = dimension::unit(&text).ok()?;
+        (unit.dimension == asked).then(|| (format!("{word} stands for {meant}"), unit))
+    })?;
+    quantity.value = &quantity.written * &unit.value();
+    quantity.unit = unit;
+    Some(words)
 }
 
 /// A text with a word of letters replaced wherever it stands, if it does.
