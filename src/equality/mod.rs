@@ -43,6 +43,23 @@ pub struct Decision {
     pub assumed: Vec<String>,
 }
 
+impl Decision {
+    /// The same said of the two in the other order.
+    fn turned(mut self) -> Decision {
+        match &mut self.equality {
+            Equality::Different(point)
+            | Equality::Same {
+                how: How::OnBranch {
+                    elsewhere: point, ..
+                },
+            } => std::mem::swap(&mut point.left, &mut point.right),
+            Equality::Invalid { side, .. } => *side = side.other(),
+            Equality::Same { .. } | Equality::Undecided { .. } => {}
+        }
+        self
+    }
+}
+
 /// Whether two formulas have the same value on their domain.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Equality {
@@ -165,6 +182,15 @@ pub enum Side {
     Right,
 }
 
+impl Side {
+    fn other(self) -> Side {
+        match self {
+            Side::Left => Side::Right,
+            Side::Right => Side::Left,
+        }
+    }
+}
+
 /// A point of the domain at which two formulas have different values.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Counterexample {
@@ -217,8 +243,16 @@ pub enum Reason {
 
 /// Decides whether two formulas have the same value everywhere on the domain.
 ///
-/// Same result on every machine: limits count points, nodes and bits.
+/// Same result on every machine: limits count points, nodes and bits. Same result in either order: the search always begins
+/// with the one that comes first among expressions.
 pub fn decide(a: &Expr, b: &Expr, domains: &Domains) -> Decision {
+    match b < a {
+        true => decide_in_order(b, a, domains).turned(),
+        false => decide_in_order(a, b, domains),
+    }
+}
+
+fn decide_in_order(a: &Expr, b: &Expr, domains: &Domains) -> Decision {
     let open = |reason| Decision {
         equality: Equality::Undecided {
             reason,
