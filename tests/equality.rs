@@ -40,6 +40,10 @@ fn every_pair_of_the_table_gets_its_verdict() {
             reader::domains(domains),
         );
         rows += 1;
+        let both = [decide(&a, &b, &domains), decide(&b, &a, &domains)];
+        if let [Equality::Different(p), Equality::Different(q)] = both.map(|d| d.equality) {
+            assert_eq!((p.at, p.left, p.right), (q.at, q.right, q.left), "{line}");
+        }
         for (x, y) in [(&a, &b), (&b, &a)] {
             let decision = decide(x, y, &domains);
             if name(&decision.equality) != *verdict {
