@@ -13,6 +13,7 @@ use crate::domain::Domains;
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::formula::Relation;
+use crate::interval::{Interval, evaluate};
 use crate::laws::friction::{Side, When};
 use crate::numeric::friction::Followed;
 use crate::numeric::path::{NoPath, Path};
@@ -225,7 +226,7 @@ fn picked(scene: &Scene, table: &Table) -> Option<usize> {
     table.cases.iter().position(holds)
 }
 
-/// Signs at the values of a scene: in fractions, and where these do not do by the signs of algebraic numbers.
+/// Signs at the values of a scene: in fractions, and where these do not do by enclosures or the signs of algebraic numbers.
 struct Signs {
     exact: Option<Point<Rational>>,
     values: BTreeMap<Symbol, Expr>,
@@ -246,6 +247,14 @@ impl Signs {
         let e = e.substitute(&self.values);
         if e.symbols().iter().any(|s| &**s != "pi") {
             return None;
+        }
+        if let Some(value) = evaluate::<Interval>(&e, &Point::default()).value() {
+            if value.low > 0.0 {
+                return Some(std::cmp::Ordering::Greater);
+            }
+            if value.high < 0.0 {
+                return Some(std::cmp::Ordering::Less);
+            }
         }
         let mut field = Field::new(&Domains::default());
         field.prepare([&e]);

@@ -104,6 +104,7 @@ fn the_answers_are_those_of_the_table() {
             }
             false => {
                 let picked = judged.pick.cases(&table);
+                assert!(set.is_empty() || picked.len() == 1, "{row}: {picked:?}");
                 let found = picked
                     .iter()
                     .find(|i| table.cases[**i].mode.words() == *case);
