@@ -93,12 +93,16 @@ pub(super) fn rooted(
     let half = Expr::ratio(1, 2);
     let vanishes = |e: &Expr| is_zero(&e.put(at.0, at.1), domains) == Some(true);
     match e.node() {
-        // arccos x = 2 arcsin √((1 − x)/2), whose root is the one that vanishes at x = 1.
-        Node::Call(Function::Acos, x) if vanishes(&(Expr::one() - x)) => {
+        // arccos x = 2 arcsin √((1 − x)/2), whose root is the one that vanishes at x = 1; arcsin x is π/2 less that.
+        Node::Call(f @ (Function::Acos | Function::Asin), x) if vanishes(&(Expr::one() - x)) => {
             let under = &half * &(Expr::one() - x);
             let (root, more) = rooted(&under.sqrt(), at, last, domains);
             given.extend(more);
-            (Expr::from(2) * Expr::call(Function::Asin, root), given)
+            let arc = Expr::from(2) * Expr::call(Function::Asin, root);
+            match f {
+                Function::Acos => (arc, given),
+                _ => (&half * &Expr::pi() - arc, given),
+            }
         }
         Node::Power(base, k) if is_odd_half(k) && vanishes(base) => {
             match developed(base, at, last, domains) {
