@@ -191,8 +191,11 @@ fn on_a_line() -> impl Strategy<Value = String> {
         ["v", "-v/R", "v > 0"],
         ["v", "v/R", "v > 0"],
     ]);
-    (shape, along, surface, end, begin).prop_map(|(shape, along, surface, end, begin)| {
+    let from = prop::option::of(select(vec![["1", "0"], ["-1", "0"], ["cos(a)", "-sin(a)"]]));
+    (shape, along, surface, end, begin, from).prop_map(|(shape, along, surface, end, begin, from)| {
         let ([x, y], [v, spin, relation]) = (along, begin);
+        let bend = from.map_or("", |_| r#""bend": true, "#);
+        let [to_x, to_y] = from.unwrap_or(along);
         let spin = match shape.contains("particle") || shape.contains("rectangle") {
             true => "0",
             false => spin,
@@ -210,9 +213,9 @@ fn on_a_line() -> impl Strategy<Value = String> {
   }},
   "relations": ["{relation}"],
   "bodies": {{
-    "B": {{{shape}, "mass": "m", "center": ["0", "R"], "velocity": ["({v})*({x})", "({v})*({y})"]{spin}}}
+    "B": {{{shape}, "mass": "m", "center": ["0", "R"], "velocity": ["({v})*({to_x})", "({v})*({to_y})"]{spin}}}
   }},
-  "stages": [{{"name": "way", "slide": {{"body": "B", "along": ["{x}", "{y}"], "gravity": "g", {surface}, {end}}}}}],
+  "stages": [{{"name": "way", "slide": {{"body": "B", "along": ["{x}", "{y}"], {bend} "gravity": "g", {surface}, {end}}}}}],
   "questions": {{"u": {{"velocity": "B"}}, "w1": {{"spin": "B"}}, "K": {{"energy": "lost"}}}}
 }}"#
         )

@@ -439,6 +439,8 @@ pub struct Slide {
     pub gravity: Option<Expr>,
     /// Whether the scene is seen from above, and the surface is level.
     pub level: bool,
+    /// Whether the way bends gently into the line: the bodies begin along it with the speed that they have.
+    pub bend: bool,
     /// Constant force along the direction, at the center of mass \[N\].
     pub force: Option<Expr>,
     /// Coefficient of sliding friction μ of the surface; `None` for a smooth guide.

@@ -152,6 +152,8 @@ record! {
         rolling: Option<bool>,
         /// Whether the scene is seen from above: gravity presses the body on a level surface, and pulls it nowhere.
         level: Option<bool>,
+        /// Whether the way bends gently into this line from where the body came, so that it keeps its speed.
+        bend: Option<bool>,
         /// Light inextensible strings from the body over pulleys to other bodies, taut all the while.
         strings: Option<Vec<StrungFile>>,
     }

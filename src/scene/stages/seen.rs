@@ -26,7 +26,7 @@ pub(super) fn from_above(base: &mut Resolver<'_>, scene: &Scene, i: usize, span:
         }
         _ => true,
     };
-    if carried || crash.from.is_some() || slide.level || slide.friction.is_none() {
+    if carried || crash.from.is_some() || slide.level || slide.bend || slide.friction.is_none() {
         return;
     }
     let is_not = |e: &Expr| matches!(zero(e, domains), Zero::No(_));
@@ -41,7 +41,7 @@ pub(super) fn from_above(base: &mut Resolver<'_>, scene: &Scene, i: usize, span:
             "`{name}` slides on an incline here, and in `{}` no incline carried it",
             crash.name
         );
-        let hint = "where the scene is seen from above, add \"level\": true; where it is seen from the side, the surface is a contact or support of the impact";
+        let hint = "where a bend leads it there, add \"bend\": true; where the scene is seen from above, \"level\": true; otherwise the surface is a contact or support of the impact";
         base.faults.push(Fault::new(span, message).hint(hint));
     }
 }

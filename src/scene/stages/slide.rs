@@ -41,6 +41,7 @@ pub(super) fn slide(
     let (body, with) = all?;
     let out = Slide {
         level: slide.level == Some(true),
+        bend: slide.bend == Some(true),
         body,
         with,
         along: along?,
@@ -113,6 +114,12 @@ fn unfit(scene: &Scene, slide: &Slide) -> Option<(String, &'static str)> {
                 "a scene seen from above has bodies that slide, and neither roll nor hang on strings",
             ),
             "leave out `level` where the scene is seen from the side",
+        ),
+        () if slide.bend && (slide.on.is_some() || !slide.strings.is_empty()) => (
+            String::from(
+                "what hangs on strings or slides on a body that moves comes round no bend",
+            ),
+            "leave out `bend`",
         ),
         () if slide.on.is_none() && matches!(slide.until, SlideEnd::Together) => (
             String::from("what it comes to move together with is not said"),

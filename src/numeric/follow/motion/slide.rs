@@ -82,6 +82,10 @@ pub(in crate::numeric::follow) fn slide(
     before: State,
     slide: &Slide,
 ) -> Result<Passed, Lost> {
+    let before = match slide.bend {
+        true => bent(course, before, slide)?,
+        false => before,
+    };
     let bodies = slide.bodies();
     let has_forces = slide.gravity.is_some() || slide.force.is_some();
     let begin = begun(course, slide, &before);
@@ -192,6 +196,24 @@ pub(in crate::numeric::follow) fn slide(
         ..Moved::default()
     };
     Ok(course.moved([before, after], time, has_forces, moved))
+}
+
+/// The state behind a bend: what came along as one turns into the line.
+fn bent(course: &Course<'_>, mut before: State, slide: &Slide) -> Result<State, Lost> {
+    let along = course.pair(&slide.along, "direction")?;
+    let [Ok(u), Ok(v)] = before.bodies[slide.body].velocity.clone() else {
+        return Ok(before);
+    };
+    let speed = u.hypot(v);
+    for b in slide.company() {
+        let velocity = &mut before.bodies[b].velocity;
+        if let [Ok(x), Ok(y)] = velocity
+            && (*x - u).hypot(*y - v) <= ROUNDING * speed
+        {
+            *velocity = along.map(|c| Ok(speed * c));
+        }
+    }
+    Ok(before)
 }
 
 /// The state at the beginning, with no spin of light pulleys left open.

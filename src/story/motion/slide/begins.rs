@@ -1,14 +1,44 @@
 //! What a body has to do at the beginning so that it can move along its line.
 
 use super::super::supposed::Supposed;
+use super::super::tidied;
 use super::line::{Line, proved};
 use super::lumps;
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, is_zero, sign, tidy};
 use crate::expr::{Expr, Vector, dot};
-use crate::formula::write_plain;
+use crate::formula::{sentence, write_plain};
 use crate::scene::{Slide, Stage};
 use crate::story::{Refused, State};
+
+/// The motion behind the bend by which the bodies come to their line, where there is one: along it, as fast as before.
+pub(super) fn bent(
+    stage: &Stage,
+    mut before: State,
+    slide: &Slide,
+    supposed: &mut Supposed<'_>,
+) -> Result<State, Refused> {
+    if !slide.bend {
+        return Ok(before);
+    }
+    let velocity = before.velocity[slide.body].clone();
+    let speed = tidied(stage, &dot(&velocity, &velocity).sqrt())?;
+    let is_same = |v: &Vector| {
+        let mut gaps = v.iter().zip(&velocity).map(|(a, b)| a - b);
+        gaps.all(|gap| is_zero(&gap, &stage.scene.domains) == Some(true))
+    };
+    // Whatever moves otherwise stays as it is, and does not fit the line.
+    for b in slide.company() {
+        if is_same(&before.velocity[b]) {
+            before.velocity[b] = slide.along.each_ref().map(|c| &speed * c);
+        }
+    }
+    supposed.words.push(sentence!(
+        "a short and smooth bend leads `{}` into the line of this stage, so that it keeps its speed",
+        &stage.scene.bodies[slide.body].name
+    ));
+    Ok(before)
+}
 
 /// Refuses a body that does not begin to move along its line, or turns where nothing lets it.
 pub(super) fn fits(stage: &Stage, before: &State, slide: &Slide) -> Result<(), Refused> {
@@ -59,8 +89,12 @@ pub(super) fn fits_line(
         };
         let aside = dot(v, &across);
         if is_zero(&aside, domains) == Some(false) {
-            let hint =
-                "an impact before it may stop what does not fit, or a slide goes another way";
+            let hint = match slide.bend {
+                true => "what comes round a bend together moves as one before it",
+                false => {
+                    "where the way bends gently into this line, say \"bend\": true; an impact before it may stop what does not fit"
+                }
+            };
             return refuse("across it, its velocity is", &aside, hint);
         }
         if !may_turn && is_zero(&before.spin[b], domains) == Some(false) {

@@ -31,6 +31,7 @@ pub(in crate::story) fn slide(
     }
     let mut supposed = Supposed::of(stage);
     let mut limits = Vec::new();
+    let before = begins::bent(stage, before, slide, &mut supposed)?;
     begins::fits(stage, &before, slide)?;
     begins::springy(stage, slide)?;
     let line = Line::of(stage, &before, slide, &mut limits)?;
