@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 
 use super::element::{Den, Element};
 use super::field::{Field, Kind};
-use super::mono::{Mono, cmp_mono, exponent, mono_add, mono_is_one, mono_of};
+use super::mono::{Mono, cmp_mono, exponent, mono_add, mono_is_one, mono_of, powers};
 use super::poly::Poly;
 use super::{Sign, Stop};
 use crate::expr::number::product;
@@ -201,22 +201,12 @@ impl Field {
         let over_odd = (i128::from(k) * i128::from(gcd.x)).rem_euclid(i128::from(odd)) as i64;
         let over_even = (k - over_odd * even) / odd;
         // What cannot be written out may still be the same power of the same.
-        if odd == 1 && even == 1 && k.abs() > MOST_POWER {
-            let turned = base.num.leading_is_negative();
-            let below = if turned {
-                self.neg(&base)
-            } else {
-                base.clone()
-            };
-            if below.num.len() > 1 || self.as_symbol(&below).is_some() {
-                let exponent = self.integer(k);
-                let power = self.opaque_power(below, exponent);
-                return Ok(if turned && k % 2 != 0 {
-                    self.neg(&power)
-                } else {
-                    power
-                });
-            }
+        if odd == 1
+            && even == 1
+            && k.abs() > MOST_POWER
+            && let Some(power) = self.high_power(&base, k)?
+        {
+            return Ok(power);
         }
         let mut root = base.clone();
         for _ in 0..even.ilog2() {
@@ -229,6 +219,39 @@ impl Field {
         let other = self.odd_root(&base, odd as u32)?;
         let other = self.pow(&other, over_odd)?;
         self.mul(&root, &other)
+    }
+
+    /// A power too high to be written out, factor by factor: (2 x)^9999 is 2^9999 x^9999. Nothing where it is a number, or holds
+    /// a factor with a relation, such as a root.
+    fn high_power(&mut self, base: &Element, k: i64) -> Result<Option<Element>, Stop> {
+        let shared = base.num.mono_content();
+        let content = base.num.content();
+        let turned = base.num.leading_is_negative();
+        let content = if turned { -content } else { content };
+        let rest = base.num.div_mono(&shared).div_int(&content);
+        let above = powers(&shared).map(|(v, e)| (Poly::var(v), i64::from(e)));
+        let below = powers(&base.den.mono).map(|(v, e)| (Poly::var(v), -i64::from(e)));
+        let factors = base.den.factors.iter();
+        let factors = factors.map(|(factor, e)| (factor.clone(), -i64::from(*e)));
+        let mut parts: Vec<(Poly, i64)> = above.chain(below).chain(factors).collect();
+        parts.extend((!rest.is_constant()).then_some((rest, 1)));
+        let bound = |v: usize| self.gens[v].relation.is_some();
+        let related =
+            |(part, _): &(Poly, i64)| part.len() == 1 && part.variables().into_iter().any(bound);
+        if parts.is_empty() || parts.iter().any(related) {
+            return Ok(None);
+        }
+        let number = Rational::new(content, base.den.int.clone());
+        let mut total = self.pow(&self.number(&number), k)?;
+        for (part, e) in parts {
+            let exponent = self.integer((e * k).abs());
+            let power = self.opaque_power(Element::from_poly(part), exponent);
+            total = match e * k > 0 {
+                true => self.mul(&total, &power)?,
+                false => self.div(&total, &power)?,
+            };
+        }
+        Ok(Some(total))
     }
 
     /// A power with symbols above. Of something positive, what is whole in the exponent comes apart: b b^(n − 1) is bⁿ, and
