@@ -33,6 +33,12 @@ impl Unit {
         Expr::from(self.factor.clone()) * Expr::pi().power(Expr::from(self.pi.clone()))
     }
 
+    /// Whether it is a smaller unit of the same kind, as minutes are of an hour.
+    pub fn is_part_of(&self, larger: &Unit) -> bool {
+        let alike = self.dimension == larger.dimension && self.pi == larger.pi;
+        alike && !self.dimension.is_none() && self.factor < larger.factor
+    }
+
     /// The SI unit of a dimension.
     pub fn coherent(dimension: Dimension) -> Unit {
         Unit {
@@ -131,6 +137,11 @@ impl<'a> Reader<'a> {
                 return self.unclear(before);
             }
             let start = self.at;
+            // `h 1 min` is no product: only `1/s` begins with a number.
+            let tail = &self.text[start + c.len_utf8()..];
+            if c == '1' && total.is_some() && !waiting && !tail.starts_with('/') {
+                return fault("a number in the middle of a unit", start, start + 1);
+            }
             let atom = self.atom(depth)?;
             // `ms-2` has two letters, of which the exponent belongs to the second.
             let several = total.as_ref().is_some_and(|t| *t != Unit::number())

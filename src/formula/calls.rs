@@ -86,6 +86,12 @@ impl Parser<'_> {
             _ => {}
         }
         let name = function.name();
+        let minus_one = exponent
+            .as_ref()
+            .and_then(Written::literal)
+            .is_some_and(|k| k.value == ratio(-1, 1));
+        let inverses = matches!(function, Function::Asin | Function::Acos | Function::Atan);
+        let is_inverse = inverses || minus_one;
         let in_bars = self.bars > 0;
         let first = self.peek()?;
         let argument = match first.tok {
@@ -109,7 +115,7 @@ impl Parser<'_> {
             }
             Tok::Minus | Tok::Plus => {
                 let (at, sign) = (first.start, self.sign()?);
-                let inner = self.bare_argument()?;
+                let inner = self.bare_argument(is_inverse)?;
                 let stop = inner.end;
                 Written::new(
                     Shape::Sum(vec![(sign.unwrap_or(Sign::Plus), inner)]),
@@ -125,7 +131,7 @@ impl Parser<'_> {
             | Tok::Call(_)
             | Tok::Reciprocal(_)
             | Tok::Exponential
-            | Tok::Logarithm(_) => self.bare_argument()?,
+            | Tok::Logarithm(_) => self.bare_argument(is_inverse)?,
             _ => {
                 let token = self.next()?;
                 return Err(Fault::new(
@@ -145,10 +151,6 @@ impl Parser<'_> {
             );
         }
         let stop = argument.end;
-        let minus_one = exponent
-            .as_ref()
-            .and_then(Written::literal)
-            .is_some_and(|k| k.value == ratio(-1, 1));
         let hyperbolic = matches!(function, Function::Sinh | Function::Cosh | Function::Tanh);
         if minus_one && (hyperbolic || trigonometric) {
             let raised_end = exponent.map_or(end, |e| e.end);
@@ -208,8 +210,9 @@ impl Parser<'_> {
         Ok(above.over(size).at(start, stop))
     }
 
-    /// The argument of a function without brackets: numbers, then one angle, or a product of names such as ω t.
-    pub(super) fn bare_argument(&mut self) -> Faulty<Written> {
+    /// The argument of a function without brackets: numbers, then one angle, or a product of names such as ω t; of an inverse
+    /// one also their quotient, as in `arcsin v/c`.
+    fn bare_argument(&mut self, is_inverse: bool) -> Faulty<Written> {
         let first = self.factor()?;
         if let Shape::Call(..) | Shape::Reciprocal(..) = first.shape {
             return Ok(first);
@@ -239,21 +242,20 @@ impl Parser<'_> {
                 }
                 Tok::Slash if named => {
                     // sinθ/2: half of the sine, unless somebody meant the half angle.
-                    let digit = lone_number(&self.lexer.text[self.lexer.pos..]);
-                    if digit && !self.lexer.usual() {
+                    let rest = &self.lexer.text[self.lexer.pos..];
+                    let quotient = is_inverse
+                        && !token.spaced
+                        && rest.starts_with(|c: char| c.is_alphabetic() || c == '\\');
+                    if (quotient || lone_number(rest)) && self.lexer.usual() == quotient {
                         self.next()?;
                         let below = self.factor()?;
                         self.lexer
                             .note(Remark::Argument { long: true }, start, end, below.end);
                         end = below.end;
                         factors.push((Link::Over, below));
-                    } else if digit {
-                        self.lexer.note(
-                            Remark::Argument { long: false },
-                            start,
-                            end,
-                            token.end + 1,
-                        );
+                    } else if quotient || lone_number(rest) {
+                        let remark = Remark::Argument { long: false };
+                        self.lexer.note(remark, start, end, token.end + 1);
                     }
                     false
                 }

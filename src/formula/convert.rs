@@ -87,11 +87,11 @@ pub(crate) fn value(w: &Written, mode: Mode) -> Faulty<Value> {
         Shape::Abs(inner) => scalar(match value(inner, mode)? {
             Value::Scalar(e) => Expr::call(Function::Abs, e),
             Value::Vector(v) => dot(&v, &v).sqrt(),
-            Value::Matrix(_) => return Err(inner.fault(UNREAD)),
+            Value::Matrix(rows) => determinant(inner, &rows)?,
         }),
         Shape::Measured(inner, unit) => times(w, value(inner, mode)?, unit.value()),
         Shape::Degrees(inner) => scalar(one(inner, mode)? * Expr::pi() * Expr::ratio(1, 180)),
-        Shape::List(rows) if rows.iter().all(|row| matches!(row.shape, Shape::List(_))) => {
+        Shape::List(rows) if w.is_matrix() => {
             let row = |row: &Written| {
                 let entries = row.pieces().into_iter().map(|entry| one(entry, mode));
                 entries.collect::<Faulty<Vec<Expr>>>()
@@ -121,8 +121,9 @@ pub(crate) fn one(w: &Written, mode: Mode) -> Faulty<Expr> {
     }
 }
 
-/// What is said of matrices in sums and products with others.
-const UNREAD: &str = "a matrix stands alone or behind a number";
+const UNREAD: &str = "a matrix stands where a number is expected";
+/// Most pieces of an entry of a product of matrices.
+const LARGEST_ENTRY: usize = 2_000;
 
 fn call(function: Function, argument: Expr) -> Expr {
     match function {
@@ -136,6 +137,7 @@ fn call(function: Function, argument: Expr) -> Expr {
 fn sum(w: &Written, terms: &[(Sign, Written)], mode: Mode) -> Faulty<Value> {
     let mut scalars = Vec::with_capacity(terms.len());
     let mut vectors: Vec<[Expr; 3]> = Vec::new();
+    let mut matrix: Option<Vec<Vec<Expr>>> = None;
     for (sign, term) in terms {
         let minus = match sign {
             Sign::Plus => false,
@@ -146,12 +148,27 @@ fn sum(w: &Written, terms: &[(Sign, Written)], mode: Mode) -> Faulty<Value> {
         match value(term, mode)? {
             Value::Scalar(e) => scalars.push(if minus { -e } else { e }),
             Value::Vector(v) => vectors.push(if minus { v.map(|c| -c) } else { v }),
-            Value::Matrix(rows) if terms.len() == 1 => {
+            Value::Matrix(rows) => {
                 let sign = Expr::from(if minus { -1 } else { 1 });
-                return times(w, Value::Matrix(rows), sign);
+                let total = matrix.take();
+                let zero = || vec![vec![Expr::zero(); rows[0].len()]; rows.len()];
+                let total = total.unwrap_or_else(zero);
+                let shape = |m: &[Vec<Expr>]| (m.len(), m[0].len());
+                if shape(&total) != shape(&rows) {
+                    return Err(term.fault("matrices of two sizes are added"));
+                }
+                let row = |(a, b): (&Vec<Expr>, &Vec<Expr>)| {
+                    a.iter().zip(b).map(|(a, b)| a + &(&sign * b)).collect()
+                };
+                matrix = Some(total.iter().zip(&rows).map(row).collect());
             }
-            Value::Matrix(_) => return Err(term.fault(UNREAD)),
         }
+    }
+    if let Some(rows) = matrix {
+        return match scalars.is_empty() && vectors.is_empty() {
+            true => Ok(Value::Matrix(rows)),
+            false => Err(w.fault("a matrix and something else are added")),
+        };
     }
     if vectors.is_empty() {
         let total = Expr::sum(scalars);
@@ -166,38 +183,86 @@ fn sum(w: &Written, terms: &[(Sign, Written)], mode: Mode) -> Faulty<Value> {
 
 fn product(w: &Written, factors: &[(Link, Written)], mode: Mode) -> Faulty<Value> {
     let mut scalars = Vec::with_capacity(factors.len());
-    // The vector among the factors so far, and how many scalars stand before it.
-    let mut vector: Option<(usize, [Expr; 3])> = None;
-    let mut matrix = None;
+    // The vector or matrix among the factors so far, and how many scalars stand before it.
+    let mut held: Option<(usize, Value)> = None;
     for (i, (link, factor)) in factors.iter().enumerate() {
         let next = match link {
             Link::Over if i > 0 => Value::Scalar(reciprocal(factor, mode)?),
             _ => value(factor, mode)?,
         };
-        match (next, vector.take()) {
+        match (next, held.take()) {
             (Value::Scalar(e), before) => {
                 scalars.push(e);
-                vector = before;
+                held = before;
             }
-            (Value::Matrix(rows), None) if matrix.is_none() => matrix = Some(rows),
-            (Value::Matrix(_), _) => return Err(factor.fault(UNREAD)),
-            (Value::Vector(v), None) => vector = Some((scalars.len(), v)),
+            (next, None) => held = Some((scalars.len(), next)),
+            (next, Some((at, Value::Matrix(rows)))) => {
+                held = Some((at, applied(factor, &rows, &next)?));
+            }
             // Two vectors: a dot or a cross says what is meant.
-            (Value::Vector(b), Some((at, a))) => match link {
+            (Value::Vector(b), Some((at, Value::Vector(a)))) => match link {
                 Link::Times => scalars.insert(at, dot(&a, &b)),
-                Link::Cross => vector = Some((at, cross(&a, &b))),
+                Link::Cross => held = Some((at, Value::Vector(cross(&a, &b)))),
                 _ => {
                     let message = "a product of two vectors is not read";
                     return Err(w.fault(message));
                 }
             },
+            (_, Some(_)) => {
+                return Err(factor.fault("a matrix stands before the vector it multiplies"));
+            }
         }
     }
-    match (matrix, vector) {
-        (None, vector) => scaled(w, scalars, vector.map(|(_, v)| v)),
-        (Some(rows), None) => times(w, Value::Matrix(rows), Expr::product(scalars)),
-        (Some(_), Some(_)) => Err(w.fault(UNREAD)),
+    match held {
+        None => scaled(w, scalars, None),
+        Some((_, Value::Vector(v))) => scaled(w, scalars, Some(v)),
+        Some((_, other)) => times(w, other, Expr::product(scalars)),
     }
+}
+
+/// A matrix times a matrix, or a vector as a column.
+fn applied(w: &Written, rows: &[Vec<Expr>], to: &Value) -> Faulty<Value> {
+    let n = rows[0].len();
+    let columns: Vec<Vec<Expr>> = match to {
+        Value::Matrix(other) if other.len() == n => {
+            let column = |k: usize| other.iter().map(|row| row[k].clone()).collect();
+            (0..other[0].len()).map(column).collect()
+        }
+        Value::Vector(v) if v[n..].iter().all(Expr::is_zero) => vec![v[..n].to_vec()],
+        _ => return Err(w.fault("a matrix of another size cannot be multiplied")),
+    };
+    let entry = |row: &Vec<Expr>, column: &Vec<Expr>| {
+        let total = Expr::sum(row.iter().zip(column).map(|(a, b)| a * b));
+        match total.size() > LARGEST_ENTRY {
+            true => Err(w.fault("this product of matrices is too large")),
+            false => bounded(&total, w).map(|()| total),
+        }
+    };
+    let row = |row| columns.iter().map(|column| entry(row, column)).collect();
+    let mut rows = rows.iter().map(row).collect::<Faulty<Vec<Vec<Expr>>>>()?;
+    Ok(match to {
+        Value::Vector(_) => {
+            let mut components = rows.iter_mut().map(|row| row.remove(0));
+            Value::Vector([(); 3].map(|()| components.next().unwrap_or_else(Expr::zero)))
+        }
+        _ => Value::Matrix(rows),
+    })
+}
+
+/// The determinant of a square matrix, by its first row.
+fn determinant(w: &Written, rows: &[Vec<Expr>]) -> Faulty<Expr> {
+    if rows.len() != rows[0].len() {
+        return Err(w.fault("a determinant is of as many rows as columns"));
+    }
+    let total = match rows {
+        [a, b] => &a[0] * &b[1] - &a[1] * &b[0],
+        [a, b, c] => {
+            let [a, b, c] = [a, b, c].map(|row| [row[0].clone(), row[1].clone(), row[2].clone()]);
+            dot(&a, &cross(&b, &c))
+        }
+        _ => return Err(w.fault(UNREAD)),
+    };
+    bounded(&total, w).map(|()| total)
 }
 
 fn dot(a: &[Expr; 3], b: &[Expr; 3]) -> Expr {

@@ -42,6 +42,8 @@ pub(crate) enum Tok {
     Over,
     /// The sign of what follows.
     Signum,
+    /// The determinant of what follows.
+    Determinant,
     /// A root of index 2 or 3.
     Root(i64),
     Fraction,
@@ -216,7 +218,7 @@ impl<'a> Lexer<'a> {
             None => self.token(single)?,
         };
         match &tok {
-            Tok::Open('(' | '[' | '<' | 'm') => self.open += 1,
+            Tok::Open('(' | '[' | '<' | 'm' | 'v') => self.open += 1,
             Tok::Close(')' | ']' | '>' | 'm') => self.open = self.open.saturating_sub(1),
             Tok::PlusMinus | Tok::MinusPlus => self.pairs = true,
             Tok::Comma => self.vectors = true,

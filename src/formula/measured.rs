@@ -48,6 +48,9 @@ pub(super) fn dimension(w: &Written) -> Faulty<Dimension> {
             let index = index.as_ref().map_or(Some(ratio(2, 1)), |i| number(i));
             Ok(dimension(inner)?.power(&index.map_or(ratio(1, 2), |k| k.recip())))
         }
+        Shape::Abs(matrix) if matrix.is_matrix() => {
+            Err(matrix.fault("a determinant of quantities with units is not read"))
+        }
         Shape::Bracket(inner) | Shape::Abs(inner) => dimension(inner),
         Shape::Call(_, inner) | Shape::Reciprocal(_, inner) | Shape::Degrees(inner) => {
             match dimension(inner)?.is_none() {

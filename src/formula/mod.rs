@@ -424,10 +424,21 @@ fn box_beside_unit(text: &str) -> Option<String> {
         .then(|| format!("{:start$}{} {behind}", "", &text[start..end]))
 }
 
+/// The inside of quotation marks around a whole text.
+fn quoted(text: &str) -> Option<&str> {
+    let opened = text.trim().strip_prefix(['"', '“', '„', '«'])?;
+    let inside = opened.strip_suffix(['"', '”', '“', '»'])?;
+    (!inside.contains(['"', '“', '”', '»'])).then_some(inside)
+}
+
 /// Start and end of the inside of the last `\boxed{}`; without one of the whole text, or of `\text{2 m/s}` around all of it.
 fn boxed(text: &str) -> Faulty<(usize, usize)> {
     const OPEN: &str = "\\boxed";
     const FONTS: [&str; 4] = ["\\text{", "\\textbf{", "\\mathrm{", "\\mathbf{"];
+    if let Some(inside) = quoted(text) {
+        let start = text.find(inside).unwrap_or(0);
+        return Ok((start, start + inside.len()));
+    }
     let command = text.contains('\\').then(|| text.rfind(OPEN));
     let Some(at) = command.flatten() else {
         let inside = |font: &&str| text.strip_prefix(*font)?.strip_suffix('}');

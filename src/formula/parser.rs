@@ -11,9 +11,10 @@
 //! group     = factor { factor }                                  side by side: a product
 //! factor    = value { "^" exponent | raised digits | "%" | "°" }
 //! exponent  = [ sign ] value [ "^" exponent ]
-//! value     = number | name | fraction | root | call | bars | bracket
+//! value     = number | name | fraction | root | call | det | bars | bracket
 //! fraction  = "½" … | "\frac" argument argument
 //! root      = "√" value | "\sqrt" [ "[" sum "]" ] argument | pair
+//! det       = "det" value | bars                               of a matrix, as bars around one
 //! pair      = ( "root" | "atan2" | "hypot" | "max" | "min" ) "(" sum "," sum ")"
 //! call      = function [ "^" exponent ] ( bracket | group )      how far the group reaches: calls.rs
 //! bars      = "|" sum "|"
@@ -243,7 +244,24 @@ impl<'a> Parser<'a> {
         };
         self.units += 1;
         let (start, end) = (term.start, token.end);
+        let larger = (*unit).clone();
         let measured = Written::new(Shape::Measured(Box::new(term), unit), start, end);
+        // `1 m 20 cm`: a smaller unit of the same kind goes on.
+        if let Tok::Number(_) = self.peek()?.tok {
+            let rest = self.factor()?;
+            let smaller = match &self.peek()?.tok {
+                Tok::Unit(next) => next.is_part_of(&larger),
+                _ => false,
+            };
+            if !smaller {
+                let token = self.next()?;
+                return Err(self.unexpected(&token));
+            }
+            let rest = self.with_unit(rest)?;
+            let end = rest.end;
+            let terms = vec![(Sign::Plus, measured), (Sign::Plus, rest)];
+            return Ok(Written::new(Shape::Sum(terms), start, end));
+        }
         // The direction may stand behind the unit: `3 m/s \hat{i}`.
         let turned = matches!(&self.peek()?.tok, Tok::Name(name) if is_axis(name));
         match turned {

@@ -193,6 +193,7 @@ impl Parser<'_> {
             | Tok::Pair(_)
             | Tok::Exponential
             | Tok::Signum
+            | Tok::Determinant
             | Tok::Root(_)
             | Tok::Fraction => true,
             Tok::Open(_) | Tok::OpenBar | Tok::Vulgar(..) => true,

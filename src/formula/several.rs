@@ -4,7 +4,6 @@ use super::frames::{below_each_other, without_braces};
 use super::prose::Held;
 use super::{
     Content, Fault, Join, MAX_BYTES, Reading, Relation, Remark, Symbols, boxed, read_either,
-    read_inner,
 };
 use crate::dimension::Unit;
 use crate::expr::{Expr, Symbol};
@@ -48,8 +47,8 @@ pub(super) fn interval(text: &str, symbols: &Symbols, pairs: bool) -> Option<Rea
     // What opens the interval stands behind the word.
     let behind = sign.map(|(at, sign)| at + sign.trim_end_matches(['\\', '(', '[']).len());
     let part = |[from, to]: [usize; 2]| {
-        let read = read_inner(&text[..to], from, symbols, false, 0).ok();
-        read.filter(|reading| matches!(reading.content, Content::Scalar(_)))
+        let read = read_either(&text[..to], from, symbols, 0).ok();
+        read.filter(|reading| matches!(reading.content, Content::Scalar(_) | Content::Quantity(_)))
     };
     let pieces = pieces(text, [behind.unwrap_or(start), stop]);
     if pieces.len() > MOST {

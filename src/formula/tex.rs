@@ -62,6 +62,7 @@ impl<'a> Lexer<'a> {
             }
             "operatorname" => self.operator(start),
             "begin" | "end" => self.environment(start, word == "begin"),
+            "det" => Ok(Tok::Determinant),
             "mathrm" | "text" | "textrm" | "mathsf" | "mathbf" | "mathit" | "textbf" | "textit"
             | "boldsymbol" | "bm" | "mathcal" => self.font(start, word),
             "atop" | "choose" => {
@@ -162,7 +163,7 @@ impl<'a> Lexer<'a> {
             let single = false;
             return self.token(single);
         }
-        let known = matches!(name, "pmatrix" | "bmatrix" | "matrix" | "array");
+        let known = matches!(name, "pmatrix" | "bmatrix" | "matrix" | "array" | "vmatrix");
         if !known || begins == self.matrix {
             let shown: String = name.chars().take(24).collect();
             let fault = Fault::new(format!("`{shown}` is no environment I read"), start, end);
@@ -174,10 +175,10 @@ impl<'a> Lexer<'a> {
             (_, self.pos) = self.group(start)?;
         }
         self.matrix = begins;
-        Ok(if begins {
-            Tok::Open('m')
-        } else {
-            Tok::Close('m')
+        Ok(match (begins, name) {
+            (true, "vmatrix") => Tok::Open('v'),
+            (true, _) => Tok::Open('m'),
+            (false, _) => Tok::Close('m'),
         })
     }
 

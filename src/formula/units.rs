@@ -128,12 +128,15 @@ impl Lexer<'_> {
     /// another number behind `*` or `/`.
     fn end_of_unit(&self, side: &str) -> Option<usize> {
         let mut before = ' ';
+        let mut spaced = false;
         let mut depth = 0u32;
         for (at, c) in side.char_indices() {
             let command = ["\\hat", "\\vec", "\\mathbf", "\\right", "\\end"];
             match c {
                 '+' | '-' | '−' | '±' if !"^{(⁻".contains(before) => return Some(at),
                 ',' | ';' | ']' | '&' | 'î' | 'ĵ' => return Some(at),
+                // `1 m 20 cm`
+                '0'..='9' if depth == 0 && spaced && before.is_alphabetic() => return Some(at),
                 '\\' if command.iter().any(|c| side[at..].starts_with(c)) => return Some(at),
                 '\\' if side[at..].starts_with("\\\\") => return Some(at),
                 _ if depth == 0 && before != '^' && numbered(&side[at..]) => return Some(at),
@@ -143,7 +146,8 @@ impl Lexer<'_> {
                 ')' | '}' => depth -= 1,
                 _ => {}
             }
-            if !c.is_whitespace() {
+            spaced = c.is_whitespace();
+            if !spaced {
                 before = c;
             }
         }
@@ -265,7 +269,7 @@ pub(crate) fn plain_unit(side: &str) -> Option<String> {
                     "frac" | "dfrac" | "tfrac" => out.push(FRACTION),
                     "" => {
                         out.push(' ');
-                        rest = rest.strip_prefix([',', ';', ':', '!', ' '])?;
+                        rest = rest.strip_prefix([',', ';', ':', '!', ' ', ')', ']'])?;
                     }
                     _ => return None,
                 }

@@ -2,7 +2,7 @@
 
 use super::Relation;
 use super::fault::{Fault, Faulty};
-use super::lexer::{Tok, Token};
+use super::lexer::{Before, Tok, Token};
 use super::parser::Parser;
 use super::written::{Literal, Shape, Sign, Written};
 use crate::expr::ratio;
@@ -20,13 +20,11 @@ impl Parser<'_> {
                 Tok::Caret | Tok::Raised(_) => {
                     let token = self.next()?;
                     // A row or a column: which of them it is says nothing of a vector.
-                    if let (Shape::List(parts), Tok::Caret) = (&base.shape, &token.tok)
-                        && !parts
-                            .iter()
-                            .any(|part| matches!(part.shape, Shape::List(_)))
+                    if let (Shape::List(_), Tok::Caret) = (&base.shape, &token.tok)
                         && let Some(length) = transposed(&self.lexer.text[self.lexer.pos..])
                     {
                         self.lexer.pos += length;
+                        base = turned(base);
                         continue;
                     }
                     let exponent = match token.tok {
@@ -85,6 +83,7 @@ impl Parser<'_> {
             Tok::Number(literal) => Ok(Written::new(Shape::Number(literal), start, end)),
             Tok::Name(name) => Ok(Written::new(Shape::Symbol(name), start, end)),
             Tok::Vulgar(n, d) => Ok(vulgar(n, d, start, end)),
+            Tok::Open('v') => Ok(self.bracket('m', start, end)?.inside(Shape::Abs)),
             Tok::Open(open) => self.bracket(open, start, end),
             Tok::Relation(Relation::Less) => self.bracket('<', start, end),
             Tok::Bar | Tok::OpenBar => {
@@ -122,6 +121,13 @@ impl Parser<'_> {
             Tok::Pair(function) => self.deeper(|p| p.pair(function, start)),
             Tok::Exponential => self.deeper(|p| p.exponential(start, end)),
             Tok::Signum => self.deeper(|p| p.signum(start)),
+            Tok::Determinant => self.deeper(|p| {
+                let inner = p.primary()?;
+                match inner.is_matrix() {
+                    true => Ok(inner.inside(Shape::Abs)),
+                    false => Err(inner.fault("a determinant is of a matrix")),
+                }
+            }),
             _ => Err(self.missing(&token)),
         }
     }
@@ -189,6 +195,9 @@ impl Parser<'_> {
             _ => '>',
         };
         let angled = open == '<' && token.tok == Tok::Relation(Relation::Greater);
+        if angled {
+            self.lexer.before = Before::Value;
+        }
         if token.tok != Tok::Close(close) && !(angled && parts.len() > 1) {
             let shown = self.lexer.text[start..opened].to_string();
             return Err(self.unclosed(&shown, start, opened, &token));
@@ -242,6 +251,21 @@ fn row(mut entries: Vec<Written>) -> Written {
         1 => entries.remove(0),
         _ => Written::new(Shape::List(entries), start, end),
     }
+}
+
+/// A matrix with its rows as columns; a vector as it is.
+fn turned(matrix: Written) -> Written {
+    let entries: Vec<Vec<&Written>> = match &matrix.shape {
+        Shape::List(rows) if matrix.is_matrix() => rows.iter().map(Written::pieces).collect(),
+        _ => return matrix,
+    };
+    let length = entries[0].len();
+    if entries.iter().any(|row| row.len() != length) {
+        return matrix;
+    }
+    let column = |k: usize| entries.iter().map(|row| row[k].clone()).collect();
+    let rows = (0..length).map(|k| row(column(k))).collect();
+    Written::new(Shape::List(rows), matrix.start, matrix.end)
 }
 
 pub(super) fn whole_number(value: i64, start: usize, end: usize) -> Written {

@@ -104,6 +104,12 @@ impl Lexer<'_> {
                 self.pos = start + length;
                 return Ok(Some(Tok::Signum));
             }
+            let behind = rest[length..].trim_start_matches([' ', '(']);
+            let matrix = behind.starts_with("[[") || behind.starts_with("\\begin{");
+            if word == "det" && matrix && self.symbols.find(word).is_none() {
+                self.pos = start + length;
+                return Ok(Some(Tok::Determinant));
+            }
             let two = usize::from(rest[length..].starts_with("2("));
             let pair = Pair::named(&rest[..length + two]);
             let argued = rest[length + two..].starts_with('(');

@@ -190,6 +190,17 @@ impl Written {
         }
     }
 
+    /// Whether it is a matrix by the way it is written: rows, or a sum or product of such.
+    pub(super) fn is_matrix(&self) -> bool {
+        let row = |part: &Written| matches!(part.shape, Shape::List(_));
+        match &self.shape {
+            Shape::List(rows) => rows.iter().all(row),
+            Shape::Bracket(inner) => inner.is_matrix(),
+            Shape::Sum(_) | Shape::Product(_) => self.pieces().into_iter().any(Written::is_matrix),
+            _ => false,
+        }
+    }
+
     /// Whether vectors with arrows are multiplied with vectors, measured, or added to components, so that theirs matter.
     pub(crate) fn multiplies_vectors(&self) -> bool {
         let arrow = |w: &Written| w.is_vector() && w.has_arrow();

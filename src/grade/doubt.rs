@@ -184,13 +184,20 @@ pub(super) fn number(key: &Key, answer: &str, options: &Options) -> Option<Grade
     let comma = |rest: &str| {
         let mut signs = ["{,}", ","].into_iter();
         let sign = signs.find(|sign| rest.starts_with(sign))?;
-        (digits(&rest[sign.len()..]) == 3).then_some(sign.len())
+        (digits(&rest[sign.len()..]) > 0).then_some(sign.len())
     };
     let hint = "write numbers without a comma: it parts thousands in some countries and decimals in others";
     let beside = "write 7/4 or 1 + 3/4: side by side they could be a product";
-    let comma = parted(answer, comma)
-        .into_iter()
-        .flat_map(|parts| ["", "."].map(|sign| (parts.join(sign), hint)));
+    // `(2,3)` is two components.
+    let inside = answer.trim_start().strip_prefix(['(', '[']);
+    let pair = inside.is_some_and(|rest| rest[digits(rest)..].starts_with(','));
+    let parts = parted(answer, comma).filter(|_| !pair);
+    let comma = parts.into_iter().flat_map(|parts| {
+        let thousands = parts[1..].iter().all(|part| digits(part) == 3);
+        let signs: &[&str] = if thousands { &["", "."] } else { &["."] };
+        let read = |sign: &&str| (parts.join(*sign), hint);
+        signs.iter().map(read).collect::<Vec<_>>()
+    });
     let mixed = mixed(answer).map(|text| (text, beside));
     comma.chain(mixed).find_map(|(text, hint)| {
         let mut grade = super::judge_here(key, &text, options);

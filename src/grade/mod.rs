@@ -129,27 +129,37 @@ pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
         Symbols::open()
     };
     declare(&mut symbols, question);
-    let reading = read::expected(expected, &symbols)?;
+    let strict = || {
+        let mut strict = Symbols::strict();
+        declare(&mut strict, question);
+        strict
+    };
+    let closed = || Question {
+        closed: true,
+        ..question.clone()
+    };
+    let reading = match read::expected(expected, &symbols) {
+        Ok(reading) => reading,
+        // `2.4 1/s` is no product of numbers and letters.
+        Err(fault) => {
+            let measured = formula::read(expected, &strict()).ok();
+            let measured = measured.filter(|r| matches!(r.content, Content::Quantity(_)));
+            return Ok(from_reading(measured.ok_or(fault)?, &closed()));
+        }
+    };
     let quantity = (!question.closed).then(|| read::quantity(expected, &reading, question));
     let quantity = quantity.flatten();
     let mut key = from_reading(reading, question);
     if let Some(reading) = quantity {
-        let closed = Question {
-            closed: true,
-            ..question.clone()
-        };
         let same = reading.content == key.reading.content;
-        let alone = from_reading(reading, &closed);
+        let mut alone = from_reading(reading, &closed());
+        alone.range = range(expected, &alone, &strict());
         if same {
             return Ok(alone);
         }
         key.quantity = Some(Box::new(alone));
     }
-    let vector = matches!(key.reading.content, Content::Vector(_));
-    let range = vector.then(|| formula::read_interval(expected, &symbols));
-    let range = range
-        .flatten()
-        .map(|range| Box::new(from_reading(range, question)));
+    let range = range(expected, &key, &symbols);
     key.told = doubt::told(expected, &key.reading);
     key.unclear = doubt::unclear_slash(expected, &key.reading);
     // With its names declared a text may split otherwise; the same text has to mean the same in key and answer.
@@ -168,6 +178,13 @@ pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
     }
     key.range = range;
     Ok(key)
+}
+
+/// The interval that two numbers in brackets could be as well as a vector.
+fn range(expected: &str, key: &Key, symbols: &Symbols) -> Option<Box<Key>> {
+    let vector = matches!(key.reading.content, Content::Vector(_));
+    let range = vector.then(|| formula::read_interval(expected, symbols));
+    Some(Box::new(from_reading(range.flatten()?, &key.question)))
 }
 
 /// A key from an expression that was derived rather than typed.

@@ -181,7 +181,9 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
 
 /// An answer that cannot be read with the names of its question alone: with a unit apart, or names of its own.
 fn mended(key: &Key, text: &str, fault: Fault) -> Result<Reading, Fault> {
-    if quantitative(&key.reading) && dimension::unit(text.trim()).is_ok() {
+    let numbered = text.contains(|c: char| c.is_ascii_digit())
+        && !text.trim().starts_with(char::is_alphabetic);
+    if quantitative(&key.reading) && !numbered && dimension::unit(text.trim()).is_ok() {
         let fault = Fault::new("a unit without a number", 0, text.len());
         return Err(*fault.hint("the value is missing"));
     }
@@ -198,7 +200,10 @@ fn mended(key: &Key, text: &str, fault: Fault) -> Result<Reading, Fault> {
         return Err(fault);
     };
     let first = |content: &Content| match content {
-        Content::Relations(sides, _) => sides[0].expr().and_then(|e| e.as_symbol().cloned()),
+        Content::Relations(sides, _) => {
+            let mut names = sides.iter().filter_map(|side| side.expr()?.as_symbol());
+            names.next().cloned()
+        }
         _ => None,
     };
     // `v_1 = 2 m/s, v_2 = 3 m/s` for two values without names.

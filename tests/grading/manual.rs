@@ -24,7 +24,7 @@ const TABLES: [(&str, &str, &str); 16] = [
     (
         "signs.tsv",
         "Letters and signs of Unicode, and vectors",
-        "A vector is written with brackets, as a column, or with unit vectors; a matrix row by row.",
+        "A vector is written with brackets, as a column, or with unit vectors; a matrix row by row. Matrices are added, multiplied with one another and with vectors, and `det` or bars give a determinant.",
     ),
     (
         "names.tsv",
@@ -34,7 +34,7 @@ const TABLES: [(&str, &str, &str); 16] = [
     (
         "sentences.tsv",
         "Words, boxes and precedence",
-        "A product without signs and spaces stands below a slash; behind a fraction of two numbers, or behind a space, it does not. An answer that is right only in the other reading, taken for the whole formula, is right and told so; `--slash strict` wants brackets. How far the root of `√ab` reaches no habit decides: where the two readings part, the verdict is undecided.",
+        "A product without signs and spaces stands below a slash; behind a fraction of two numbers, or behind a space, it does not. An answer that is right only in the other reading, taken for the whole formula, is right and told so; `--slash strict` wants brackets. Behind a function without brackets stand numbers and one angle, or a product of names; behind an inverse one also their quotient, `arcsin v/c`. How far the root of `√ab` reaches no habit decides: where the two readings part, the verdict is undecided.",
     ),
     (
         "graders.tsv",
@@ -79,7 +79,7 @@ const TABLES: [(&str, &str, &str); 16] = [
     (
         "quantities.tsv",
         "Numbers with units",
-        "A unit stands behind a number. Behind a formula in symbols it has to fit the symbols, and says nothing new.",
+        "A unit stands behind a number; in `1 m 20 cm` a smaller one goes on. Behind a formula in symbols it has to fit the symbols, and says nothing new.",
     ),
     (
         "relations.tsv",
