@@ -2,6 +2,7 @@
 
 mod earlier;
 pub(in crate::grade) mod judge;
+mod rows;
 
 use super::believed::{self, Believed, Story, Written};
 use super::{Given, Key, Options, Question, key_of};
@@ -205,10 +206,16 @@ impl Sheet {
                         key: key_of(content, &declared),
                     });
                 }
-                Form::Matrix(_) => {
-                    return Err(format!(
-                        "{name} is a matrix; its entries are checked by `carom verify`"
-                    ));
+                Form::Matrix(matrix) => {
+                    declare_unknowns(self, &mut declared);
+                    declared.dimension = None;
+                    return Ok(Entry {
+                        name: name.to_string(),
+                        question: question.clone(),
+                        component,
+                        words: first.words.clone(),
+                        key: key_of(Content::Matrix(matrix.entries.clone()), &declared),
+                    });
                 }
                 Form::Open(_) | Form::Words => {
                     return Err(format!("{name} is not determined by the laws of the scene"));

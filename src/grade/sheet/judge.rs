@@ -6,7 +6,7 @@ use super::super::{
     Diagnosis, Grade, Options, Strength, Tolerance, Verdict, fraction, judge_against, key_of,
     number, read,
 };
-use super::{Entry, Sheet};
+use super::{Entry, Sheet, rows};
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Quantity, Reading, Relation};
@@ -112,6 +112,17 @@ impl Sheet {
         let Ok(reading) = read::answer(&entry.key, answer) else {
             return grade;
         };
+        if let (Content::Matrix(expected), Content::Matrix(rows)) =
+            (&entry.key.reading.content, &reading.content)
+            && let Some(ordered) = rows::as_answered(expected, rows, &self.scene.domains)
+            && ordered != *expected
+        {
+            let key = key_of(Content::Matrix(ordered), &entry.key.question);
+            let mut grade = judge_against(&key, answer, options);
+            let words = "an equation may stand in any row, and be multiplied";
+            grade.assumed.push(words.into());
+            return grade;
+        }
         if let Some(bound) = self.bounds().find(|b| b.name == entry.name)
             && let Content::Relations(_, signs) = &reading.content
             && signs.iter().any(|s| *s != Relation::Equal)
