@@ -351,7 +351,7 @@ impl<'a> Desk<'a> {
             ..Finding::default()
         };
         let outcome = match &printed.what {
-            Print::Formula { item, text } => self.formula(printed, item, text, &mut finding),
+            Print::Formula { item, text } => self.answer(printed, item, text, &mut finding),
             Print::Number { text, of, .. } => self.number(printed, text, of, &mut finding),
             Print::Equation { text, .. } => self.equation(printed, text, &mut finding),
             Print::Matrix {
@@ -364,6 +364,31 @@ impl<'a> Desk<'a> {
             finding.because = message;
         }
         finding
+    }
+
+    /// A formula, a number with its unit, or both in a row: `omega = v/(2 l) = 5.2 rad/s`.
+    fn answer(
+        &self,
+        printed: &Printed,
+        item: &str,
+        text: &str,
+        finding: &mut Finding,
+    ) -> Result<(), String> {
+        let (before, last) = text.rsplit_once('=').unwrap_or(("", text));
+        let number = formula::read(last, &Symbols::strict());
+        let number = number.is_ok_and(|number| {
+            matches!(number.content, Content::Quantity(_)) && number.literal.is_some()
+        });
+        if !number || !self.closed.contains_key(item) {
+            return self.formula(printed, item, text, finding);
+        }
+        if !before.is_empty() && before.trim() != item {
+            self.formula(printed, item, before, finding)?;
+            if finding.holds != Some(true) {
+                return Ok(());
+            }
+        }
+        self.number(printed, last, item, finding)
     }
 
     /// Whether an answer is a spin that counts clockwise.
@@ -456,8 +481,8 @@ impl<'a> Desk<'a> {
                 .before(item, &all)
                 .or_else(|| self.place(item, &all))
                 .or_else(|| self.factor(&all))
-                .or_else(|| self.sought(&all))
                 .or_else(|| self.exchanged(&all))
+                .or_else(|| self.sought(&all))
                 .or_else(|| self.slip(&all))
                 .or_else(|| self.component(&all))
                 .or_else(|| self.short_factor(&all));

@@ -221,7 +221,8 @@ impl Desk<'_> {
             let component = match reading.content.answer() {
                 Content::Vector(v) if **name == *format!("{item}_x") => Some(v[0].clone()),
                 Content::Vector(v) if **name == *format!("{item}_y") => Some(v[1].clone()),
-                other if **name == **item => other.expr().cloned(),
+                // A number printed in its place is no formula.
+                other if **name == **item => other.expr().filter(|e| !e.is_constant()).cloned(),
                 _ => None,
             };
             places.extend(component.as_ref().map(|_| p.place.as_str()));
