@@ -9,6 +9,7 @@ use num_traits::Signed;
 
 use super::compare::{Context, is_short, same_number};
 use super::{Diagnosis, fraction, number};
+use crate::algebra::tidy;
 use crate::dimension::{self, Clash, Dimension};
 use crate::equality::identical as proved;
 use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
@@ -227,9 +228,14 @@ fn lacking(missing: &Dimension) -> String {
     words.join(", ")
 }
 
-/// Symbols that are too many or too few.
+/// Symbols that are too many or too few, where they do not cancel.
 fn symbols(ctx: &Context, expected: &Expr, answer: &Expr) -> Vec<Diagnosis> {
-    let (mine, theirs) = (answer.symbols(), expected.symbols());
+    let (mut mine, mut theirs) = (answer.symbols(), expected.symbols());
+    if mine != theirs {
+        let kept = |e: &Expr| tidy(e, &ctx.key.question.domains).map(|tidied| tidied.symbols());
+        mine = kept(answer).unwrap_or(mine);
+        theirs = kept(expected).unwrap_or(theirs);
+    }
     let mut found = Vec::new();
     let list = |some: &BTreeSet<Symbol>, without: &BTreeSet<Symbol>| {
         let names = some.difference(without).map(|n| ctx.say(&Expr::symbol(n)));

@@ -361,11 +361,14 @@ impl Desk<'_> {
         };
         let status = match grade.verdict {
             Verdict::Equivalent => Status::Holds,
-            Verdict::Different => {
-                let link = self.link(sides.first()?, sides.last()?);
-                let cause = link.and_then(|link| self.cause(text, &link));
-                cause.map_or(Status::Wrong, Status::Carried)
-            }
+            Verdict::Different => match self.link(sides.first()?, sides.last()?) {
+                Some(link) => {
+                    let cause = self.cause(text, &link);
+                    let weighed = cause.map_or(Weighed::Slip(0), Weighed::Carried);
+                    self.note(number, reading, &[link], &weighed)
+                }
+                None => Status::Wrong,
+            },
             Verdict::Invalid | Verdict::Undecided => return None,
         };
         self.finals

@@ -12,7 +12,7 @@ const LEADS: &str = "=>|⇒|⟹|∴|→|->|\\Rightarrow|\\implies|\\therefore|th
 
 /// What stands between two equations of one line.
 const BETWEEN: &str = "<=>|⇔|\\Leftrightarrow|\\iff|=>|⇒|⟹|∴|\\Rightarrow|\\implies|\\therefore|\
-    →|->|; |, | so | where | with | and ";
+    →|->|; |, | so | where | with | and |: ";
 
 /// Words behind an equation that tell the moment it speaks of.
 const MOMENTS: &str = "(just before)|(just after)|(before)|(after)|just before|just after";

@@ -135,7 +135,8 @@ impl Desk<'_> {
             Some((scene, named?))
         });
         if let Some((scene, named)) = asked.next().filter(|(_, named)| !named.is_empty()) {
-            found.extend(behind(scene, [&left, &right], &named));
+            // Several beliefs that make one slip alike are evidence of one at most.
+            found.extend(behind(scene, [&left, &right], &named).into_iter().take(1));
         }
         found
     }
