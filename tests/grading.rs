@@ -371,7 +371,7 @@ fn beliefs_are_tried_for_formulas_of_answers() {
     let entry = sheet.entry("tip").expect("a question of the scene");
     for (answer, verdict, first) in [
         ("3*v*cos(theta)/2", Verdict::Equivalent, None),
-        ("12 v cosθ/13", Verdict::Different, Some("LENGTH_HALVED")),
+        ("12 v cosθ/13", Verdict::Different, Some("ARM_TO_END")),
         ("6 v cosθ/(1+3 cos²θ)", Verdict::Different, Some("SLIDES")),
         ("7 v cosθ/2", Verdict::Different, Some("FACTOR")),
     ] {

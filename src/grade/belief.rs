@@ -79,7 +79,7 @@ pub enum Change {
     PointIsCenter,
 }
 
-/// All beliefs.
+/// All beliefs: where several give the same answer, the one that stands first is named.
 pub const BELIEFS: &[Belief] = &[
     Belief {
         code: "INERTIA_ABOUT_POINT",
@@ -145,18 +145,6 @@ pub const BELIEFS: &[Belief] = &[
         slips: |s| {
             let bounce = |c| changed(s, Change::CentersBounce(c), at(s, c));
             frictionless(s).map(bounce).collect()
-        },
-    },
-    Belief {
-        code: "RESTITUTION_WHOLE",
-        belief: "e is applied to the whole velocity, not only to the part along the normal",
-        hint: "is there an impulse along the surface?",
-        slips: |s| {
-            let all = frictionless(s).flat_map(|c| s.contacts[c].bodies.map(|b| (c, b)));
-            let free = all.filter(|(_, body)| !s.bodies[*body].is_fixed());
-            let whole = |(contact, body)| Change::WholeBounce { contact, body };
-            free.map(|(c, b)| changed(s, whole((c, b)), of(s, b)))
-                .collect()
         },
     },
     Belief {
@@ -255,6 +243,18 @@ pub const BELIEFS: &[Belief] = &[
         },
     },
     Belief {
+        code: "RESTITUTION_WHOLE",
+        belief: "e is applied to the whole velocity, not only to the part along the normal",
+        hint: "is there an impulse along the surface?",
+        slips: |s| {
+            let all = frictionless(s).flat_map(|c| s.contacts[c].bodies.map(|b| (c, b)));
+            let free = all.filter(|(_, body)| !s.bodies[*body].is_fixed());
+            let whole = |(contact, body)| Change::WholeBounce { contact, body };
+            free.map(|(c, b)| changed(s, whole((c, b)), of(s, b)))
+                .collect()
+        },
+    },
+    Belief {
         code: "MASS_IGNORED",
         belief: "a body is taken as massless: its momentum is left out",
         hint: "which bodies carry momentum?",
@@ -316,12 +316,6 @@ pub const BELIEFS: &[Belief] = &[
         },
     },
     Belief {
-        code: "LENGTH_HALVED",
-        belief: "half a length stands for the whole, or the whole for its half",
-        hint: "is a length in your formula the whole or the half?",
-        slips: lengths,
-    },
-    Belief {
         code: "ARM_TO_END",
         belief: "the center of mass is put at the far end: l stands for l/2 in the arm",
         hint: "where is the center of mass?",
@@ -368,5 +362,11 @@ pub const BELIEFS: &[Belief] = &[
         belief: "the velocity of a point of the body is taken as that of its center of mass",
         hint: "do all points of a turning body move alike?",
         slips: |s| vec![changed(s, Change::PointIsCenter, "")],
+    },
+    Belief {
+        code: "LENGTH_HALVED",
+        belief: "half a length stands for the whole, or the whole for its half",
+        hint: "is a length in your formula the whole or the half?",
+        slips: lengths,
     },
 ];

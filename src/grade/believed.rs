@@ -90,8 +90,12 @@ pub fn explain(written: &Written, whole: bool) -> (Vec<Diagnosis>, Vec<Diagnosis
     } else {
         Vec::new()
     };
-    // One belief comes first; others that explain the answer as well stand behind.
-    let rest: Vec<Diagnosis> = found.drain(found.len().min(1)..).collect();
+    // One belief comes first; others that explain the answer as well stand behind, but for a number or a lone factor: what
+    // several slips make alike is evidence of one at most.
+    let mut rest: Vec<Diagnosis> = found.drain(found.len().min(1)..).collect();
+    if evidence.is_some() {
+        rest.clear();
+    }
     let mut later = other_quantities(written, &trials, quantities);
     later.extend(rest);
     (found, later)
