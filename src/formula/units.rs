@@ -135,8 +135,12 @@ impl Lexer<'_> {
             match c {
                 '+' | '-' | '−' | '±' if !"^{(⁻".contains(before) => return Some(at),
                 ',' | ';' | ']' | '&' | 'î' | 'ĵ' => return Some(at),
-                // `1 m 20 cm`
-                '0'..='9' if depth == 0 && spaced && before.is_alphabetic() => return Some(at),
+                // `1 m 20 cm`, `1h30min`: no exponent has two digits.
+                '0'..='9'
+                    if depth == 0 && before.is_alphabetic() && (spaced || is_long(&side[at..])) =>
+                {
+                    return Some(at);
+                }
                 '\\' if command.iter().any(|c| side[at..].starts_with(c)) => return Some(at),
                 '\\' if side[at..].starts_with("\\\\") => return Some(at),
                 _ if depth == 0 && before != '^' && numbered(&side[at..]) => return Some(at),
@@ -165,6 +169,11 @@ impl Lexer<'_> {
         let known = |c: char| self.symbols.find(c.encode_utf8(&mut [0; 4])).is_some();
         self.symbols.is_open() && !words(plain).any(|w| is_symbol_first(w) || w.chars().any(known))
     }
+}
+
+/// Whether a text begins with two digits.
+fn is_long(text: &str) -> bool {
+    text.bytes().take(2).filter(u8::is_ascii_digit).count() == 2
 }
 
 /// The runs of letters in a unit.

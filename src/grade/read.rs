@@ -163,8 +163,7 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         }
     }
     // `2000 g` for `m = 2 kg`: where a quantity is asked, a letter behind a number is a unit if it can be one.
-    if quantitative(&key.reading) && !key.question.closed && !usual.as_ref().is_ok_and(quantitative)
-    {
+    if quantitative(&key.reading) && !usual.as_ref().is_ok_and(quantitative) {
         let mut strict = Symbols::strict();
         declare(&mut strict, &key.question);
         if let Ok(reading) = formula::read(text, &strict)
