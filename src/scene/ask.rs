@@ -108,6 +108,17 @@ pub enum Ask {
         /// At the end of the stage; else at its beginning.
         at_end: bool,
     },
+    /// Acceleration of a body, or of a point of it, along a direction in a rotation or a linkage.
+    PointAcceleration {
+        /// Index of the body.
+        body: usize,
+        /// Name of the point, as the file puts it on the body; `None` for the center of mass.
+        point: Option<String>,
+        /// Direction.
+        along: Vector,
+        /// At the end of the stage; else at its beginning.
+        at_end: bool,
+    },
     /// How long a motion lasts.
     Time,
     /// How far a motion along a line leads.
@@ -252,7 +263,7 @@ impl Ask {
             Ask::Impulse { .. } | Ask::Balance { .. } => Dimension::new(1, 1, -1),
             Ask::Energy { .. } => Dimension::new(1, 2, -2),
             Ask::Reaction { .. } | Ask::Tension { .. } => Dimension::new(1, 1, -2),
-            Ask::Acceleration { .. } => Dimension::new(0, 1, -2),
+            Ask::Acceleration { .. } | Ask::PointAcceleration { .. } => Dimension::new(0, 1, -2),
             Ask::AngularAcceleration { .. } => Dimension::new(0, 0, -2),
             Ask::Time => Dimension::new(0, 0, 1),
             Ask::Distance | Ask::Position { .. } => Dimension::new(0, 1, 0),
@@ -275,6 +286,7 @@ impl Ask {
                 | Ask::Time
                 | Ask::Distance
                 | Ask::Acceleration { .. }
+                | Ask::PointAcceleration { .. }
                 | Ask::AngularAcceleration { .. }
                 | Ask::Tension { .. }
                 | Ask::Angle { .. }
@@ -310,6 +322,7 @@ impl Ask {
             Ask::Reaction { at_end, .. }
             | Ask::Position { at_end, .. }
             | Ask::AngularAcceleration { at_end, .. }
+            | Ask::PointAcceleration { at_end, .. }
             | Ask::AngularMomentum { at_end, .. } => *at_end,
             _ => true,
         }
@@ -322,7 +335,9 @@ impl Ask {
                 point.iter().map(|(_, at)| at).chain(along).collect()
             }
             Ask::Impulse { along, .. } | Ask::Position { along, .. } => along.iter().collect(),
-            Ask::Balance { along, .. } | Ask::Reaction { along, .. } => vec![along],
+            Ask::Balance { along, .. }
+            | Ask::Reaction { along, .. }
+            | Ask::PointAcceleration { along, .. } => vec![along],
             Ask::AngularMomentum { about, .. } => vec![about],
             _ => Vec::new(),
         }
@@ -336,7 +351,9 @@ impl Ask {
                 at.chain(along).collect()
             }
             Ask::Impulse { along, .. } | Ask::Position { along, .. } => along.iter_mut().collect(),
-            Ask::Balance { along, .. } | Ask::Reaction { along, .. } => vec![along],
+            Ask::Balance { along, .. }
+            | Ask::Reaction { along, .. }
+            | Ask::PointAcceleration { along, .. } => vec![along],
             Ask::AngularMomentum { about, .. } => vec![about],
             _ => Vec::new(),
         }

@@ -7,8 +7,8 @@ use std::fmt;
 
 use super::impact::velocity_at;
 use super::{
-    BodyState, Component, Course, Followed, Impact, Impulse, Lost, Open, Passed, Solid, What,
-    kinetic, turns,
+    BodyState, Component, Course, Followed, Impact, Impulse, Lost, Moved, Open, Passed, Solid,
+    What, kinetic, turns,
 };
 use crate::expr::{Point, Symbol, Vector};
 use crate::numeric::Answer;
@@ -130,11 +130,25 @@ pub fn answer(
             clockwise,
             at_end,
         } => {
-            let mut all = motion?.angular_accelerations.iter();
-            let found = all.find(|(b, _)| b == body);
-            let (_, angular) = found.ok_or(Unanswered::NotANumber)?;
-            let value = angular[usize::from(*at_end)];
+            let [.., value] = accelerations(motion?, *body, *at_end)?;
             Ok(Answer::Scalar(if *clockwise { -value } else { value }))
+        }
+        Ask::PointAcceleration {
+            body,
+            point,
+            along,
+            at_end,
+        } => {
+            let [x, y, angular] = accelerations(motion?, *body, *at_end)?;
+            let state = &state(at_end).bodies[*body];
+            let [p, q] = match point {
+                Some(name) => arm(&course, scene, state, *body, name)?,
+                None => [0.0; 2],
+            };
+            // A particle has no point but its center.
+            let square = state.spin.clone().map_or(0.0, |w| w * w);
+            let there = [x - angular * q - square * p, y + angular * p - square * q];
+            component(&course, there.map(Ok), Some(along))
         }
         Ask::Time => Ok(Answer::Scalar(passed.time.clone()?)),
         Ask::Acceleration { body } | Ask::Tension { body } => {
@@ -217,7 +231,7 @@ fn gone(passed: &Passed, body: usize, along: [f64; 2]) -> Result<f64, Unanswered
     Ok(far)
 }
 
-/// Velocity of the point of a body that the file has at a named point, where the body has carried it.
+/// Velocity of the point of a body that the file puts at a named point, wherever that is by now.
 fn carried(
     course: &Course<'_>,
     scene: &Scene,
@@ -225,16 +239,35 @@ fn carried(
     body: usize,
     name: &str,
 ) -> Result<[Component; 2], Unanswered> {
+    let arm = arm(course, scene, state, body, name)?;
+    let [x, y, ..] = state.known()?;
+    let at = [x + arm[0], y + arm[1]];
+    Ok(velocity_at(course.solids[body].freedom, state, &at))
+}
+
+/// From the center of a body to that point of it.
+fn arm(
+    course: &Course<'_>,
+    scene: &Scene,
+    state: &BodyState,
+    body: usize,
+    name: &str,
+) -> Result<[f64; 2], Unanswered> {
     let point = scene.points.iter().find(|p| p.name == name);
     let point = pair(course, &point.ok_or(Unanswered::NotANumber)?.at)?;
-    let solid = &course.solids[body];
-    let [x, y, angle, ..] = state.known()?;
+    let [_, _, angle, ..] = state.known()?;
     let begin = super::finite(&scene.bodies[body].angle, course.values, || name.into())
         .map_err(Unanswered::Undefined)?;
     let (s, c) = (angle - begin).sin_cos();
-    let [p, q] = [0, 1].map(|k| point[k] - solid.center[k]);
-    let at = [x + p * c - q * s, y + p * s + q * c];
-    Ok(velocity_at(solid.freedom, state, &at))
+    let [p, q] = [0, 1].map(|k| point[k] - course.solids[body].center[k]);
+    Ok([p * c - q * s, p * s + q * c])
+}
+
+/// Accelerations of a body at an end of a motion, the angular one last.
+fn accelerations(moved: &Moved, body: usize, at_end: bool) -> Result<[f64; 3], Unanswered> {
+    let found = moved.accelerations.iter().find(|(b, _)| *b == body);
+    let (_, ends) = found.ok_or(Unanswered::NotANumber)?;
+    Ok(ends[usize::from(at_end)])
 }
 
 /// A question about the end of a stage, or about the impact of a scene without stages.

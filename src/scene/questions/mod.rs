@@ -87,7 +87,7 @@ static KINDS: &[Kind] = kinds! {
     Stage {
         time(),
         distance(),
-        acceleration(at),
+        acceleration(of along when at),
         angular_acceleration(clockwise when at),
         tension(at),
         angle(clockwise at),

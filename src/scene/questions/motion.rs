@@ -1,6 +1,6 @@
 //! Questions about stages: forces, times, ways, places, and what happens in words.
 
-use super::{answers, told, turn};
+use super::{answers, impact, told, turn};
 use crate::scene::fault::Fault;
 use crate::scene::formulas::{Quantity, Symbols};
 use crate::scene::question_file::QuestionFile;
@@ -68,6 +68,9 @@ pub(super) fn ask(
     let ask = match q {
         _ if q.reaction.is_some() => asked.reaction(),
         _ if q.time.is_some() || q.distance.is_some() => asked.passed(),
+        _ if q.acceleration.is_some() && asked.stage.slide.is_none() => {
+            asked.point_acceleration(scene)
+        }
         _ if q.acceleration.is_some() || q.tension.is_some() => asked.driven(),
         _ if q.angular_acceleration.is_some() => asked.angular_acceleration(),
         _ if q.angle.is_some() => asked.angle(),
@@ -172,8 +175,11 @@ impl Asked<'_, '_> {
             None => (
                 Ask::Acceleration { body },
                 "acceleration",
-                "an acceleration is that of a body which a `slide` moves, and on a spring it changes on the way",
-                strung || slides && slide.is_some_and(|slide| slide.spring.is_none()),
+                "in a `slide` it is that of a body which moves, along its own way, without `of`, `along` and `when`; on a spring it changes on the way",
+                (strung || slides && slide.is_some_and(|slide| slide.spring.is_none()))
+                    && self.q.of.is_none()
+                    && self.q.along.is_none()
+                    && self.q.when.is_none(),
             ),
         };
         if !fits {
@@ -181,6 +187,31 @@ impl Asked<'_, '_> {
             return self.unfit(&message, hint);
         }
         Some(ask)
+    }
+
+    /// The acceleration of a body, or of a point of it, in a rotation or a linkage.
+    fn point_acceleration(&mut self, scene: &Scene) -> Option<Ask> {
+        let (body, point) = impact::velocity(self.base, scene, self.subject, self.q.of.as_ref())?;
+        let is_it = |b: &Text| b.text == scene.bodies[body].name;
+        let turns = |turn: &TurnFile| is_it(&turn.body) || turn.with.iter().flatten().any(is_it);
+        if !self.stage.turn.as_ref().is_some_and(turns) && self.stage.linkage.is_none() {
+            let name = &scene.bodies[body].name;
+            let message = format!("no acceleration of `{name}` can be asked of this stage");
+            let hint =
+                "an acceleration is that of a body which a `slide`, a `turn` or a `linkage` moves";
+            return self.unfit(&message, hint);
+        }
+        let Some(along) = &self.q.along else {
+            return self.lacks(
+                "an acceleration in this stage needs the direction `along` which it is asked",
+            );
+        };
+        Some(Ask::PointAcceleration {
+            body,
+            point: point.map(|(name, _)| name),
+            along: self.base.direction(along)?,
+            at_end: self.at_end(),
+        })
     }
 
     fn angular_acceleration(&mut self) -> Option<Ask> {

@@ -8,7 +8,7 @@ use crate::scene::{Ask, Linkage, Slide, SlideEnd, Spring, Stage, StageKind, Turn
 use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::words::{self, fill, name, say, set, vector};
 use crate::solution::{Claim, Line, Math};
-use crate::story::{StageTold, State, is_clockwise};
+use crate::story::{StageTold, State};
 
 impl Page<'_> {
     /// A motion: inertia, work and energy, from the beginning to the end.
@@ -26,7 +26,7 @@ impl Page<'_> {
             .iter()
             .any(|a| Self::is_end_energy(told, a));
         if matches!(stage.kind, StageKind::Turn(_)) && told.work.is_empty() && !named {
-            return;
+            return self.accelerated(told);
         }
         let mut lines: Vec<Line> = self.inertia(stage, told).into_iter().collect();
         if self.is_of_moments(told) {
@@ -270,6 +270,7 @@ impl Page<'_> {
             ),
             _ => {}
         }
+        self.accelerated(told);
         let time = match (&stage.kind, &told.time) {
             (StageKind::Linkage(_), _) => vec![say(
                 "The acceleration is the same all the way, and the time is the change of the velocity over it.",
@@ -293,46 +294,6 @@ impl Page<'_> {
         if takes {
             self.solution.text(time);
         }
-    }
-
-    /// The moments about the fixed point, which turn the bodies: each angular acceleration that is asked for by its own.
-    fn moments(&mut self, told: &StageTold, turn: &Turn) {
-        let scene = &told.placed.scene;
-        let zero = Expr::zero();
-        let g = turn.gravity.as_ref().unwrap_or(&zero);
-        let mut lines = Vec::new();
-        for answer in self.answered(told).cloned().collect::<Vec<_>>() {
-            let Some(Ask::AngularAcceleration {
-                clockwise, at_end, ..
-            }) = self.ask(&answer)
-            else {
-                continue;
-            };
-            let (Some([_, inertia]), Some(value)) = (&told.inertia, answer.formula()) else {
-                continue;
-            };
-            let state = if *at_end { &told.after } else { &told.before };
-            let weights = turn.bodies().into_iter().map(|b| {
-                let arm = &turn.about[0] - &state.center[b][0];
-                &scene.bodies[b].mass * g * tidied(self.scene, &arm)
-            });
-            let way = Expr::from(if is_clockwise(told) { -1 } else { 1 });
-            let torque = turn.torque.iter().map(|torque| &way * torque);
-            let counted = Expr::from(if *clockwise { -1 } else { 1 });
-            let moment = Expr::sum(weights.chain(torque).map(|m| &counted * m));
-            let claim = Claim::new(inertia * value, moment.clone());
-            let why = "moment of inertia times angular acceleration = moments";
-            let step = Some(self.solution.step(Vec::new(), vec![claim], why));
-            let symbol = Expr::symbol(&answer.name);
-            let inertia = name("I", &turn.about_name, "", false);
-            let math = set("{} {} = {}", [inertia, symbol.into(), moment.into()]);
-            lines.push(Line { math, step });
-        }
-        self.solution.say(&format!(
-            "The moments about {} over the moment of inertia give the angular acceleration:",
-            turn.about_name
-        ));
-        self.solution.display(lines);
     }
 
     /// The speed with which a motion ends, from its energy, where the next stage takes it over and no question asks for it.

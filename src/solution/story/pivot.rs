@@ -2,17 +2,27 @@
 
 use super::Page;
 use crate::answer::Answer;
-use crate::expr::{Expr, Symbol, Vector, cross, dot, minus};
+use crate::expr::{Expr, Symbol, Vector, dot, minus};
 use crate::scene::{Ask, StageKind, Turn};
 use crate::solution::known::number;
 use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::opening::NUMBERS;
 use crate::solution::words::{self, fill, name, say, set, vector};
 use crate::solution::{Claim, Inline, Line, Math, Meaning, Part};
-use crate::story::StageTold;
+use crate::story::{StageTold, is_clockwise};
 
 /// Largest component, in nodes, that is written out on the way.
 const READABLE: usize = 60;
+
+/// How fast a rotation goes at one end of it, and how it gets faster.
+struct Rates {
+    /// Square of the angular velocity.
+    square: Expr,
+    /// Angular acceleration, counterclockwise.
+    angular: Expr,
+    /// The same as moments over the moment of inertia.
+    raw: Expr,
+}
 
 impl Page<'_> {
     /// The forces of the fixed point that are asked for in a stage, each under its heading.
@@ -69,23 +79,10 @@ impl Page<'_> {
             }
         });
         let arm = minus(&center, &turn.about).map(|e| tidy(&e));
-        let [_, inertia] = told.inertia.as_ref()?;
-        let [start, end] = told.energy.as_ref()?;
-        let energy = if at_end { end } else { start };
-        let square = tidy(&(Expr::from(2) * energy / inertia));
         let zero = Expr::zero();
         let g = turn.gravity.as_ref().unwrap_or(&zero);
         let weight = [Expr::zero(), -(&lump.mass * g)];
-        let moment = cross(&arm, &weight);
-        let angular = tidy(&(&moment / inertia));
-        let acceleration = [
-            -(&angular * &arm[1]) - &square * &arm[0],
-            &angular * &arm[0] - &square * &arm[1],
-        ];
-        let acceleration = acceleration.map(|e| tidy(&e));
-        if acceleration.iter().any(|e| e.size() > READABLE) || square.size() > READABLE {
-            return None;
-        }
+        let rates = self.rates(told, turn, at_end)?;
         let at = &turn.about_name;
         let who = words::bodies(self.scene, &places);
         let (g, who) = match places.as_slice() {
@@ -99,31 +96,14 @@ impl Page<'_> {
                 (String::from("G"), who)
             }
         };
+        let (lines, acceleration) = self.circling(&rates, at, &g, &arm);
+        if acceleration.iter().any(|e| e.size() > READABLE) || rates.square.size() > READABLE {
+            return None;
+        }
         self.solution.say(&format!(
             "{} moves on a circle about {at}; Newton's second law for it gives the force.",
             words::capital(&who)
         ));
-        let square_of = || name("omega", "", "2", false);
-        let arm_name = || vector("r", &format!("{g}/{at}"), "");
-        let mut lines = Vec::new();
-        if !square.is_zero() {
-            lines.push(set("{} = {}", [square_of(), square.clone().into()]));
-        }
-        let mut math = set("{} =", [vector("a", &g, "")]);
-        if !angular.is_zero() {
-            let raw = neat(self.scene, &(&moment / inertia));
-            let alpha = name("alpha", "", "", false);
-            lines.push(set(
-                "{} = {} = {}",
-                [alpha, raw.into(), angular.clone().into()],
-            ));
-            math.extend(set("{} × {}", [vector("alpha", "", ""), arm_name()]));
-        }
-        if !square.is_zero() {
-            math.extend(set("− {} {}", [square_of(), arm_name()]));
-        }
-        math.extend(set("= {}", [acceleration.clone().into()]));
-        lines.push(math);
         let lines = lines.into_iter().map(Line::plain);
         self.solution.display(lines.collect());
         let force = [
@@ -131,6 +111,171 @@ impl Page<'_> {
             &lump.mass * &acceleration[1] - &weight[1],
         ];
         Some(neat(self.scene, &dot(&force, along)))
+    }
+
+    /// Where the accelerations of points come from that are asked of this stage.
+    pub(super) fn accelerated(&mut self, told: &StageTold) {
+        let asked = |ask: &Ask| matches!(ask, Ask::PointAcceleration { .. });
+        if !self.asked(told, asked) {
+            return;
+        }
+        let StageKind::Turn(turn) = &told.placed.kind else {
+            return self.solution.say(
+                "The places, differentiated twice with respect to time, give the accelerations; how the coordinate gets faster follows from the balance of energy, differentiated once.",
+            );
+        };
+        let about = &turn.about_name;
+        self.solution.say(&format!(
+            "Every point moves on a circle about {about}; the moments about {about} give the angular acceleration, and the energy the angular velocity."
+        ));
+        let ends = [false, true].map(|at_end| self.circled(told, turn, at_end));
+        let both = ends.iter().all(|lines| !lines.is_empty());
+        for (lines, when) in ends.into_iter().zip(["beginning", "end"]) {
+            if both {
+                self.solution.say(&format!("At the {when}:"));
+            }
+            let lines = lines.into_iter().map(Line::plain);
+            self.solution.display(lines.collect());
+        }
+    }
+
+    /// The accelerations of points that are asked at one end of a rotation.
+    fn circled(&self, told: &StageTold, turn: &Turn, end: bool) -> Vec<Vec<Math>> {
+        let mut lines: Vec<Vec<Math>> = Vec::new();
+        let state = if end { &told.after } else { &told.before };
+        let Some(rates) = self.rates(told, turn, end) else {
+            return lines;
+        };
+        for answer in self.answered(told) {
+            let Some(Ask::PointAcceleration {
+                body,
+                point,
+                at_end,
+                ..
+            }) = self.ask(answer)
+            else {
+                continue;
+            };
+            if *at_end != end {
+                continue;
+            }
+            let mut arm = minus(&state.center[*body], &turn.about);
+            if let Some(point) = point {
+                let further = state.carried(self.scene, *body, point);
+                arm = [0, 1].map(|k| &arm[k] + &further[k]);
+            }
+            let center = || words::center(self.scene, *body);
+            let letter = point.clone().unwrap_or_else(center);
+            let (all, _) = self.circling(&rates, &turn.about_name, &letter, &arm);
+            for line in all {
+                if !lines.contains(&line) {
+                    lines.push(line);
+                }
+            }
+        }
+        lines
+    }
+
+    /// What turns the bodies at one end of a rotation; nothing where it has no closed form.
+    fn rates(&self, told: &StageTold, turn: &Turn, at_end: bool) -> Option<Rates> {
+        let [_, inertia] = told.inertia.as_ref()?;
+        let energy = &told.energy.as_ref()?[usize::from(at_end)];
+        let moment = self.moment(told, turn, at_end);
+        Some(Rates {
+            square: tidied(self.scene, &(Expr::from(2) * energy / inertia)),
+            angular: tidied(self.scene, &(&moment / inertia)),
+            raw: neat(self.scene, &(&moment / inertia)),
+        })
+    }
+
+    /// How a point at this arm from the fixed point is accelerated: the lines that lead there, and the components.
+    fn circling(
+        &self,
+        rates: &Rates,
+        about: &str,
+        point: &str,
+        arm: &Vector,
+    ) -> (Vec<Vec<Math>>, Vector) {
+        let Rates {
+            square,
+            angular,
+            raw,
+        } = rates;
+        let acceleration = [
+            -(angular * &arm[1]) - square * &arm[0],
+            angular * &arm[0] - square * &arm[1],
+        ];
+        let acceleration = acceleration.map(|e| tidied(self.scene, &e));
+        let square_of = || name("omega", "", "2", false);
+        let arm_name = || vector("r", &format!("{point}/{about}"), "");
+        let mut lines = Vec::new();
+        if !square.is_zero() {
+            lines.push(set("{} = {}", [square_of(), square.clone().into()]));
+        }
+        let mut math = set("{} =", [vector("a", point, "")]);
+        if !angular.is_zero() {
+            let alpha = name("alpha", "", "", false);
+            let mut line = set("{} =", [alpha]);
+            if !alike(raw, angular) {
+                line.extend(set("{} =", [raw.clone().into()]));
+            }
+            line.push(angular.clone().into());
+            lines.push(line);
+            math.extend(set("{} × {}", [vector("alpha", "", ""), arm_name()]));
+        }
+        if !square.is_zero() {
+            math.extend(set("− {} {}", [square_of(), arm_name()]));
+        }
+        if !(angular.is_zero() && square.is_zero()) {
+            math.push(Math::Op("="));
+        }
+        math.push(acceleration.clone().into());
+        lines.push(math);
+        (lines, acceleration)
+    }
+
+    /// The moments about the fixed point at one end of a rotation, counterclockwise.
+    fn moment(&self, told: &StageTold, turn: &Turn, at_end: bool) -> Expr {
+        let zero = Expr::zero();
+        let g = turn.gravity.as_ref().unwrap_or(&zero);
+        let state = if at_end { &told.after } else { &told.before };
+        let weights = turn.bodies().into_iter().map(|b| {
+            let arm = &turn.about[0] - &state.center[b][0];
+            &told.placed.scene.bodies[b].mass * g * tidied(self.scene, &arm)
+        });
+        let way = Expr::from(if is_clockwise(told) { -1 } else { 1 });
+        let torque = turn.torque.iter().map(|torque| &way * torque);
+        Expr::sum(weights.chain(torque))
+    }
+
+    /// The moments about the fixed point, which turn the bodies: each angular acceleration that is asked for by its own.
+    pub(super) fn moments(&mut self, told: &StageTold, turn: &Turn) {
+        let mut lines = Vec::new();
+        for answer in self.answered(told).cloned().collect::<Vec<_>>() {
+            let Some(Ask::AngularAcceleration {
+                clockwise, at_end, ..
+            }) = self.ask(&answer)
+            else {
+                continue;
+            };
+            let (Some([_, inertia]), Some(value)) = (&told.inertia, answer.formula()) else {
+                continue;
+            };
+            let counted = Expr::from(if *clockwise { -1 } else { 1 });
+            let moment = counted * self.moment(told, turn, *at_end);
+            let claim = Claim::new(inertia * value, moment.clone());
+            let why = "moment of inertia times angular acceleration = moments";
+            let step = Some(self.solution.step(Vec::new(), vec![claim], why));
+            let symbol = Expr::symbol(&answer.name);
+            let inertia = name("I", &turn.about_name, "", false);
+            let math = set("{} {} = {}", [inertia, symbol.into(), moment.into()]);
+            lines.push(Line { math, step });
+        }
+        self.solution.say(&format!(
+            "The moments about {} over the moment of inertia give the angular acceleration:",
+            turn.about_name
+        ));
+        self.solution.display(lines);
     }
 
     /// The box with the force, and what it comes from.

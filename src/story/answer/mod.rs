@@ -133,6 +133,9 @@ fn one(
         Ask::AngularAcceleration { at_end, .. } => {
             each(&|told| motion::angular_acceleration(question, told, *at_end))
         }
+        Ask::PointAcceleration { at_end, .. } => {
+            each(&|told| motion::point_acceleration(scene, question, told, *at_end))
+        }
         Ask::Tension { body } => each(&|told| Ok(motion::tension(question, told, *body))),
         Ask::Angle { body, clockwise } => {
             each(&|told| motion::angle(question, told, *body, *clockwise))

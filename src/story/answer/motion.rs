@@ -85,12 +85,81 @@ pub(super) fn angular_acceleration(
         (StageKind::Linkage(linkage), Some(energy)) => {
             let end = usize::from(at_end);
             let there = (&energy[end], &linkage.ends[end]);
-            stage::angular_acceleration(&told.placed, linkage, body, there)?
+            let [.., angular] = stage::accelerations(&told.placed, linkage, body, there)?;
+            angular
         }
         _ => return Ok(out),
     };
     let value = if clockwise { -value } else { value };
     Ok(valued(out, tidied(question, told, &value)?, granted))
+}
+
+/// The acceleration of a body, or of a point of it, in a rotation or a linkage.
+pub(super) fn point_acceleration(
+    scene: &Scene,
+    question: &Question,
+    told: &StageTold,
+    at_end: bool,
+) -> Result<Answer, Refused> {
+    let Ask::PointAcceleration {
+        body, point, along, ..
+    } = &question.ask
+    else {
+        return Ok(blank(question, String::new()));
+    };
+    let (state, when, granted) = end(told, at_end);
+    let name = &scene.bodies[*body].name;
+    let what = match point {
+        Some(point) => format!("the point {point} of `{name}`"),
+        None => format!("the center of mass of `{name}`"),
+    };
+    let words = format!("acceleration of {what} at the {when} of `{}`", told.name);
+    let out = blank(question, words);
+    let parts = state.center[*body].iter().chain(&state.velocity[*body]);
+    if let Some(why) = state.why_open(parts.chain([&state.spin[*body]])) {
+        return Ok(out.leave_open(why));
+    }
+    let arm = point
+        .as_ref()
+        .map(|point| state.carried(scene, *body, point));
+    let arm = arm.unwrap_or_else(|| [Expr::zero(), Expr::zero()]);
+    let spin = &state.spin[*body];
+    // Of a rigid body: that of its center, and the part that turning adds at the arm.
+    let turning = |[x, y]: &Vector, square: &Expr, angular: &Expr| {
+        [
+            -(&(angular * y) + &(square * x)),
+            &(angular * x) - &(square * y),
+        ]
+    };
+    let value = match (&told.placed.kind, &told.energy) {
+        (StageKind::Turn(turn), _) => {
+            let (way, _) = stage::sense(&told.placed, &told.before.spin[turn.body], turn)?;
+            let center = minus(&state.center[*body], &turn.about);
+            // A particle has no spin of its own.
+            let square = match told.placed.scene.bodies[*body].is_particle() {
+                true => {
+                    let v = &state.velocity[*body];
+                    &dot(v, v) / &dot(&center, &center)
+                }
+                false => spin.powi(2),
+            };
+            let arm = [0, 1].map(|k| &center[k] + &arm[k]);
+            turning(&arm, &square, &angular(told, turn, way, at_end))
+        }
+        (StageKind::Linkage(linkage), Some(energy)) => {
+            let end = usize::from(at_end);
+            let there = (&energy[end], &linkage.ends[end]);
+            let [x, y, angular] = stage::accelerations(&told.placed, linkage, *body, there)?;
+            let [p, q] = turning(&arm, &spin.powi(2), &angular);
+            [&x + &p, &y + &q]
+        }
+        _ => return Ok(out),
+    };
+    Ok(valued(
+        out,
+        tidied(question, told, &dot(&value, along))?,
+        granted,
+    ))
 }
 
 /// An answer that is a quantity of the whole motion, or why it has none.

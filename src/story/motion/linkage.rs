@@ -127,23 +127,28 @@ fn time(
     tidied(stage, &time).map(Some)
 }
 
-/// Angular acceleration of a body of a linkage with this kinetic energy where the coordinate has this value.
-pub(in crate::story) fn angular_acceleration(
+/// Accelerations of a body of a linkage along x and y, and the angular one, with this kinetic energy where the coordinate has this
+/// value.
+pub(in crate::story) fn accelerations(
     stage: &Stage,
     linkage: &Linkage,
     body: usize,
     (energy, value): (&Expr, &Expr),
-) -> Result<Expr, Refused> {
+) -> Result<[Expr; 3], Refused> {
     let q = &linkage.coordinate;
-    let place = linkage.places.iter().find(|(b, _)| *b == body);
-    let angle = place.map_or_else(Expr::zero, |(_, [_, _, angle])| angle.derivative(q));
     let [inertia, drawn] = by_coordinate(stage, linkage);
     let at = |e: &Expr| tidied(stage, &linkage.at(e, value));
     let [mass, grows, drawn] = [at(&inertia)?, at(&inertia.derivative(q))?, at(&drawn)?];
     let square = tidied(stage, &(&(&Expr::from(2) * energy) / &mass))?;
     let second = -(&(&half(&(&grows * &square)) + &drawn) / &mass);
-    let [turns, bends] = [at(&angle)?, at(&angle.derivative(q))?];
-    tidied(stage, &(&(&bends * &square) + &(&turns * &second)))
+    let mut out = [0; 3].map(|_| Expr::zero());
+    let place = linkage.places.iter().find(|(b, _)| *b == body);
+    for (part, place) in out.iter_mut().zip(place.iter().flat_map(|p| &p.1)) {
+        let slope = place.derivative(q);
+        let [goes, bends] = [at(&slope)?, at(&slope.derivative(q))?];
+        *part = tidied(stage, &(&(&bends * &square) + &(&goes * &second)))?;
+    }
+    Ok(out)
 }
 
 /// 1 where the coordinate grows, −1 where it falls; what is not proved is seen at points of the domain and taken for granted.

@@ -15,7 +15,7 @@ mod turn;
 mod wind;
 
 pub(super) use fall::fall;
-pub(super) use linkage::{angular_acceleration, linkage};
+pub(super) use linkage::{accelerations, linkage};
 pub(super) use slide::slide;
 pub(super) use turn::{arms, inertia_about, sense, turn};
 pub(super) use wind::wind;

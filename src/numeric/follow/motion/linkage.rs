@@ -94,15 +94,16 @@ impl Moving<'_> {
 }
 
 impl Moving<'_> {
-    /// Angular accelerations of all bodies in two states.
-    fn angular_accelerations(&self, states: [[f64; 2]; 2]) -> Option<Vec<(usize, [f64; 2])>> {
+    /// Accelerations of all bodies in two states.
+    fn accelerations(&self, states: [[f64; 2]; 2]) -> Option<Vec<(usize, [[f64; 3]; 2])>> {
         let bodies = self.linkage.places.iter().map(|(b, _)| *b);
-        let mut out: Vec<_> = bodies.map(|b| (b, [0.0; 2])).collect();
+        let mut out: Vec<_> = bodies.map(|b| (b, [[0.0; 3]; 2])).collect();
         for (k, [s, rate]) in states.into_iter().enumerate() {
             let (shape, second) = (self.shape(s)?, self.acceleration(s, rate)?);
-            for (i, (_, angular)) in out.iter_mut().enumerate() {
-                let grown = shape.second[i][2] * rate * rate + shape.first[i][2] * second;
-                angular[k] = grown / (self.time * self.time);
+            for (i, (_, ends)) in out.iter_mut().enumerate() {
+                let grown =
+                    |c: usize| shape.second[i][c] * rate * rate + shape.first[i][c] * second;
+                ends[k] = [0, 1, 2].map(|c| grown(c) / (self.time * self.time));
             }
         }
         Some(out)
@@ -180,11 +181,11 @@ pub(in crate::numeric::follow) fn linkage(
     };
     let ended = moving.states([1.0, run.end[1]]).ok_or_else(lost)?;
     let after = arrived(course, &before, &bodies, ended);
-    let angular = moving.angular_accelerations([[0.0, start[1]], [1.0, run.end[1]]]);
-    let angular = angular.ok_or_else(lost)?;
+    let accelerations = moving.accelerations([[0.0, start[1]], [1.0, run.end[1]]]);
+    let accelerations = accelerations.ok_or_else(lost)?;
     let moved = Moved {
         bodies,
-        angular_accelerations: angular,
+        accelerations,
         samples: sampled(&run, moving.time, |y| Some(moving.shape(y[0])?.places)),
         ..Moved::default()
     };

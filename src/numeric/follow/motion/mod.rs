@@ -43,8 +43,9 @@ pub struct Moved {
     pub turned: Option<f64>,
     /// Force of the fixed point of a rotation on the bodies, at the beginning and at the end \[N\].
     pub reaction: Option<[[Component; 2]; 2]>,
-    /// Index of each body of a rotation or a linkage, with its angular acceleration at the beginning and at the end [rad/s²].
-    pub angular_accelerations: Vec<(usize, [f64; 2])>,
+    /// Index of each body of a rotation or a linkage, with its acceleration along x and y [m/s²] and its angular one [rad/s²], at the
+    /// beginning and at the end.
+    pub accelerations: Vec<(usize, [[f64; 3]; 2])>,
     /// What drives each body of a motion along a line; empty for other motions.
     pub driven: Vec<Driven>,
     /// Places on the way, for pictures; empty where something is open.

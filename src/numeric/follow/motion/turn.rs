@@ -316,13 +316,19 @@ pub(in crate::numeric::follow) fn turn(
         force.map(|f| f.map(Ok)).ok_or_else(lost)
     };
     let reaction = [force(&begin)?, force(&run.end)?];
-    let angular = |y: &[f64]| {
-        let found = rotation.accelerations(rotation.way, y);
-        let lost = || course.out_of_reach("the angular acceleration has no value");
-        let square = units.time * units.time;
-        found.map(|a| a / square).ok_or_else(lost)
+    let rates = |y: &[f64]| {
+        let lost = || course.out_of_reach("the acceleration has no value");
+        let (rates, _) = mechanism.accelerations(y).ok_or_else(lost)?;
+        Ok(rates)
     };
-    let angular = [angular(&begin)?, angular(&run.end)?];
+    let ends = [rates(&begin)?, rates(&run.end)?];
+    let square = units.time * units.time;
+    let scales = [units.length / square, units.length / square, 1.0 / square];
+    let at_end = |i: usize, k: usize| [0, 1, 2].map(|c| ends[k][3 * i + c] * scales[c]);
+    let all = bodies.iter().enumerate();
+    let accelerations = all
+        .map(|(i, b)| (*b, [at_end(i, 0), at_end(i, 1)]))
+        .collect();
     let is_pushed = rotation.is_balanced && run.time > 0.0 && !matches!(turn.until, Until::For(_));
     let (after, samples) = rotation.movers.ended(course, units, &run, &before);
     let time = match is_pushed {
@@ -333,7 +339,7 @@ pub(in crate::numeric::follow) fn turn(
         clockwise: Some(rotation.way < 0.0),
         turned: Some(run.end[2] - begin[2]),
         reaction: Some(reaction),
-        angular_accelerations: bodies.iter().map(|b| (*b, angular)).collect(),
+        accelerations,
         bodies,
         samples,
         ..Moved::default()
