@@ -353,11 +353,7 @@ fn of_stage<T>(
 }
 
 /// The only impact there is, or the one of a stage.
-fn only(
-    path: &Path,
-    all: Vec<(String, scene::Scene)>,
-    stage: Option<&str>,
-) -> Result<scene::Scene, Failure> {
+fn only<T>(path: &Path, all: Vec<(String, T)>, stage: Option<&str>) -> Result<T, Failure> {
     if all.is_empty() {
         return Err(refused(path, "no stage of this scene is an impact"));
     }

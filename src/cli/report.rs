@@ -9,9 +9,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::{Failure, Format, complain, files, impact_of, pretty, print, read_scene, refused};
+use super::{Failure, Format, complain, files, only, pretty, print, read_scene, refused};
+use carom::derive::{self, Derivation};
 use carom::report::{Effort, Report, Row, measure};
-use carom::{derive, numeric, render};
+use carom::scene::Scene;
+use carom::{numeric, render, story, worked};
 
 /// Arguments of `carom report`.
 #[derive(Args)]
@@ -63,8 +65,7 @@ pub fn run(args: &ReportArgs) -> Result<u8, Failure> {
     let mut scenes = Vec::new();
     for path in &args.scenes {
         let scene = read_scene(path, &args.set)?;
-        let scene = impact_of(&scene, path, args.stage.as_deref())?;
-        scenes.push((path, scene));
+        scenes.push((path, impact(path, scene, args.stage.as_deref())?));
     }
     let stop = Arc::new(AtomicBool::new(false));
     let seen = Arc::clone(&stop);
@@ -77,18 +78,12 @@ pub fn run(args: &ReportArgs) -> Result<u8, Failure> {
         family: args.family.clone(),
     };
     let mut reports: Vec<Report> = Vec::new();
-    for (path, scene) in &scenes {
+    for (path, (scene, derivation)) in &scenes {
         let name = path.display();
         if let Err(numeric::NoPoint::Missing(symbols)) = numeric::values(scene) {
             let symbols = symbols.join(", ");
             let how = "measured at seeded points of the domains";
             complain(&format!("{name}: no value for {symbols}; {how}"));
-        }
-        let derivation = derive::derive(scene);
-        if let Err(why) = &derivation {
-            complain(&format!(
-                "{name}: no closed forms ({why}); their routes are left out"
-            ));
         }
         let bar = bar(&scene.title);
         let mut failed: Option<std::io::Error> = None;
@@ -101,7 +96,7 @@ pub fn run(args: &ReportArgs) -> Result<u8, Failure> {
             }
             failed.is_none() && !(handled && stop.load(Ordering::SeqCst))
         };
-        let report = measure(scene, derivation.as_ref().ok(), effort.clone(), &mut on_row)
+        let report = measure(scene, derivation.as_ref(), effort.clone(), &mut on_row)
             .map_err(|why| refused(path, why))?;
         bar.finish_and_clear();
         if let Some(error) = failed {
@@ -129,6 +124,30 @@ pub fn run(args: &ReportArgs) -> Result<u8, Failure> {
         files::save(path, whole.as_bytes(), &inputs)?;
     }
     Ok(if interrupted { 130 } else { 0 })
+}
+
+/// The impact to measure and its closed forms. Of stages, and of a contact that values leave open what it does, it is an
+/// outcome of one stage, and the speeds that an earlier stage hands on as roots are data.
+fn impact(
+    path: &Path,
+    scene: Scene,
+    stage: Option<&str>,
+) -> Result<(Scene, Option<Derivation>), Failure> {
+    if scene.has_stages() || scene.friction().is_some() {
+        let worked = worked::in_cases(&scene).map_err(|why| refused(path, why))?;
+        let all = story::outcomes(&worked.told).map(|(name, case)| (name, case.asked()));
+        let (scene, derivation) = only(path, all.collect(), stage)?;
+        return Ok((scene, Some(derivation)));
+    }
+    let scene = only(path, vec![(String::new(), scene)], stage)?;
+    let derivation = derive::derive(&scene);
+    if let Err(why) = &derivation {
+        let name = path.display();
+        complain(&format!(
+            "{name}: no closed forms ({why}); their routes are left out"
+        ));
+    }
+    Ok((scene, derivation.ok()))
 }
 
 fn create(path: &Path, inputs: &[&Path]) -> Result<File, Failure> {

@@ -51,7 +51,8 @@ pub fn energy_lost<T: Number>(given: &Given<T>, motion: &Motion<T>, body: Option
     }
 }
 
-/// The loss of all free bodies. Joints between free bodies do no work; a normal impulse takes ½ (1−e) P_n (−u_n⁻).
+/// The loss of all free bodies. A hinge does no work between them, since both of its sides move alike before and after; a normal
+/// impulse takes ½ (1−e) P_n (−u_n⁻).
 fn lost_by_all<T: Number>(given: &Given<T>, motion: &Motion<T>) -> T {
     let mut lost = T::zero();
     let mut lose = |amount: T| lost = lost.plus(&amount);
@@ -70,9 +71,6 @@ fn lost_by_all<T: Number>(given: &Given<T>, motion: &Motion<T>) -> T {
         lose(work_on_fixed(given, *bodies, at, impulse));
     }
     for (hinge, impulse) in given.hinges.iter().zip(&motion.hinge) {
-        // After, both sides of a hinge move alike; before, they do if the scene is consistent.
-        let [before, _] = relative_velocities(given, motion, hinge.bodies, &hinge.at);
-        lose(dot(impulse, &before).halved().negated());
         lose(work_on_fixed(given, hinge.bodies, &hinge.at, impulse));
     }
     for (i, blow) in given.blows.iter().enumerate() {

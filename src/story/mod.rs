@@ -23,7 +23,7 @@ use std::iter::successors;
 
 pub use lent::lent;
 pub use second::held;
-pub use sheet::{Way, beginning, impact, impacts, is_clockwise, sheet, ways};
+pub use sheet::{Way, beginning, impact, impacts, is_clockwise, outcomes, sheet, ways};
 
 use crate::algebra::Sign;
 use crate::answer::calc::{at_least_zero, constant, tidy};

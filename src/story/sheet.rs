@@ -25,22 +25,29 @@ pub fn impact(scene: &Scene, told: &Told, stage: Option<&str>) -> Option<Scene> 
     Some(out)
 }
 
+/// The outcomes of all impacts: the name of the stage, with a number where it has several, and the outcome.
+pub fn outcomes(told: &Told) -> impl Iterator<Item = (String, &Case)> {
+    told.stages.iter().flat_map(|stage| {
+        let several = stage.cases.len() > 1;
+        stage.cases.iter().enumerate().map(move |(k, case)| {
+            let name = match several {
+                true => format!("{}, case {}", stage.name, k + 1),
+                false => stage.name.clone(),
+            };
+            (name, case)
+        })
+    })
+}
+
 /// The scenes of all impacts with their own questions: name of the stage, and the scene with the motion handed on put in.
 pub fn impacts(scene: &Scene, told: &Told) -> Vec<(String, Scene)> {
-    let mut out = Vec::new();
-    for stage in &told.stages {
-        for (k, case) in stage.cases.iter().enumerate() {
-            let name = match stage.cases.len() {
-                1 => stage.name.clone(),
-                _ => format!("{}, case {}", stage.name, k + 1),
-            };
-            let mut one = put_together(scene, case);
-            one.printed.clear();
-            one.questions = case.asked().0.questions;
-            out.push((name, one));
-        }
-    }
-    out
+    let put = |(name, case): (String, &Case)| {
+        let mut one = put_together(scene, case);
+        one.printed.clear();
+        one.questions = case.asked().0.questions;
+        (name, one)
+    };
+    outcomes(told).map(put).collect()
 }
 
 /// The scene at the beginning of a stage: the bodies where they are, in the motion they have.

@@ -121,18 +121,12 @@ fn pieces(
         });
         return Ok(());
     }
+    // Every outline is symmetric about its center, and each part says where that is: how it is turned plays no part.
     let spots = spots(body, &number)?;
-    let (sine, cosine) = match spots.len() {
-        1 => (0.0, 1.0),
-        _ => number(&body.angle, "angle")?.sin_cos(),
-    };
     let whole: f64 = spots.iter().map(|[_, _, share]| share).sum();
     into.extend(spots.iter().map(|[x, y, share]| Piece {
         mass: mass * share / whole,
-        at: [
-            center[0] + x * cosine - y * sine,
-            center[1] + x * sine + y * cosine,
-        ],
+        at: [center[0] + x, center[1] + y],
         inertia: 0.0,
     }));
     Ok(())

@@ -128,6 +128,10 @@ proptest! {
         if no_work_from_outside && given.contacts.len() == 1 {
             prop_assert!(!energy_lost(&given, &motion, None).is_negative());
         }
+        for body in (0..given.bodies.len()).map(Some) {
+            let change = energy_before(&given, body) - energy_after(&given, &motion, body);
+            prop_assert_eq!(energy_lost(&given, &motion, body), change);
+        }
     }
 
     #[test]
@@ -261,6 +265,16 @@ proptest! {
 }
 
 #[test]
+fn what_sticks_to_a_floor_needs_the_friction_of_its_slope() {
+    use super::build::*;
+    let ball = particle(n(1), at(0, 0), at(3, -4));
+    let floor = sticks(0, 1, at(0, 0), Some(at(0, 1)));
+    let (given, _, motion) = solved(&scene(vec![ground(), ball], vec![], vec![floor]));
+    let report = contact_reports(&given, &motion)[0].clone().expect("a normal");
+    assert_eq!(report.required_friction, Some(ratio(3, 4)));
+}
+
+#[test]
 fn a_moving_wall_gives_energy_but_no_loss() {
     // An elastic ball of mass 1 at rest is hit by a wall that moves at 3: it leaves at 6.
     use super::build::*;
@@ -278,6 +292,7 @@ fn a_moving_wall_gives_energy_but_no_loss() {
         .clone()
         .expect("a normal");
     assert!(!report.separates);
+    assert_eq!(report.required_friction, Some(ratio(0, 1)));
     assert_eq!(motion.contact[0], [ratio(6, 1), ratio(0, 1)]);
     assert!(
         given
