@@ -144,6 +144,36 @@ fn every_fault_has_one_clear_message() {
         &["report", "--quick", "nowhere.json"],
         "nowhere.json: cannot be read",
     );
+    refused(
+        &["report", "--quick", "derivations/book/two-bodies.json"],
+        "the laws leave P_x, P_y,",
+    );
+    refused(
+        &[
+            "report",
+            "--quick",
+            "derivations/more/ball-bounces-twice.json",
+        ],
+        "several impacts\nhint: --stage with one of: ",
+    );
+}
+
+#[test]
+fn an_impact_of_stages_is_measured_with_the_motion_it_begins_with_as_data() {
+    let out = carom(&[
+        "report",
+        "--quick",
+        "--points",
+        "1",
+        "--family",
+        "overflow",
+        "--format",
+        "json",
+        "derivations/more/ball-bounces.json",
+    ]);
+    let data: Value = serde_json::from_slice(&out.stdout).expect("JSON");
+    let formulas = &data["reports"][0]["formulas"];
+    assert_eq!(*formulas, serde_json::json!([["v_2", "-e*v_1"]]));
 }
 
 #[test]

@@ -9,9 +9,10 @@ use std::time::Instant;
 use serde::Serialize;
 
 use super::errors::{Errors, digits_lost, ulps};
-use super::routes::{Place, Prepared, Route};
+use super::routes::{Place, Prepared, Quantity, Route};
 use super::sample::{Family, RANGES, Sampler, flags};
 use super::verdict;
+use crate::answer::Form;
 use crate::derive::Derivation;
 use crate::emit::{self, Heading, Language, Style};
 use crate::scene::Scene;
@@ -167,6 +168,8 @@ impl Machine {
 pub enum NoReport {
     /// It asks for no number.
     NothingAsked,
+    /// The laws leave these quantities open.
+    Open(Vec<String>),
     /// At no point tried do the laws determine what is asked, or it is irrational there.
     NoAnswer,
     /// It lacks the family asked for; those it has.
@@ -179,6 +182,11 @@ impl std::fmt::Display for NoReport {
             NoReport::NothingAsked => {
                 f.write_str("the scene asks for no number, so there is nothing to measure")
             }
+            NoReport::Open(names) => write!(
+                f,
+                "the laws leave {} open, so there is nothing to measure against",
+                names.join(", ")
+            ),
             NoReport::NoAnswer => f.write_str(
                 "at no point tried do the laws determine every answer as a fraction, so there is nothing to measure against",
             ),
@@ -201,6 +209,10 @@ pub fn measure(
     let prepared = Prepared::new(scene, derivation);
     if prepared.quantities.is_empty() {
         return Err(NoReport::NothingAsked);
+    }
+    let open = derivation.map_or_else(Vec::new, |d| open(d, &prepared.quantities));
+    if !open.is_empty() {
+        return Err(NoReport::Open(open));
     }
     let sampler = Sampler::new(scene, effort.seed);
     let mut families = sampler.families(effort.points);
@@ -283,6 +295,16 @@ pub fn measure(
     };
     verdict::judge(&mut report);
     Ok(report)
+}
+
+/// Names of the quantities that the laws leave open.
+fn open(derivation: &Derivation, quantities: &[Quantity]) -> Vec<String> {
+    let is_open = |name: &str| {
+        let mut answers = derivation.answers.iter();
+        answers.any(|a| a.name == name && matches!(a.form, Form::Open(_)))
+    };
+    let names = quantities.iter().map(|q| q.name.clone());
+    names.filter(|name| is_open(name)).collect()
 }
 
 struct Bench<'a> {

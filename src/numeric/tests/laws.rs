@@ -270,7 +270,9 @@ fn what_sticks_to_a_floor_needs_the_friction_of_its_slope() {
     let ball = particle(n(1), at(0, 0), at(3, -4));
     let floor = sticks(0, 1, at(0, 0), Some(at(0, 1)));
     let (given, _, motion) = solved(&scene(vec![ground(), ball], vec![], vec![floor]));
-    let report = contact_reports(&given, &motion)[0].clone().expect("a normal");
+    let report = contact_reports(&given, &motion)[0]
+        .clone()
+        .expect("a normal");
     assert_eq!(report.required_friction, Some(ratio(3, 4)));
 }
 
