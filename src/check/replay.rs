@@ -8,7 +8,7 @@ use super::{Claim, Meaning, POINTS, Report};
 use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::numeric::friction::happened;
 use crate::numeric::points::with_angles;
-use crate::numeric::{self, Answer, Number};
+use crate::numeric::{self, Number};
 use crate::scene::{Ask, Scene};
 
 /// Seeds tried where a contact with friction must do what the solution says.
@@ -206,19 +206,9 @@ fn symbols_at<T: Number + PartialOrd>(
     point: &mut Point<T>,
     solve: impl Fn(&numeric::System<T>) -> Result<numeric::Solution<T>, numeric::Contradiction>,
 ) {
-    let Ok(given) = numeric::given(scene, point) else {
+    let Ok(numeric::Solved { given, motion, .. }) = numeric::solved(scene, point, solve) else {
         return;
     };
-    let given = match numeric::settle(&given, &solve) {
-        Ok(Some((settled, _))) => settled,
-        Ok(None) => given,
-        Err(_) => return,
-    };
-    let system = numeric::assemble(&given);
-    let Ok(solution) = solve(&system) else {
-        return;
-    };
-    let motion = numeric::motion(&given, &system, &solution);
     for (name, meaning) in meanings {
         let Meaning::Asked(ask, axis) = meaning else {
             continue;
@@ -229,16 +219,8 @@ fn symbols_at<T: Number + PartialOrd>(
             along.get_or_insert_with(|| [0, 1].map(|k| Expr::from(i64::from(k == *axis))));
         }
         let answer = numeric::answer(&ask, point, &given, &motion).ok();
-        if let Some(value) = answer.and_then(|answer| component(answer, *axis)) {
+        if let Some(value) = answer.and_then(|answer| answer.component(*axis)) {
             point.values.insert(name.clone(), value);
         }
-    }
-}
-
-/// A number, or the component of a vector along an axis.
-pub(super) fn component<T>(answer: Answer<T>, axis: Option<usize>) -> Option<T> {
-    match answer {
-        Answer::Scalar(value) => Some(value),
-        Answer::Vector(v) => v.into_iter().nth(axis?),
     }
 }

@@ -9,15 +9,15 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::replay::{component, holds};
+use super::replay::holds;
 use super::{Claim, Meaning, POINTS, Report, Unusable, meanings};
 use crate::dimension::Dimension;
 use crate::domain::Domain;
 use crate::expr::{Expr, Point, Symbol};
 use crate::formula::Symbols;
 use crate::numeric;
-use crate::numeric::follow::{self, BodyState, Component, Followed, Passed, What};
-use crate::scene::{Contact, ContactLaw, Mode, OneSided, Parameter, Scene, StageKind};
+use crate::numeric::follow::{self, BodyState, Passed, Sizes, What};
+use crate::scene::{Mode, Parameter, Scene, StageKind};
 
 /// Points looked at before a motion that does not get to its end is given up.
 const TRIES: u64 = 120;
@@ -123,7 +123,7 @@ fn impact(scene: &Scene, value: &Value) -> Result<Impact, Unusable> {
     for name in &active {
         let found = one_sided.iter().position(|o| o.name == *name);
         let found = found.ok_or_else(|| wrong("no such support or string"))?;
-        out.contacts.push(acting(&at[found]));
+        out.contacts.push(at[found].acting());
     }
     let meanings = meanings(&out, &value["symbols"])?;
     Ok(Impact {
@@ -172,20 +172,6 @@ fn parameters(scene: &Scene) -> Symbols {
 fn names(list: &Value) -> Vec<String> {
     let all = list.as_array().into_iter().flatten();
     all.filter_map(|v| v.as_str().map(String::from)).collect()
-}
-
-/// A support or string that acts: a contact without rebound.
-fn acting(support: &OneSided) -> Contact {
-    Contact {
-        name: support.name.clone(),
-        bodies: support.bodies,
-        at: support.at.clone(),
-        normal: Some(support.normal.clone()),
-        law: ContactLaw::Frictionless {
-            restitution: Expr::zero(),
-        },
-        passes: false,
-    }
 }
 
 /// A parameter of which nothing but the name matters.
@@ -243,10 +229,8 @@ pub(super) fn replay(
             compared[i] |= found.is_some();
             if let (None, Some(found)) = (&apart, found) {
                 let here = |name: &Symbol| follow::named(scene, &followed, name, &doubles);
-                *apart = earlier_differs(impact, &doubles, here).or_else(|| {
-                    let sizes = Sizes::of(&followed);
-                    differs(impact, &doubles, &found.before.bodies, &sizes)
-                });
+                *apart = earlier_differs(impact, &doubles, here)
+                    .or_else(|| differs(impact, &doubles, &found.before.bodies, &followed.sizes()));
             }
         }
         // Symbols of answers mean the first of several outcomes.
@@ -266,7 +250,7 @@ pub(super) fn replay(
                 continue;
             };
             let answer = follow::answer(scene, &followed, question, &doubles).ok();
-            if let Some(value) = answer.and_then(|a| component(a, *axis)) {
+            if let Some(value) = answer.and_then(|a| a.component(*axis)) {
                 doubles.values.insert(name.clone(), value);
             }
         }
@@ -294,50 +278,8 @@ pub(super) fn replay(
 fn goes_so(impact: &Impact, passed: &Passed) -> bool {
     match &passed.what {
         What::Impact(found) if found.mode.map(Mode::words) != impact.mode.as_deref() => false,
-        What::Impact(found) => match found.acting.as_slice() {
-            [] => impact.active.is_empty(),
-            [acting] => {
-                let mut both = [acting.clone(), impact.active.clone()];
-                both.iter_mut().for_each(|names| names.sort());
-                both[0] == both[1]
-            }
-            _ => false,
-        },
+        What::Impact(found) => found.is_by(&impact.active),
         What::Motion(_) => true,
-    }
-}
-
-/// How large and how fast the scene is. A speed that comes out as the root of a difference is known to a part of the largest
-/// speeds only, so that those of all stages count.
-struct Sizes {
-    /// The largest coordinate of a body, or radius of gyration \[m\].
-    length: f64,
-    /// The largest speed, of a center or by a spin \[m/s\].
-    speed: f64,
-    /// The largest spin, or that of the largest speed at the largest distance \[rad/s\].
-    spin: f64,
-}
-
-impl Sizes {
-    fn of(followed: &Followed) -> Sizes {
-        let passed = || followed.stages.iter().filter_map(|s| s.as_ref().ok());
-        let bodies = || passed().flat_map(|p| p.before.bodies.iter().chain(&p.after.bodies));
-        let largest = |all: &mut dyn Iterator<Item = &Component>| {
-            let known = all.filter_map(|c| c.as_ref().ok());
-            known.fold(1e-12f64, |a, c| a.max(c.abs()))
-        };
-        let solids = followed.solids.iter().filter(|s| s.mass > 0.0);
-        let radii = solids.map(|s| (s.inertia / s.mass).sqrt());
-        let length = largest(&mut bodies().flat_map(|b| &b.center));
-        let length = radii.fold(length, f64::max);
-        let spin = largest(&mut bodies().map(|b| &b.spin));
-        let speed = largest(&mut bodies().flat_map(|b| &b.velocity));
-        Sizes {
-            length,
-            speed: speed.max(spin * length),
-            // Where nothing turns, what rounding leaves of the speeds still does.
-            spin: spin.max(speed / length),
-        }
     }
 }
 
@@ -356,7 +298,7 @@ fn earlier_differs(
 
 /// Where the solution lets bodies be elsewhere or move otherwise than is found.
 fn differs(impact: &Impact, at: &Point<f64>, found: &[BodyState], sizes: &Sizes) -> Option<String> {
-    let (extent, speed) = (sizes.length, sizes.speed);
+    let (extent, speed) = (sizes.length.max(1e-12), sizes.speed.max(1e-12));
     for (body, state) in impact.scene.bodies.iter().zip(found) {
         if body.is_fixed() {
             continue;
@@ -369,7 +311,7 @@ fn differs(impact: &Impact, at: &Point<f64>, found: &[BodyState], sizes: &Sizes)
             ("moves with v_x =", &body.velocity[0], u, speed),
             ("moves with v_y =", &body.velocity[1], v, speed),
         ];
-        let spin = ("turns with", &body.spin, &state.spin, sizes.spin);
+        let spin = ("turns with", &body.spin, &state.spin, speed / extent);
         let turns = (!body.is_particle()).then_some(spin);
         for (words, told, found, scale) in pairs.into_iter().chain(turns) {
             let value = told.substitute(&impact.handed).evaluate(at);

@@ -278,6 +278,7 @@ struct Echelon {
 /// Gauss-Jordan elimination; an unknown is determined when its row holds no other unknown.
 fn eliminate(mut rows: Vec<Vec<Rational>>, n: usize) -> Echelon {
     let pivots = reduce(&mut rows, n);
+    let pivots: Vec<usize> = pivots.iter().map(|[_, column]| *column).collect();
     let free: Vec<usize> = (0..n).filter(|c| !pivots.contains(c)).collect();
     let mut open = free.clone();
     for (r, &column) in pivots.iter().enumerate() {

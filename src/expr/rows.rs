@@ -6,15 +6,18 @@ use super::Rational;
 use super::number::{product, sum};
 
 /// Brings rows to their reduced echelon form in the first `n` columns (Gauss and Jordan), whatever stands behind these
-/// included. Gives the column of the pivot of each row from the first on; the other rows are left without an entry there.
-pub fn reduce(rows: &mut [Vec<Rational>], n: usize) -> Vec<usize> {
-    let mut pivots: Vec<usize> = Vec::new();
+/// included. Gives, for each row from the first on, where it stood before and the column of its pivot; the other rows are left
+/// without an entry there.
+pub fn reduce(rows: &mut [Vec<Rational>], n: usize) -> Vec<[usize; 2]> {
+    let mut order: Vec<usize> = (0..rows.len()).collect();
+    let mut pivots: Vec<[usize; 2]> = Vec::new();
     for column in 0..n {
         let top = pivots.len();
         let Some(found) = (top..rows.len()).find(|&r| !rows[r][column].is_zero()) else {
             continue;
         };
         rows.swap(top, found);
+        order.swap(top, found);
         let scale = rows[top][column].recip();
         let entries = rows[top].iter().enumerate().filter(|(_, k)| !k.is_zero());
         let pivot_row: Vec<(usize, Rational)> =
@@ -30,7 +33,7 @@ pub fn reduce(rows: &mut [Vec<Rational>], n: usize) -> Vec<usize> {
         for (j, k) in pivot_row {
             rows[top][j] = k;
         }
-        pivots.push(column);
+        pivots.push([order[top], column]);
     }
     pivots
 }

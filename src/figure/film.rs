@@ -221,16 +221,9 @@ struct Going<'f> {
 
 /// The values of a stage, with the bodies where they are then.
 fn placed(stage: &Stage, values: &Values, state: &State) -> Values {
-    let mut values = values.clone();
-    for (names, body) in stage.places.iter().zip(&state.bodies) {
-        let place = body.components().into_iter().take(3);
-        for (name, value) in names.iter().zip(place) {
-            if let Ok(value) = value {
-                values.point.values.insert(name.clone(), *value);
-            }
-        }
+    Values {
+        point: follow::at_places(stage, state, &values.point),
     }
-    values
 }
 
 /// Where bodies are joined to fixed ones, as far as that has a place.

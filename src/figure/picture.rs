@@ -12,7 +12,7 @@ use super::sheet::Sheet;
 use super::stage::{Moment, Stage};
 use crate::expr::{Expr, Point};
 use crate::numeric::system::Unknown;
-use crate::numeric::{Motion, assemble, given, motion, motion_of, solve_f64};
+use crate::numeric::{Motion, motion_of, solve_f64, solved};
 use crate::scene::Ask;
 
 /// Longest arrow in pixels.
@@ -23,11 +23,10 @@ const SHORT: f64 = 24.0;
 /// The motion after at the values the scene is drawn at; `None` where the equations contradict each other.
 pub fn outcome(stage: &Stage) -> Option<Motion<f64>> {
     let point: &Point<f64> = &stage.values.point;
-    let given = given(stage.scene, point).ok()?;
-    let system = assemble(&given);
-    let solution = solve_f64(&system).ok()?;
-    let finite = solution.values.iter().all(|v| v.is_finite());
-    finite.then(|| motion(&given, &system, &solution))
+    let found = solved(stage.scene, point, solve_f64).ok()?;
+    let rates = found.motion.velocity.iter().flatten();
+    let mut rates = rates.chain(&found.motion.spin);
+    rates.all(|v| v.is_finite()).then_some(found.motion)
 }
 
 pub(super) fn arrow_length(value: f64, most: f64) -> f64 {

@@ -6,7 +6,7 @@
 use super::energy::{energy_after, energy_before, energy_lost, velocity_after};
 use std::fmt;
 
-use super::friction::settle;
+use super::friction::{Followed, settle};
 use super::given::{Given, GivenImpulse, GivenLaw, Undefined, given, vector};
 use super::number::{Number, dot};
 use super::path::NoPath;
@@ -23,6 +23,32 @@ pub enum Answer<T> {
     Scalar(T),
     /// Components along x and y.
     Vector([T; 2]),
+}
+
+impl<T> Answer<T> {
+    /// The same in another kind of number.
+    pub fn map<U>(self, number: impl Fn(T) -> U) -> Answer<U> {
+        match self {
+            Answer::Scalar(value) => Answer::Scalar(number(value)),
+            Answer::Vector(v) => Answer::Vector(v.map(number)),
+        }
+    }
+
+    /// What is appended to the name of the question, and the number.
+    pub fn components(self) -> Vec<(&'static str, T)> {
+        match self {
+            Answer::Scalar(value) => vec![("", value)],
+            Answer::Vector([x, y]) => vec![("_x", x), ("_y", y)],
+        }
+    }
+
+    /// The number, or the component of a vector along x (0) or y (1).
+    pub fn component(self, axis: Option<usize>) -> Option<T> {
+        match self {
+            Answer::Scalar(value) => Some(value),
+            Answer::Vector(v) => v.into_iter().nth(axis?),
+        }
+    }
 }
 
 /// Why a question has no number.
@@ -65,20 +91,44 @@ impl std::error::Error for NoAnswer {}
 /// A scene's questions, each with its number or the reason why it has none.
 pub type Answered<T> = Vec<(String, Result<Answer<T>, NoAnswer>)>;
 
+/// One impact in numbers.
+#[derive(Clone, Debug)]
+pub struct Solved<T> {
+    /// What the scene gives, with the impulse of a contact with friction as it was found.
+    pub given: Given<T>,
+    /// What that contact did, where there is one.
+    pub followed: Option<Followed<T>>,
+    /// The motion just after.
+    pub motion: Motion<T>,
+}
+
+/// Solves the impact of a scene at a point.
+pub fn solved<T: Number + PartialOrd>(
+    scene: &Scene,
+    at: &Point<T>,
+    solve: impl Fn(&System<T>) -> Result<Solution<T>, Contradiction>,
+) -> Result<Solved<T>, NoAnswer> {
+    let given = given(scene, at).map_err(NoAnswer::Undefined)?;
+    let (given, followed) = match settle(&given, &solve)? {
+        Some((settled, followed)) => (settled, Some(followed)),
+        None => (given, None),
+    };
+    let system = assemble(&given);
+    let solution = solve(&system).map_err(|c| NoAnswer::Contradiction(c.laws(&system)))?;
+    Ok(Solved {
+        motion: motion(&given, &system, &solution),
+        given,
+        followed,
+    })
+}
+
 /// Solves a scene at a point with the given solver and answers every question that asks for a number.
 pub fn answers<T: Number + PartialOrd>(
     scene: &Scene,
     at: &Point<T>,
     solve: impl Fn(&System<T>) -> Result<Solution<T>, Contradiction>,
 ) -> Result<Answered<T>, NoAnswer> {
-    let given = given(scene, at).map_err(NoAnswer::Undefined)?;
-    let given = match settle(&given, &solve)? {
-        Some((settled, _)) => settled,
-        None => given,
-    };
-    let system = assemble(&given);
-    let solution = solve(&system).map_err(|c| NoAnswer::Contradiction(c.laws(&system)))?;
-    let motion = motion(&given, &system, &solution);
+    let Solved { given, motion, .. } = solved(scene, at, solve)?;
     let numbers = scene
         .asked_of_impact()
         .map(|q| (q.name.clone(), answer(&q.ask, at, &given, &motion)));

@@ -4,7 +4,7 @@
 //! every unknown the double nearest to the true value, and what told: exact fractions rounded once, or enclosures of more
 //! and more bits where a value is irrational.
 
-use super::answer::{Answer, NoAnswer, answer};
+use super::answer::{NoAnswer, answer};
 use super::exact::solve_exact;
 use super::field::eliminate;
 use super::given::{Given, Reason, given};
@@ -171,10 +171,8 @@ fn told<T: Number>(
         .asked_of_impact()
         .filter(|q| !matches!(q.ask, Ask::Balance { .. } | Ask::Matrix { .. }));
     let answers = asked.map(|q| {
-        let found = answer(&q.ask, at, numbers, &motion).map(|a| match a {
-            Answer::Scalar(v) => vec![rounded(&v)],
-            Answer::Vector(v) => v.iter().map(&rounded).collect(),
-        });
+        let found = answer(&q.ask, at, numbers, &motion);
+        let found = found.map(|a| a.components().iter().map(|(_, v)| rounded(v)).collect());
         (q.name.clone(), found)
     });
     CorrectAnswers {

@@ -44,10 +44,7 @@ fn with_friction(scene: &Scene) -> Result<Answered<f64>, NoAnswer> {
     if let Ok(point) = exact_values(scene)
         && let Ok(found) = answers(scene, &point, solve_exact)
     {
-        let answer = |a: Answer<Rational>| match a {
-            Answer::Scalar(x) => Answer::Scalar(to_f64(&x)),
-            Answer::Vector(v) => Answer::Vector(v.map(|x| to_f64(&x))),
-        };
+        let answer = |a: Answer<Rational>| a.map(|x| to_f64(&x));
         let named = found.into_iter();
         return Ok(named.map(|(name, a)| (name, a.map(answer))).collect());
     }

@@ -1,11 +1,12 @@
 //! Exact solution: elimination over fractions, and what the equations leave open or how they contradict each other.
 
-use num_traits::{One, Zero};
+use num_traits::Zero;
 
 use super::field::eliminate;
 use super::solution::{Contradiction, Solution};
 use super::system::System;
-use crate::expr::Rational;
+use crate::expr::rows::reduce;
+use crate::expr::{Int, Rational};
 
 /// Solves a system exactly, also where it determines only some unknowns.
 pub fn solve_exact(system: &System<Rational>) -> Result<Solution<Rational>, Contradiction> {
@@ -21,55 +22,17 @@ pub(super) fn reduced(
     system: &System<Rational>,
 ) -> Result<(Solution<Rational>, Vec<[usize; 2]>), Contradiction> {
     let (n, m) = (system.unknowns.len(), system.laws.len());
-    let mut rows: Vec<Vec<Rational>> = (0..m)
-        .map(|i| {
-            let origin = (0..m).map(|j| {
-                if i == j {
-                    Rational::one()
-                } else {
-                    Rational::zero()
-                }
-            });
-            system
-                .row(i)
-                .iter()
-                .cloned()
-                .chain([system.right[i].clone()])
-                .chain(origin)
-                .collect()
-        })
-        .collect();
-    let mut order: Vec<usize> = (0..m).collect();
-    let mut pivots: Vec<[usize; 2]> = Vec::new();
-    for column in 0..n {
-        let rank = pivots.len();
-        let Some(found) = (rank..m).find(|r| !rows[*r][column].is_zero()) else {
-            continue;
-        };
-        rows.swap(rank, found);
-        order.swap(rank, found);
-        let scale = rows[rank][column].recip();
-        for value in &mut rows[rank] {
-            *value *= &scale;
-        }
-        let line = rows[rank].clone();
-        for (r, row) in rows.iter_mut().enumerate() {
-            if r == rank || row[column].is_zero() {
-                continue;
-            }
-            let factor = row[column].clone();
-            for (cell, entry) in row.iter_mut().zip(&line) {
-                if !entry.is_zero() {
-                    *cell -= &factor * entry;
-                }
-            }
-        }
-        pivots.push([order[rank], column]);
-    }
+    let row = |i: usize| {
+        let origin = (0..m).map(|j| Rational::from(Int::from(i64::from(i == j))));
+        let left = system.row(i).iter().chain([&system.right[i]]).cloned();
+        left.chain(origin).collect()
+    };
+    let mut rows: Vec<Vec<Rational>> = (0..m).map(row).collect();
+    let pivots = reduce(&mut rows, n);
     let rank = pivots.len();
     if let Some(row) = rows[rank..].iter().find(|row| !row[n].is_zero()) {
         let rows = (0..m).filter(|j| !row[n + 1 + j].is_zero()).collect();
-        return Err(Contradiction { rows, rank });
+        return Err(Contradiction { rows });
     }
     let mut values = vec![Rational::zero(); n];
     let mut unique = vec![false; n];

@@ -4,14 +4,14 @@
 //! triangular factor shows no vanishing pivot is regular. Where one seems to vanish, a mass of 1e−15 beside one of 1 may be
 //! the reason: enclosures then tell whether any matrix within a few roundings of this one, entry by entry, is singular. The
 //! values are the nearest doubles, by enclosures or fractions, and by LU with refinement only beyond 128 unknowns: a light
-//! body loses no digits to a heavy one, and a contact at rest is at rest. All else goes to elimination with complete
-//! pivoting, which tells which unknowns are unique. Rank in doubles is a judgement (threshold 64·n·2⁻⁵² on the scaled matrix); rank in fractions, from `exact`, is
-//! a fact.
+//! body loses no digits to a heavy one, and a contact at rest is at rest. All else goes to `least`, which tells which
+//! unknowns are unique. Rank in doubles is a judgement; rank in fractions, from `exact`, is a fact.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::exact::solve_exact;
 use super::field::eliminate;
+use super::least::{NoSolution, solve};
 use super::solution::{Contradiction, Solution};
 use super::system::System;
 use crate::expr::number::{from_f64, to_f64};
@@ -20,16 +20,9 @@ use crate::interval::{Big, Enclosure, Outcome};
 
 /// Solves a system in doubles.
 pub fn solve_f64(system: &System<f64>) -> Result<Solution<f64>, Contradiction> {
-    let (m, n) = (system.laws.len(), system.unknowns.len());
-    if n == 0 {
-        let rows: Vec<usize> = (0..m).filter(|i| system.right[*i] != 0.0).collect();
-        return match rows.is_empty() {
-            true => Ok(Solution::determined(Vec::new())),
-            false => Err(Contradiction { rows, rank: 0 }),
-        };
-    }
-    let scaled = Scaled::of(system);
-    if m == n {
+    let n = system.unknowns.len();
+    if system.laws.len() == n && n > 0 {
+        let scaled = Scaled::of(system);
         let near = lu(&scaled, 2, threshold(n));
         let values =
             nearest(system).filter(|_| near.is_some() || is_regular(system, &scaled.columns));
@@ -37,19 +30,32 @@ pub fn solve_f64(system: &System<f64>) -> Result<Solution<f64>, Contradiction> {
             return Ok(Solution::determined(values));
         }
     }
-    by_complete_pivoting(&scaled, threshold(n))
+    of_any_shape(system)
 }
 
-/// The same where the last digits do not matter: LU with refinement, and complete pivoting where a pivot seems to vanish. A
-/// singular system costs no more than a regular one.
+/// The same where the last digits do not matter: LU with refinement, and what equations of any shape get where a pivot seems
+/// to vanish. A singular system costs no more than a regular one.
 pub fn solve_roughly(system: &System<f64>) -> Result<Solution<f64>, Contradiction> {
-    if let Some(values) = lu_scaled(system, 2) {
-        return Ok(Solution::determined(values));
+    match lu_scaled(system, 2) {
+        Some(values) => Ok(Solution::determined(values)),
+        None => of_any_shape(system),
     }
-    match system.unknowns.len() {
-        0 => solve_f64(system),
-        n => by_complete_pivoting(&Scaled::of(system), threshold(n)),
-    }
+}
+
+/// A solution that tells which unknowns are unique.
+fn of_any_shape(system: &System<f64>) -> Result<Solution<f64>, Contradiction> {
+    let (m, n) = (system.laws.len(), system.unknowns.len());
+    let matrix = DMatrix::from_row_slice(m, n, &system.matrix);
+    let found = match solve(&matrix, &DVector::from_row_slice(&system.right)) {
+        Ok(found) => found,
+        Err(NoSolution::Contradiction(rows)) => return Err(Contradiction { rows }),
+        Err(NoSolution::OutOfRange) => return Err(Contradiction { rows: Vec::new() }),
+    };
+    Ok(Solution {
+        unique: (0..n).map(|i| found.is_unique(i)).collect(),
+        rank: found.rank(),
+        values: found.values,
+    })
 }
 
 /// What counts as zero in a scaled matrix of n unknowns.
@@ -137,78 +143,6 @@ fn is_regular(system: &System<f64>, units: &[f64]) -> bool {
         vector = next;
     }
     radius < 1.0 / (64.0 * f64::EPSILON)
-}
-
-/// Gauss–Jordan with complete pivoting. What remains below the threshold counts as zero, on the left and on the right.
-fn by_complete_pivoting(scaled: &Scaled, threshold: f64) -> Result<Solution<f64>, Contradiction> {
-    let (m, n) = (scaled.right.len(), scaled.columns.len());
-    let mut rows: Vec<Vec<f64>> = (0..m)
-        .map(|i| {
-            scaled.matrix[i * n..(i + 1) * n]
-                .iter()
-                .copied()
-                .chain([scaled.right[i]])
-                .collect()
-        })
-        .collect();
-    let mut origin: Vec<usize> = (0..m).collect();
-    let mut pivots: Vec<usize> = Vec::new();
-    while pivots.len() < m.min(n) {
-        let rank = pivots.len();
-        let open = (rank..m)
-            .flat_map(|r| (0..n).map(move |c| (r, c)))
-            .filter(|(_, c)| !pivots.contains(c));
-        let largest = open
-            .map(|(r, c)| (rows[r][c].abs(), r, c))
-            .fold((0.0, 0, 0), |a, b| if b.0 > a.0 { b } else { a });
-        let (size, row, column) = largest;
-        // Nothing can be said past an overflow.
-        if size <= threshold || !size.is_finite() {
-            break;
-        }
-        rows.swap(rank, row);
-        origin.swap(rank, row);
-        let pivot = rows[rank][column];
-        rows[rank].iter_mut().for_each(|v| *v /= pivot);
-        let line = rows[rank].clone();
-        for (r, other) in rows.iter_mut().enumerate() {
-            let factor = other[column];
-            if r != rank && factor != 0.0 {
-                other
-                    .iter_mut()
-                    .zip(&line)
-                    .for_each(|(v, p)| *v -= factor * p);
-                other[column] = 0.0;
-            }
-        }
-        pivots.push(column);
-    }
-    let rank = pivots.len();
-    let size = scaled
-        .right
-        .iter()
-        .chain(rows[..rank].iter().map(|r| &r[n]))
-        .fold(0.0, |a: f64, v| a.max(v.abs()));
-    let doubtful = |r: &usize| rows[*r][n].is_nan() || rows[*r][n].abs() > 1e3 * threshold * size;
-    let mut contradicting: Vec<usize> = (rank..m).filter(doubtful).map(|r| origin[r]).collect();
-    if !contradicting.is_empty() {
-        contradicting.sort_unstable();
-        return Err(Contradiction {
-            rows: contradicting,
-            rank,
-        });
-    }
-    let mut values = vec![0.0; n];
-    let mut unique = vec![false; n];
-    for (row, &column) in rows.iter().zip(&pivots) {
-        values[column] = row[n] * scaled.columns[column];
-        unique[column] = (0..n).all(|c| pivots.contains(&c) || row[c].abs() <= 1e3 * threshold);
-    }
-    Ok(Solution {
-        values,
-        unique,
-        rank,
-    })
 }
 
 /// A system whose largest entries per row and column lie near one.

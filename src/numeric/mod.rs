@@ -16,6 +16,7 @@ pub mod friction;
 pub mod given;
 pub mod invariants;
 mod jet;
+mod least;
 pub mod number;
 pub mod path;
 pub mod points;
@@ -29,7 +30,7 @@ pub mod values;
 #[cfg(test)]
 mod tests;
 
-pub use answer::{Answer, Answered, NoAnswer, answer, answers};
+pub use answer::{Answer, Answered, NoAnswer, Solved, answer, answers, solved};
 pub use correct::{Correct, CorrectAnswers, How, correct};
 pub use doubles::doubles;
 pub use energy::{energy_after, energy_before, energy_lost};

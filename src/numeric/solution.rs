@@ -39,16 +39,14 @@ impl<T> Solution<T> {
 pub struct Contradiction {
     /// Rows of the system of which a combination reads 0 = 1; empty where rounding hides which.
     pub rows: Vec<usize>,
-    /// Number of independent left sides.
-    pub rank: usize,
 }
 
 impl fmt::Display for Contradiction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "the equations contradict each other (rank {}; rows {:?})",
-            self.rank, self.rows
+            "the equations contradict each other (rows {:?})",
+            self.rows
         )
     }
 }

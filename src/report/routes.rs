@@ -14,8 +14,8 @@ use crate::emit::{Atoms, Program, arranged, as_derived, signs, without_angles};
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Int, Point, Rational, Symbol};
 use crate::numeric::{
-    Answer, Given, Motion, Number, Solution, System, answer, assemble, given, lu_scaled, motion,
-    rounded, solve_exact,
+    Given, Motion, Number, Solution, System, answer, assemble, given, lu_scaled, motion, rounded,
+    solve_exact,
 };
 use crate::scene::{Ask, Scene};
 
@@ -305,10 +305,8 @@ impl<'a> Prepared<'a> {
         let is_number = |a: &Ask| !matches!(a, Ask::Balance { .. } | Ask::Matrix { .. });
         let asked = self.scene.asked_of_impact();
         for q in asked.filter(|q| is_number(&q.ask)) {
-            match answer(&q.ask, at, numbers, motion).ok()? {
-                Answer::Scalar(v) => out.push(v),
-                Answer::Vector([x, y]) => out.extend([x, y]),
-            }
+            let found = answer(&q.ask, at, numbers, motion).ok()?;
+            out.extend(found.components().into_iter().map(|(_, v)| v));
         }
         Some(out)
     }

@@ -342,6 +342,20 @@ pub struct OneSided {
 }
 
 impl OneSided {
+    /// What it is where it acts: a contact without rebound.
+    pub fn acting(&self) -> Contact {
+        Contact {
+            name: self.name.clone(),
+            bodies: self.bodies,
+            at: self.at.clone(),
+            normal: Some(self.normal.clone()),
+            law: ContactLaw::Frictionless {
+                restitution: Expr::zero(),
+            },
+            passes: false,
+        }
+    }
+
     /// Where it acts, as seen from a place: of a string only the part across its pull, since it acts anywhere on its line.
     pub fn gap(&self, from: &Vector) -> Vector {
         let gap = minus(&self.at, from);

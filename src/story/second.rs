@@ -162,14 +162,7 @@ fn way_of(scene: &Scene, stages: &[StageTold], followed: &Followed, point: &Poin
         };
         let acts = |case: &Case| match &passed.what {
             What::Motion(_) => false,
-            What::Impact(impact) => match impact.acting.as_slice() {
-                [] => case.active.is_empty(),
-                [acting] => {
-                    acting.len() == case.active.len()
-                        && acting.iter().all(|name| case.active.contains(name))
-                }
-                _ => false,
-            },
+            What::Impact(impact) => impact.is_by(&case.active),
         };
         let is_so = |case: &Case| acts(case) && case.conditions.iter().all(|(_, e)| holds(e));
         let outcome = match told.cases.as_slice() {
@@ -190,30 +183,20 @@ fn passed<'f>(scene: &Scene, followed: &'f Followed, told: &StageTold) -> Option
 
 impl Units {
     fn of(followed: &Followed) -> Units {
-        let solids = || followed.solids.iter().filter(|s| s.mass > 0.0);
-        let passed = || followed.stages.iter().filter_map(|s| s.as_ref().ok());
-        let states = || passed().flat_map(|p| [&p.before, &p.after]);
-        let bodies = || states().flat_map(|s| &s.bodies);
-        let largest = |all: &mut dyn Iterator<Item = f64>| all.fold(0.0f64, |a, v| a.max(v.abs()));
-        let known = |c: &Component| c.clone().unwrap_or(0.0);
-        let radii = solids().map(|s| (s.inertia / s.mass).sqrt());
-        let centers = bodies().flat_map(|b| b.center.iter().map(known));
-        let length = largest(&mut radii.chain(centers));
-        let speeds = bodies().flat_map(|b| b.velocity.iter().map(known));
-        let spins = bodies().map(|b| known(&b.spin) * length);
+        let (sizes, heavy) = (followed.sizes(), followed.sizes().mass);
         // Where everything is at rest, before and after, an impulse tells what is fast.
-        let heavy = largest(&mut solids().map(|s| s.mass));
-        let impulses = passed().filter_map(|p| match &p.what {
+        let passed = followed.stages.iter().filter_map(|s| s.as_ref().ok());
+        let impulses = passed.filter_map(|p| match &p.what {
             What::Impact(impact) => Some(impact),
             What::Motion(_) => None,
         });
         let impulses = impulses.flat_map(|i| i.contacts.iter().chain(&i.hinges).chain(&i.blows));
-        let kicks = impulses.flat_map(|i| i.impulse.iter().map(|c| known(c) / heavy));
-        let speed = largest(&mut speeds.chain(spins).chain(kicks));
+        let parts = impulses.flat_map(|i| &i.impulse).flatten();
+        let speed = parts.fold(sizes.speed, |a, p| a.max(p.abs() / heavy));
         let or_one = |v: f64| if v > 0.0 { v } else { 1.0 };
         Units {
             mass: or_one(heavy),
-            length: or_one(length),
+            length: or_one(sizes.length),
             speed: or_one(speed),
         }
     }

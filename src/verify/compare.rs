@@ -186,16 +186,12 @@ fn row<T: Number + PartialOrd>(
     at: &Point<T>,
     solve: impl Fn(&numeric::System<T>) -> Result<numeric::Solution<T>, numeric::Contradiction>,
 ) -> Result<Impact<T>, NoAnswer> {
-    let given = numeric::given(scene, at).map_err(NoAnswer::Undefined)?;
-    let Some((settled, followed)) = numeric::settle(&given, &solve)? else {
-        return Err(NoAnswer::NotANumber);
-    };
-    let system = numeric::assemble(&settled);
-    let solution = solve(&system).map_err(|c| NoAnswer::Contradiction(c.laws(&system)))?;
-    let motion = numeric::motion(&settled, &system, &solution);
+    let numeric::Solved {
+        followed, motion, ..
+    } = numeric::solved(scene, at, solve)?;
     Ok(Impact {
-        given,
-        followed,
+        given: numeric::given(scene, at).map_err(NoAnswer::Undefined)?,
+        followed: followed.ok_or(NoAnswer::NotANumber)?,
         motion,
     })
 }

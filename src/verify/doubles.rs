@@ -80,7 +80,7 @@ pub(super) fn check(
 pub(super) fn run(scene: &Scene, point: Point<f64>) -> Option<Run<f64>> {
     super::run(scene, point, |system| {
         let refined = numeric::lu_scaled(system, 2).map(numeric::Solution::determined);
-        refined.or_else(|| numeric::solve_f64(system).ok())
+        refined.map_or_else(|| numeric::solve_f64(system), Ok)
     })
 }
 

@@ -309,12 +309,12 @@ fn satisfied(sign: std::cmp::Ordering, when: &When) -> bool {
 /// The impact at the values of the scene.
 fn at_values(scene: &Scene) -> Option<AtValues> {
     if let Ok(point) = numeric::exact_values(scene)
-        && let Some((given, followed)) = follow(scene, &point, numeric::solve_exact)
+        && let Ok((given, followed)) = followed(scene, &point, numeric::solve_exact)
     {
         return Some(at_values_of(&given, &followed.path, &to_f64));
     }
     let point = numeric::values(scene).ok()?;
-    let (given, followed) = follow(scene, &point, numeric::solve_f64)?;
+    let (given, followed) = followed(scene, &point, numeric::solve_f64).ok()?;
     Some(at_values_of(&given, &followed.path, &|x: &f64| *x))
 }
 
@@ -331,15 +331,7 @@ pub(super) fn at_values_of<T: Number>(
     }
 }
 
-fn follow<T: Number + PartialOrd>(
-    scene: &Scene,
-    point: &Point<T>,
-    solve: impl Fn(&numeric::System<T>) -> Result<numeric::Solution<T>, numeric::Contradiction>,
-) -> Option<(numeric::Given<T>, Followed<T>)> {
-    followed(scene, point, solve).ok()
-}
-
-/// The same; a path without an end is told from a scene without numbers.
+/// The path at a point; one without an end is told from a scene without numbers.
 fn followed<T: Number + PartialOrd>(
     scene: &Scene,
     point: &Point<T>,
@@ -370,7 +362,7 @@ fn against_path(scene: &Scene, table: &Table, checks: &mut Vec<Check>) {
             // Stronge's root is no fraction at most points: the mode is decided in fractions, the impulse in doubles.
             Err(Some(NoPath::Irrational)) => {
                 let rounded = numeric::rounded(&exact);
-                let Some((_, followed)) = follow(scene, &rounded, numeric::solve_f64) else {
+                let Ok((_, followed)) = followed(scene, &rounded, numeric::solve_f64) else {
                     continue;
                 };
                 let impulse = &followed.path.end().impulse;

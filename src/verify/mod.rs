@@ -205,7 +205,7 @@ fn runs(
     needed: &numeric::Needed,
     points: Vec<Point<Rational>>,
 ) -> Vec<Run<Rational>> {
-    let exact = |point| run(scene, point, |system| numeric::solve_exact(system).ok());
+    let exact = |point| run(scene, point, numeric::solve_exact);
     let mut runs: Vec<_> = points.into_iter().filter_map(exact).collect();
     if runs.is_empty() {
         let random = |seed| numeric::random_point(needed, &scene.domains, seed);
@@ -217,15 +217,12 @@ fn runs(
     runs
 }
 
-fn run<T: numeric::Number>(
+fn run<T: numeric::Number + PartialOrd>(
     scene: &Scene,
     point: Point<T>,
-    solve: impl Fn(&numeric::System<T>) -> Option<numeric::Solution<T>>,
+    solve: impl Fn(&numeric::System<T>) -> Result<numeric::Solution<T>, numeric::Contradiction>,
 ) -> Option<Run<T>> {
-    let given = numeric::given(scene, &point).ok()?;
-    let system = numeric::assemble(&given);
-    let solution = solve(&system)?;
-    let motion = numeric::motion(&given, &system, &solution);
+    let numeric::Solved { given, motion, .. } = numeric::solved(scene, &point, solve).ok()?;
     Some(Run {
         point,
         given,
@@ -320,10 +317,8 @@ fn asked(scene: &Scene, answer: &Answer) -> Option<Ask> {
 
 /// The value of what is asked in the independent solution.
 fn numeric_value<T: numeric::Number>(ask: &Ask, run: &Run<T>) -> Option<T> {
-    match numeric::answer(ask, &run.point, &run.given, &run.motion).ok()? {
-        numeric::Answer::Scalar(value) => Some(value),
-        numeric::Answer::Vector(_) => None,
-    }
+    let found = numeric::answer(ask, &run.point, &run.given, &run.motion);
+    found.ok()?.component(None)
 }
 
 fn exact_points(

@@ -71,10 +71,8 @@ pub fn named(
     if question.stage? >= followed.stages.len() {
         return None;
     }
-    match answer(scene, followed, question, values).ok()? {
-        Answer::Scalar(value) => Some(value),
-        Answer::Vector(v) => Some(v[usize::from(name.ends_with("_y"))]),
-    }
+    let found = answer(scene, followed, question, values).ok()?;
+    found.component(Some(usize::from(name.ends_with("_y"))))
 }
 
 /// The number or vector that a question about a stage asks for, or about the one impact of a scene without stages.

@@ -31,7 +31,6 @@
 
 mod answer;
 mod impact;
-mod least;
 mod lost;
 mod mechanism;
 mod motion;
@@ -92,6 +91,40 @@ pub struct Followed {
     pub solids: Vec<Solid>,
     /// The stages in the order of the file, or the one impact of a scene without stages.
     pub stages: Vec<Result<Passed, Lost>>,
+}
+
+/// How heavy, large and fast the bodies of a scene are; 0 where nothing is.
+#[derive(Clone, Copy, Debug)]
+pub struct Sizes {
+    /// The largest mass \[kg\].
+    pub mass: f64,
+    /// The largest coordinate of a center, or radius of gyration \[m\].
+    pub length: f64,
+    /// The largest speed of a center, or by a spin at that length [m/s].
+    pub speed: f64,
+}
+
+impl Followed {
+    /// Sizes in all stages: a speed that comes out as the root of a difference is known to a part of the largest ones only.
+    pub fn sizes(&self) -> Sizes {
+        let solids = || self.solids.iter().filter(|s| s.mass > 0.0);
+        let passed = self.stages.iter().filter_map(|s| s.as_ref().ok());
+        let states = passed.flat_map(|p| [&p.before, &p.after]);
+        let bodies: Vec<&BodyState> = states.flat_map(|s| &s.bodies).collect();
+        let largest =
+            |all: &mut dyn Iterator<Item = f64>| all.fold(0.0, |a: f64, v| a.max(v.abs()));
+        let known = |c: &Component| c.clone().unwrap_or(0.0);
+        let radii = solids().map(|s| (s.inertia / s.mass).sqrt());
+        let centers = bodies.iter().flat_map(|b| b.center.iter().map(known));
+        let length = largest(&mut radii.chain(centers));
+        let speeds = bodies.iter().flat_map(|b| b.velocity.iter().map(known));
+        let spins = bodies.iter().map(|b| known(&b.spin) * length);
+        Sizes {
+            mass: largest(&mut solids().map(|s| s.mass)),
+            length,
+            speed: largest(&mut speeds.chain(spins)),
+        }
+    }
 }
 
 /// The bodies of a scene in numbers, mass and inertia from their outlines.
@@ -155,7 +188,7 @@ fn with_earlier(
 }
 
 /// Values of the parameters, and of the places of a stage that begins like this.
-fn at_places(stage: &Stage, before: &State, values: &Point<f64>) -> Point<f64> {
+pub fn at_places(stage: &Stage, before: &State, values: &Point<f64>) -> Point<f64> {
     let mut out = values.clone();
     for (names, body) in stage.places.iter().zip(&before.bodies) {
         let [x, y] = &body.center;

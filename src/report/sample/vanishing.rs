@@ -3,7 +3,7 @@
 use super::{Draft, Family, Level, Sampler, approach, put, steps};
 use crate::domain::Limit;
 use crate::expr::Symbol;
-use crate::numeric::{Answer, Given, answers, rounded, solve_f64};
+use crate::numeric::{Given, answers, rounded, solve_f64};
 
 impl Sampler<'_> {
     /// Families that run towards the root of some quantity.
@@ -63,8 +63,7 @@ impl Sampler<'_> {
                     let flat: Vec<f64> = all
                         .into_iter()
                         .flat_map(|(_, a)| match a {
-                            Ok(Answer::Scalar(v)) => vec![v],
-                            Ok(Answer::Vector(v)) => v.to_vec(),
+                            Ok(a) => a.components().into_iter().map(|(_, v)| v).collect(),
                             Err(_) => vec![f64::NAN],
                         })
                         .collect();

@@ -11,7 +11,7 @@ use crate::expr::{Expr, Symbol};
 use crate::formula::Sentence;
 use crate::laws::Unknown;
 use crate::scene::{
-    Ask, Contact, ContactLaw, EnergyWhen, Hypothesis, ImpulseAt, OneSided, Question, Scene, Stage,
+    Ask, ContactLaw, EnergyWhen, Hypothesis, ImpulseAt, OneSided, Question, Scene, Stage,
 };
 use crate::story::{Case, Part, Refused, State};
 use crate::verify::possible::Rule;
@@ -307,16 +307,7 @@ pub(super) fn put_to_act(
                     along: Some(o.normal.clone()),
                 },
             ));
-            scene.contacts.push(Contact {
-                name: o.name.clone(),
-                bodies: o.bodies,
-                at: o.at.clone(),
-                normal: Some(o.normal.clone()),
-                law: ContactLaw::Frictionless {
-                    restitution: Expr::zero(),
-                },
-                passes: false,
-            });
+            scene.contacts.push(o.acting());
             let verb = if o.is_string { "pulls" } else { "pushes" };
             wanted.push((name, format!("`{}` {verb}", o.name)));
         } else {

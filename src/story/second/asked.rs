@@ -117,10 +117,8 @@ impl Asked<'_> {
                 self.formula(seen, &component(formula, answer), with, &[])
             }
             _ if self.is_of_motion(question) => {
-                match follow::answer(self.scene, &seen.followed, question, &seen.point).ok()? {
-                    Found::Scalar(value) => Some(value),
-                    Found::Vector(v) => Some(v[answer.axis()?]),
-                }
+                let found = follow::answer(self.scene, &seen.followed, question, &seen.point);
+                found.ok()?.component(answer.axis())
             }
             _ => None,
         }?;

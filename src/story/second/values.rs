@@ -85,11 +85,11 @@ impl Asked<'_> {
                 _ => follow::answer(self.scene, followed, question, point).ok(),
             };
             match found {
-                Some(Found::Scalar(value)) => _ = out.values.insert(name.into(), value),
-                Some(Found::Vector(v)) => out.values.extend(
-                    (["x", "y"].iter().zip(v))
-                        .map(|(axis, v)| (format!("{name}_{axis}").into(), v)),
-                ),
+                Some(found) => {
+                    let parts = found.components().into_iter();
+                    out.values
+                        .extend(parts.map(|(part, v)| (format!("{name}{part}").into(), v)));
+                }
                 None => return None,
             }
         }

@@ -193,22 +193,16 @@ impl Values {
     /// The values of the scene, where it gives all it needs and its equations have a solution there.
     pub fn of(scene: &Scene, derivation: &Derivation) -> Values {
         let exact = numeric::exact_values(scene).ok().and_then(|point| {
-            let given = numeric::given(scene, &point).ok()?;
-            let system = numeric::assemble(&given);
-            let solution = numeric::solve_exact(&system).ok()?;
-            let motion = numeric::motion(&given, &system, &solution);
-            Some(with_motion(scene, derivation, point, &motion, |_, x| {
-                x.clone()
-            }))
+            let found = numeric::solved(scene, &point, numeric::solve_exact).ok()?;
+            let same = |_, x: &Rational| x.clone();
+            Some(with_motion(scene, derivation, point, &found.motion, same))
         });
         if exact.is_some() {
             return Values { exact, close: None };
         }
         let close = numeric::values(scene).ok().and_then(|point| {
-            let given = numeric::given(scene, &point).ok()?;
-            let system = numeric::assemble(&given);
-            let solution = numeric::solve_f64(&system).ok()?;
-            let motion = numeric::motion(&given, &system, &solution);
+            let found = numeric::solved(scene, &point, numeric::solve_f64).ok()?;
+            let numeric::Solved { given, motion, .. } = found;
             let [speed, impulse] = sizes(&given, &motion);
             let around = |unknown: Unknown, x: &f64| {
                 let size = if unknown.is_impulse() { impulse } else { speed };

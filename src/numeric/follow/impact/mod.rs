@@ -39,6 +39,17 @@ pub struct Impact {
     pub breaches: Vec<Breach>,
 }
 
+impl Impact {
+    /// Whether it is these supports and strings that act, and no others.
+    pub fn is_by(&self, names: &[String]) -> bool {
+        match self.acting.as_slice() {
+            [] => names.is_empty(),
+            [acting] => acting.len() == names.len() && acting.iter().all(|a| names.contains(a)),
+            _ => false,
+        }
+    }
+}
+
 /// An impulse with its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Impulse {

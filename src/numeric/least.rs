@@ -46,6 +46,11 @@ impl Found {
         })
     }
 
+    /// How many of the equations are independent.
+    pub fn rank(&self) -> usize {
+        self.values.len() - self.null.ncols()
+    }
+
     /// Whether the value of an unknown is the only one.
     pub fn is_unique(&self, unknown: usize) -> bool {
         self.determines(&[(unknown, 1.0)])
