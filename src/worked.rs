@@ -156,9 +156,7 @@ impl Worked {
                 None if t.way.as_ref().is_some_and(|way| way.is_zero()) => Chapter::Rest,
                 None => Chapter::Motion(Course {
                     begin: story::beginning(t),
-                    end: t.after.center.clone(),
                     kind: t.placed.kind.clone(),
-                    clockwise: story::is_clockwise(t),
                     asked: self.asked_of(&t.placed.name),
                 }),
             };

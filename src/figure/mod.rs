@@ -38,10 +38,9 @@ pub use tikz::{COLORS, escaped, node};
 
 use std::collections::BTreeSet;
 
-use crate::expr::{Expr, Symbol, Vector};
-use crate::scene::{
-    Ask, BlowImpulse, ContactLaw, KnownQuantity, Question, Scene, Shape, StageKind,
-};
+use crate::expr::{Expr, Symbol};
+use crate::numeric::{Needed, needed};
+use crate::scene::{Ask, BlowImpulse, KnownQuantity, Question, Scene, Shape, StageKind};
 pub(crate) use label::visible;
 use panel::{Panel, finish, motion_panel, nothing, panel};
 pub(crate) use place::{Room, Spot};
@@ -168,12 +167,8 @@ pub enum Chapter {
 pub struct Course {
     /// The bodies at its beginning.
     pub begin: Scene,
-    /// Centers of mass at its end, by index of body; what is open there has no value.
-    pub end: Vec<Vector>,
     /// What happens.
     pub kind: StageKind,
-    /// Whether a rotation, or a rope that winds up, goes clockwise.
-    pub clockwise: bool,
     /// What is asked about it.
     pub asked: Vec<Question>,
 }
@@ -308,7 +303,6 @@ fn geometry(scene: &Scene) -> BTreeSet<Symbol> {
             .iter()
             .chain(contact.normal.iter().flatten())
             .for_each(&mut add);
-        if let ContactLaw::Frictionless { .. } = contact.law {}
     }
     for blow in &scene.blows {
         let (BlowImpulse::Given(v) | BlowImpulse::Along(v)) = &blow.impulse;
@@ -322,33 +316,11 @@ fn geometry(scene: &Scene) -> BTreeSet<Symbol> {
     out
 }
 
-/// The parameters that the motion just after hangs on.
+/// The parameters that the picture after hangs on: those of the picture before, and of the motion.
 fn bearing(scene: &Scene) -> BTreeSet<Symbol> {
+    let Needed { plain, angles } = needed(scene);
     let mut names = geometry(scene);
-    for body in scene.bodies.iter().filter(|b| !b.is_fixed()) {
-        names.extend(
-            [&body.mass, &body.inertia, &body.spin]
-                .into_iter()
-                .flat_map(Expr::symbols),
-        );
-        names.extend(body.velocity.iter().flat_map(Expr::symbols));
-    }
-    for contact in &scene.contacts {
-        match &contact.law {
-            ContactLaw::Frictionless { restitution } => names.extend(restitution.symbols()),
-            ContactLaw::Decided(decided) => {
-                names.extend(decided.law.mu.symbols());
-                names.extend(decided.law.restitution.symbols());
-            }
-            _ => {}
-        }
-    }
-    for blow in &scene.blows {
-        if let BlowImpulse::Given(given) = &blow.impulse {
-            names.extend(given.iter().flat_map(Expr::symbols));
-        }
-    }
-    names.extend(scene.after.iter().flat_map(|known| known.value.symbols()));
+    names.extend(plain.into_iter().chain(angles.into_keys()));
     names
 }
 

@@ -49,44 +49,38 @@ pub fn stand_in(scene: &Scene, kind: &StageKind) -> Scene {
     out
 }
 
-/// Draws the motion; `None` where something has no finite place.
+/// Draws the motion that is the only stage of the scene; `None` where it does not come to its end at these values, or something
+/// has no finite place.
 pub fn motion(scene: &Scene, values: &Values, course: &Course) -> Option<Sheet> {
     let mut sheet = Sheet::default();
     let sheet = &mut sheet;
     let kind = &course.kind;
     let begin = posed(scene, values)?;
-    let gone = Gone::new(scene, values, course, &begin)?;
-    let stage = spanning(
-        scene,
-        values,
-        begin.clone(),
-        &gone.all().collect::<Vec<_>>(),
-    )?;
-    let (from, end) = (&begin[gone.body], gone.end());
+    let gone = Gone::new(scene, values, &begin)?;
+    let all: Vec<Pose> = gone.ways.iter().flat_map(|w| w.1.clone()).collect();
+    let stage = spanning(scene, values, begin.clone(), &all)?;
+    let last = gone.last(&begin);
+    let (from, end) = (&begin[gone.body], &last[gone.body]);
     surroundings(&stage, sheet, kind, from, end)?;
+    let moved: Vec<[&Pose; 2]> = gone
+        .ways
+        .iter()
+        .map(|(b, _)| [&begin[*b], &last[*b]])
+        .collect();
     if let StageKind::Linkage(_) = kind {
-        let driven = gone.driven.iter().map(|(b, pose)| [&begin[*b], pose]);
-        stage.guides(sheet, &driven.chain([[from, end]]).collect::<Vec<_>>());
+        stage.guides(sheet, &moved);
     }
     for (i, pose) in begin.iter().enumerate() {
-        if !gone.moves(i) && !is_rolled_over(pose, end) {
+        if gone.way(i).is_empty() && !is_rolled_over(pose, end) {
             stage.body(sheet, pose, [0.0, 0.0]);
         }
     }
     // The beginning is broken lines, the end is the body as usual.
-    broken(&stage, sheet, from);
-    for (b, flown) in &gone.flying {
-        broken(&stage, sheet, &begin[*b]);
-        if let Some(last) = flown.last() {
-            stage.body(sheet, last, [0.0, 0.0]);
+    for [from, end] in &moved {
+        let pairs = from.outline().into_iter().zip(end.outline());
+        if pairs.into_iter().any(|(p, q)| apart(p, q) > 1e-9) {
+            broken(&stage, sheet, from);
         }
-        let points: Vec<Pair> = flown.iter().map(|pose| stage.px(pose.center)).collect();
-        trail(sheet, &points);
-    }
-    let mut last = begin.clone();
-    last[gone.body] = end.clone();
-    for (b, pose) in &gone.driven {
-        last[*b] = pose.clone();
     }
     if !matches!(kind, StageKind::Slide(_)) {
         for strand in stage.strands(kind, &begin)? {
@@ -96,22 +90,20 @@ pub fn motion(scene: &Scene, values: &Values, course: &Course) -> Option<Sheet> 
     for strand in stage.strands(kind, &last)? {
         stage.strand(sheet, &strand, false);
     }
-    for (b, pose) in &gone.driven {
-        broken(&stage, sheet, &begin[*b]);
-        stage.body(sheet, pose, [0.0, 0.0]);
+    for [_, end] in &moved {
+        stage.body(sheet, end, [0.0, 0.0]);
     }
-    stage.body(sheet, end, [0.0, 0.0]);
     if let StageKind::Slide(slide) = kind {
         stage.pressed(sheet, slide, end);
     }
-    for (b, pose) in &gone.carried {
-        sheet.circle(stage.px(begin[*b].center), 4.0, Line::dashed(Ink::Body));
-        stage.body(sheet, pose, [0.0, 0.0]);
-    }
     stage.hinges(sheet, &|_| true);
-    let points: Vec<Pair> = gone.way.iter().map(|pose| stage.px(pose.center)).collect();
-    trail(sheet, &points);
-    measures(&stage, sheet, course, &gone, &points);
+    for (b, way) in &gone.ways {
+        if *b == gone.body || matches!(kind, StageKind::Fall(_)) {
+            let points: Vec<Pair> = way.iter().map(|pose| stage.px(pose.center)).collect();
+            trail(sheet, &points);
+        }
+    }
+    measures(&stage, sheet, course, gone.turned, [from, end]);
     forces(&stage, sheet, kind, &gone);
     centers(&stage, sheet, &[gone.body]);
     for (pose, word) in [(from, "beginning"), (end, "end")] {
@@ -165,13 +157,16 @@ pub(super) fn surroundings(
 }
 
 /// What is known of the way: the angle, the length, the height, the string at both ends.
-fn measures(stage: &Stage, sheet: &mut Sheet, course: &Course, gone: &Gone, points: &[Pair]) {
-    let (Some(from), Some(first), Some(last)) = (gone.way.first(), points.first(), points.last())
-    else {
-        return;
-    };
+fn measures(
+    stage: &Stage,
+    sheet: &mut Sheet,
+    course: &Course,
+    turned: f64,
+    [from, end]: [&Pose; 2],
+) {
+    let [first, last] = [from, end].map(|pose| stage.px(pose.center));
     match &course.kind {
-        StageKind::Turn(turn) => angle(stage, sheet, course, turn, [from, gone.end()]),
+        StageKind::Turn(turn) => angle(stage, sheet, course, turn, (from, turned)),
         StageKind::Slide(slide) => {
             let asked = |ask: &Ask| matches!(ask, Ask::Distance);
             let label = match &slide.until {
@@ -179,7 +174,7 @@ fn measures(stage: &Stage, sheet: &mut Sheet, course: &Course, gone: &Gone, poin
                 _ => course.symbol(asked),
             };
             if let Some(label) = label {
-                beside(sheet, *first, *last, label);
+                beside(sheet, first, last, label);
             }
         }
         StageKind::Fall(fall) => {
@@ -187,14 +182,14 @@ fn measures(stage: &Stage, sheet: &mut Sheet, course: &Course, gone: &Gone, poin
             // Straight down the way itself is the height.
             let is_apart = (last[0] - first[0]).abs() > SHORTEST;
             match &fall.until {
-                FallEnd::Drop(h) => level(stage, sheet, [*first, corner], is_apart, h),
-                FallEnd::Range(s) => level(stage, sheet, [corner, *last], true, s),
+                FallEnd::Drop(h) => level(stage, sheet, [first, corner], is_apart, h),
+                FallEnd::Range(s) => level(stage, sheet, [corner, last], true, s),
                 FallEnd::Time(_) => {}
             }
         }
         StageKind::Wind(wind) => {
             if let Some(pole) = stage.spot(&wind.around) {
-                beside(sheet, pole, *last, Label::formula(&wind.to, stage.scene));
+                beside(sheet, pole, last, Label::formula(&wind.to, stage.scene));
             }
         }
         StageKind::Linkage(_) | StageKind::Impact { .. } => {}
@@ -221,18 +216,18 @@ fn broken(stage: &Stage, sheet: &mut Sheet, pose: &Pose) {
 }
 
 /// The angle a rotation goes through, at the point it turns about.
-fn angle(stage: &Stage, sheet: &mut Sheet, course: &Course, turn: &Turn, [from, end]: [&Pose; 2]) {
+fn angle(
+    stage: &Stage,
+    sheet: &mut Sheet,
+    course: &Course,
+    turn: &Turn,
+    (from, turned): (&Pose, f64),
+) {
     let Some(at) = stage.spot(&turn.about) else {
         return;
     };
-    let ray = |pose: &Pose| {
-        let p = stage.px(pose.center);
-        minus(p, at)
-    };
-    let (a, b) = (ray(from), ray(end));
-    let start = bearing(a);
-    let way = if course.clockwise { -1.0 } else { 1.0 };
-    let sweep = way * (way * (bearing(b) - start)).rem_euclid(TAU);
+    let a = minus(stage.px(from.center), at);
+    let (start, sweep) = (bearing(a), turned % TAU);
     // A center of mass there has its name already.
     if size(a) > 1.0 {
         sheet.wish(
@@ -244,7 +239,7 @@ fn angle(stage: &Stage, sheet: &mut Sheet, course: &Course, turn: &Turn, [from, 
     if size(a) < 8.0 || sweep.abs() < 0.03 {
         return;
     }
-    let reach = (0.55 * size(a).min(size(b))).clamp(16.0, 44.0);
+    let reach = (0.55 * size(a)).clamp(16.0, 44.0);
     let tip = |phi: f64, r: f64| polar(at, r, phi);
     for phi in [start, start + sweep] {
         sheet.segment(at, tip(phi, reach + 8.0), Line::dashed(Ink::Dimension), 1.0);
@@ -319,16 +314,18 @@ fn forces(stage: &Stage, sheet: &mut Sheet, kind: &StageKind, gone: &Gone) {
             Spot::Along { from: at, to },
         );
     };
-    let at = stage.px(gone.end().center);
+    let company = match kind {
+        StageKind::Turn(turn) => turn.bodies(),
+        StageKind::Slide(slide) => slide.company(),
+        _ => vec![gone.body],
+    };
+    let Some(at) = gone.middle(stage.scene, stage.values, &company) else {
+        return;
+    };
+    let at = stage.px(at);
     if let Some(g) = gravity {
-        let at = stage.px(gone.middle(stage.scene, stage.values));
-        let with: &[usize] = match kind {
-            StageKind::Turn(turn) => &turn.with,
-            StageKind::Slide(slide) => &slide.with,
-            _ => &[],
-        };
-        let masses = with.iter().chain([&gone.body]);
-        let mass = Expr::sum(masses.map(|b| stage.scene.bodies[*b].mass.clone()));
+        let masses = company.iter().map(|b| stage.scene.bodies[*b].mass.clone());
+        let mass = Expr::sum(masses);
         arrow(at, [at[0], at[1] - 40.0], &(&mass * g));
     }
     if let Some((force, direction)) = push

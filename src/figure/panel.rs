@@ -6,11 +6,11 @@ use super::sheet::{Item, SMALL, Sheet};
 use super::stage::Stage;
 use super::{
     Course, Drawing, Label, Piece, Room, Subject, Which, during, geometry, is_readable, label,
-    motion, picture, svg, values, words,
+    motion, picture, shown_at, svg, values, words,
 };
 use crate::numeric::Motion;
 use crate::numeric::system::Unknown;
-use crate::scene::Scene;
+use crate::scene::{self, Scene};
 
 /// Least width of a picture, in pixels.
 const COLUMN: f64 = 340.0;
@@ -127,14 +127,22 @@ pub(super) fn panel(stage: &Stage, motion: Option<&Motion<f64>>, which: Which) -
 }
 
 pub(super) fn motion_panel(name: &str, course: &Course) -> Panel {
-    let scene = motion::stand_in(&course.begin, &course.kind);
-    let values = values::representative(&scene);
+    let mut scene = motion::stand_in(&course.begin, &course.kind);
+    scene.stages = vec![scene::Stage {
+        name: name.to_string(),
+        kind: course.kind.clone(),
+        scene: course.begin.clone(),
+        ..scene::Stage::default()
+    }];
+    let values = values::Values {
+        point: shown_at(&scene),
+    };
     let sheet = is_readable(&scene)
         .then(|| motion::motion(&scene, &values, course))
         .flatten();
     let mut notes = Vec::new();
     if sheet.is_none() {
-        notes.push(String::from("Not drawn: something has no finite place."));
+        notes.push(String::from("Not drawn: at the values tried something has no finite place, or the motion does not come to its end."));
     }
     let sheet = sheet.unwrap_or_default();
     let labels = labels(&sheet);

@@ -54,23 +54,26 @@ fn sheets(scene: &Scene) -> Vec<Sheet> {
     sheets
 }
 
-/// The motions of a story, each in both senses.
+/// The motions of a story that begin as the file says.
 fn motions(scene: &Scene) -> Vec<Chapter> {
-    let stages = scene.stages.iter();
-    stages
-        .filter(|s| !matches!(s.kind, StageKind::Impact { .. }))
-        .flat_map(|s| {
-            [true, false].map(|clockwise| {
-                Chapter::Motion(Course {
-                    begin: s.scene.clone(),
-                    end: Vec::new(),
-                    kind: s.kind.clone(),
-                    clockwise,
-                    asked: Vec::new(),
-                })
-            })
-        })
-        .collect()
+    let stages = scene.stages.iter().filter(|s| s.from.is_none());
+    let motions = stages.filter(|s| !matches!(s.kind, StageKind::Impact { .. }));
+    motions.map(|s| Chapter::Motion(course(s))).collect()
+}
+
+/// A motion that begins as the file says.
+fn course(stage: &crate::scene::Stage) -> Course {
+    let mut begin = stage.scene.clone();
+    for (b, velocity, spin) in &stage.start {
+        let body = &mut begin.bodies[*b];
+        velocity.iter().for_each(|v| body.velocity.clone_from(v));
+        spin.iter().for_each(|w| body.spin.clone_from(w));
+    }
+    Course {
+        begin,
+        kind: stage.kind.clone(),
+        asked: Vec::new(),
+    }
 }
 
 #[test]
@@ -223,13 +226,7 @@ fn a_scene_is_drawn_at_values_that_keep_to_its_relations() {
 fn a_rise_is_marked_by_its_height_and_what_has_rolled_on_is_in_nobodys_way() {
     for (name, scene) in scenes() {
         for stage in &scene.stages {
-            let chapter = Chapter::Motion(Course {
-                begin: stage.scene.clone(),
-                end: Vec::new(),
-                kind: stage.kind.clone(),
-                clockwise: false,
-                asked: Vec::new(),
-            });
+            let chapter = Chapter::Motion(course(stage));
             if !matches!(stage.kind, StageKind::Fall(_)) {
                 continue;
             }
@@ -455,20 +452,14 @@ fn a_ladder_stands_between_its_wall_and_its_floor() {
     let slip = &scene.stages[0];
     let values = values::representative(&slip.scene);
     let stage = stage::stage(&slip.scene, &values).expect("a place on paper");
-    let course = Course {
-        begin: slip.scene.clone(),
-        end: Vec::new(),
-        kind: slip.kind.clone(),
-        clockwise: false,
-        asked: Vec::new(),
-    };
     let begin = stage.poses.clone();
-    let gone = way::Gone::new(&slip.scene, &values, &course, &begin).expect("a way");
+    let gone = way::Gone::new(&scene, &values, &begin).expect("a way");
+    let end = gone.last(&begin).swap_remove(0);
     let mut sheet = Sheet::default();
-    stage.guides(&mut sheet, &[[&begin[0], gone.end()]]);
+    stage.guides(&mut sheet, &[[&begin[0], &end]]);
     let room = sheet.room().expect("a wall and a floor");
     let corner = stage.px([0.0, 0.0]);
-    let foot = stage.px(gone.end().ends().expect("a rod")[0]);
+    let foot = stage.px(end.ends().expect("a rod")[0]);
     let top = stage.px(begin[0].ends().expect("a rod")[1]);
     assert!(room.low[0] < corner[0] && room.low[1] < corner[1]);
     assert!(room.high[0] > foot[0].max(top[0]) && room.high[1] > foot[1].max(top[1]));
