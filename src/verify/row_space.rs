@@ -7,10 +7,9 @@
 use num_traits::Zero;
 
 use crate::expr::rows::reduce;
-use crate::expr::{Expr, Function, Node, Point, Rational};
-use crate::numeric::number::dot;
-use crate::numeric::{self, Given, Law, System, Unknown};
-use crate::scene::{Ask, ImpulseAt, Scene};
+use crate::expr::{Expr, Function, Int, Node, Point, Rational};
+use crate::numeric::{self, Answer, Given, Law, Solution, System};
+use crate::scene::{Ask, Scene};
 
 /// What is found of a row.
 #[derive(Clone, PartialEq, Debug)]
@@ -244,76 +243,25 @@ fn column(
         })
     });
     let (question, axis) = asked.ok_or_else(|| format!("the scene asks for no {name}"))?;
-    let one = || Rational::from(crate::expr::Int::from(1));
-    let value = |v: &crate::expr::Vector| -> Result<[Rational; 2], String> {
-        match (v[0].evaluate(point), v[1].evaluate(point)) {
-            (Some(x), Some(y)) => Ok([x, y]),
-            _ => Err(format!("{name} has no exact value at a point")),
-        }
-    };
-    let direction = |along: &Option<crate::expr::Vector>| match (along, axis) {
-        (Some(along), None) => value(along),
-        (None, Some(0)) => Ok([one(), Rational::zero()]),
-        (None, Some(_)) => Ok([Rational::zero(), one()]),
-        _ => Err(format!("{name} is no component")),
-    };
-    let mut row = vec![Rational::zero(); laws.unknowns.len()];
-    let mut constant = Rational::zero();
-    let mut add = |unknown: Unknown, k: Rational| {
-        let column = laws.column(unknown);
-        column.map(|i| row[i] += k).is_some()
-    };
-    match &question.ask {
-        Ask::Velocity {
-            body,
-            point: at,
-            along,
-        } => {
-            let d = direction(along)?;
-            let place = match at {
-                Some((_, at)) => value(at)?,
-                None => given.bodies[*body].center.clone(),
-            };
-            let arm = given.bodies[*body].arm(&place);
-            let moving = add(Unknown::Velocity(*body, 0), d[0].clone());
-            add(Unknown::Velocity(*body, 1), d[1].clone());
-            add(Unknown::Spin(*body), &arm[0] * &d[1] - &arm[1] * &d[0]);
-            if !moving {
-                let v = given.bodies[*body].velocity_before(&place);
-                constant = &v[0] * &d[0] + &v[1] * &d[1];
-            }
-        }
-        Ask::Spin { body, clockwise } => {
-            let sign = if *clockwise { -one() } else { one() };
-            add(Unknown::Spin(*body), sign);
-        }
-        Ask::Impulse { from, on, along } => {
-            let d = direction(along)?;
-            type Part = fn(usize, usize) -> Unknown;
-            let (joint, part, i): (_, Part, _) = match from {
-                ImpulseAt::Hinge(h) => (&given.hinges[*h], Unknown::Hinge, *h),
-                ImpulseAt::Contact(c) => (&given.contacts[*c].joint, Unknown::Contact, *c),
-                ImpulseAt::Blow(_) => {
-                    let why = "is a blow, which no printed matrix has had yet";
-                    return Err(format!("{name} {why}"));
-                }
-            };
-            let sign = if joint.bodies[1] == *on {
-                one()
-            } else {
-                -one()
-            };
-            let along_x = add(part(i, 0), &sign * &d[0]);
-            let normal = match from {
-                ImpulseAt::Contact(c) => given.contacts[*c].normal.as_ref(),
-                _ => None,
-            };
-            match normal.filter(|_| !along_x) {
-                Some(n) => add(Unknown::ContactNormal(i), &sign * dot(n, &d)),
-                None => add(part(i, 1), &sign * &d[1]),
-            };
-        }
-        _ => return Err(format!("{name} is no component of the motion")),
+    if let Ask::Energy { .. } = question.ask {
+        return Err(format!("{name} is no component of the motion"));
     }
+    let at = |values: Vec<Rational>| {
+        let motion = numeric::motion(given, laws, &Solution::determined(values));
+        match (numeric::answer(&question.ask, point, given, &motion), axis) {
+            (Ok(Answer::Scalar(value)), None) => Ok(value),
+            (Ok(Answer::Vector([x, y])), Some(axis)) => Ok(if axis == 0 { x } else { y }),
+            (Ok(_), _) => Err(format!("{name} is no component")),
+            (Err(why), _) => Err(format!("{name}: {why}")),
+        }
+    };
+    // What is asked is linear in the unknowns, up to a constant.
+    let n = laws.unknowns.len();
+    let constant = at(vec![Rational::zero(); n])?;
+    let factor = |i: usize| {
+        let unit = (0..n).map(|j| Rational::from(Int::from(i64::from(i == j))));
+        Ok(at(unit.collect())? - &constant)
+    };
+    let row = (0..n).map(factor).collect::<Result<_, String>>()?;
     Ok((row, constant))
 }
