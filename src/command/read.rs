@@ -39,7 +39,13 @@ pub fn read(formula: &str, sheet: Option<&Sheet>, format: Format) -> Result<Outp
         }
     };
     let plain = grade::show(&reading.content);
-    let latex = latex(&reading.content, &question);
+    let names: HashMap<&str, &str> = question
+        .symbols
+        .iter()
+        .filter_map(|g| Some((&*g.name, g.latex.as_deref()?)))
+        .collect();
+    let named = |name: &str| names.get(name).map(|l| (*l).to_string());
+    let latex = render::content::latex(&reading.content, &|e| reader::write_latex(e, &named));
     let known = |name: &str| {
         question
             .symbols
@@ -89,73 +95,4 @@ pub fn read(formula: &str, sheet: Option<&Sheet>, format: Format) -> Result<Outp
         text: out,
         status: 0,
     })
-}
-
-fn latex(content: &reader::Content, question: &Question) -> String {
-    let names: HashMap<&str, &str> = question
-        .symbols
-        .iter()
-        .filter_map(|g| Some((&*g.name, g.latex.as_deref()?)))
-        .collect();
-    let write = |e: &crate::expr::Expr| {
-        reader::write_latex(e, &|name| names.get(name).map(|l| (*l).to_string()))
-    };
-    match content {
-        reader::Content::Scalar(e) => write(e),
-        reader::Content::Either(values) => {
-            let values: Vec<String> = values.iter().map(write).collect();
-            values.join(" \\text{ or } ")
-        }
-        reader::Content::Joined(join, parts) => {
-            let parts: Vec<String> = parts.iter().map(|part| latex(part, question)).collect();
-            parts.join(&format!(" \\text{{{}}} ", join.word()))
-        }
-        reader::Content::Vector([x, y, z]) => {
-            let parts = [
-                (x, "\\hat{\\imath}"),
-                (y, "\\hat{\\jmath}"),
-                (z, "\\hat{k}"),
-            ];
-            let terms: Vec<String> = parts
-                .iter()
-                .filter(|(e, _)| !e.is_zero())
-                .map(|(e, unit)| format!("\\left({}\\right) {unit}", write(e)))
-                .collect();
-            if terms.is_empty() {
-                "\\vec{0}".into()
-            } else {
-                terms.join(" + ")
-            }
-        }
-        reader::Content::Matrix(rows) => {
-            let row = |row: &Vec<_>| row.iter().map(write).collect::<Vec<_>>().join(" & ");
-            let rows: Vec<String> = rows.iter().map(row).collect();
-            format!(
-                "\\begin{{pmatrix}} {} \\end{{pmatrix}}",
-                rows.join(" \\\\ ")
-            )
-        }
-        reader::Content::Quantity(q) => {
-            format!("{}\\,\\mathrm{{{}}}", write(&q.written), q.unit_text)
-        }
-        reader::Content::Relations(sides, signs) => {
-            let mut out = sides
-                .first()
-                .map(|s| latex(s, question))
-                .unwrap_or_default();
-            for (side, sign) in sides.iter().skip(1).zip(signs) {
-                let sign = match sign {
-                    reader::Relation::Equal => "=",
-                    reader::Relation::NotEqual => "\\neq",
-                    reader::Relation::Less => "<",
-                    reader::Relation::LessEqual => "\\le",
-                    reader::Relation::Greater => ">",
-                    reader::Relation::GreaterEqual => "\\ge",
-                    reader::Relation::Approximately => "\\approx",
-                };
-                out.push_str(&format!(" {sign} {}", latex(side, question)));
-            }
-            out
-        }
-    }
 }

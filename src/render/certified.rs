@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use crate::numeric::redundant::POINTS;
-use crate::numeric::{Correct, CorrectAnswers, How, Law, Unknown};
+use crate::numeric::{Correct, CorrectAnswers, How, Law, NoAnswer, Unknown};
 use crate::scene::Scene;
 
 const AXES: [&str; 2] = ["x", "y"];
@@ -13,34 +13,17 @@ const AXES: [&str; 2] = ["x", "y"];
 /// Answers first, then every unknown of the full system.
 pub fn text(scene: &Scene, answers: &CorrectAnswers) -> String {
     let mut out = String::new();
-    let mut line = |name: &str, unit: &str, value: &Correct| {
+    for (name, unit, value) in entries(scene, answers).into_iter().flatten() {
         let _ = match value {
-            Correct::Rounded(v, how) => {
-                writeln!(
-                    out,
-                    "{name} = {} {unit}  [{}]",
-                    super::double(*v),
-                    words(*how)
-                )
+            Ok(Correct::Rounded(v, how)) => {
+                let (number, words) = (super::double(*v), words(*how));
+                writeln!(out, "{name} = {number} {unit}  [{words}]")
             }
-            Correct::Open => writeln!(out, "{name}: not determined by the laws"),
-            Correct::Undecided(_) => writeln!(out, "{name}: too close to call, even in 4096 bits"),
+            Ok(Correct::Open) | Err(_) => writeln!(out, "{name}: not determined by the laws"),
+            Ok(Correct::Undecided(_)) => {
+                writeln!(out, "{name}: too close to call, even in 4096 bits")
+            }
         };
-    };
-    for (question, answer) in &answers.answers {
-        let unit = super::unit_of(scene, question);
-        match answer {
-            Ok(values) => {
-                for (name, value) in components(question, values) {
-                    line(&name, &unit, value);
-                }
-            }
-            Err(_) => line(question, &unit, &Correct::Open),
-        }
-    }
-    for (unknown, value) in &answers.unknowns {
-        let (name, unit) = unknown_words(scene, *unknown);
-        line(&name, unit, value);
     }
     out.push_str("each number is the double nearest to the true value");
     if !answers.left_out.is_empty() {
@@ -74,35 +57,16 @@ fn law(scene: &Scene, law: Law) -> String {
 
 /// The same as data.
 pub fn json(scene: &Scene, answers: &CorrectAnswers) -> Value {
-    let entry = |name: &str, unit: &str, value: &Correct| match value {
-        Correct::Rounded(v, how) => {
+    let entry = |(name, unit, value): &Entry<'_>| match value {
+        Ok(Correct::Rounded(v, how)) => {
             json!({"name": name, "value": v, "unit": unit, "certified_by": words(*how)})
         }
-        Correct::Open => json!({"name": name, "value": null, "reason": "not determined"}),
-        Correct::Undecided(_) => json!({"name": name, "value": null, "reason": "undecided"}),
+        Ok(Correct::Open) => json!({"name": name, "value": null, "reason": "not determined"}),
+        Ok(Correct::Undecided(_)) => json!({"name": name, "value": null, "reason": "undecided"}),
+        Err(reason) => json!({"name": name, "value": null, "reason": reason.to_string()}),
     };
-    let mut list = Vec::new();
-    for (question, answer) in &answers.answers {
-        let unit = super::unit_of(scene, question);
-        match answer {
-            Ok(values) => {
-                for (name, value) in components(question, values) {
-                    list.push(entry(&name, &unit, value));
-                }
-            }
-            Err(reason) => {
-                list.push(json!({"name": question, "value": null, "reason": reason.to_string()}))
-            }
-        }
-    }
-    let unknowns: Vec<Value> = answers
-        .unknowns
-        .iter()
-        .map(|(unknown, value)| {
-            let (name, unit) = unknown_words(scene, *unknown);
-            entry(&name, unit, value)
-        })
-        .collect();
+    let lists = entries(scene, answers);
+    let [list, unknowns] = lists.map(|all| all.iter().map(entry).collect::<Vec<Value>>());
     let mut out = json!({"title": scene.title, "source": scene.source, "answers": list, "unknowns": unknowns});
     if !answers.left_out.is_empty() {
         let laws: Vec<String> = answers.left_out.iter().map(|l| law(scene, *l)).collect();
@@ -111,15 +75,29 @@ pub fn json(scene: &Scene, answers: &CorrectAnswers) -> Value {
     out
 }
 
-fn components<'a>(question: &str, values: &'a [Correct]) -> Vec<(String, &'a Correct)> {
-    match values {
-        [one] => vec![(question.to_string(), one)],
-        _ => AXES
-            .iter()
-            .zip(values)
-            .map(|(axis, v)| (format!("{question}_{axis}"), v))
-            .collect(),
+/// Name, unit and number; or why an answer has none.
+type Entry<'a> = (String, String, Result<&'a Correct, &'a NoAnswer>);
+
+/// What is asked, and the unknowns of the equations.
+fn entries<'a>(scene: &Scene, answers: &'a CorrectAnswers) -> [Vec<Entry<'a>>; 2] {
+    let mut asked = Vec::new();
+    for (question, answer) in &answers.answers {
+        let unit = super::unit_of(scene, question);
+        let named = |part: &str| format!("{question}{part}");
+        match answer.as_deref() {
+            Ok([one]) => asked.push((named(""), unit, Ok(one))),
+            Ok(several) => {
+                let parts = ["_x", "_y"].iter().zip(several);
+                asked.extend(parts.map(|(part, v)| (named(part), unit.clone(), Ok(v))));
+            }
+            Err(why) => asked.push((named(""), unit, Err(why))),
+        }
     }
+    let unknowns = answers.unknowns.iter().map(|(unknown, value)| {
+        let (name, unit) = unknown_words(scene, *unknown);
+        (name, unit.to_string(), Ok(value))
+    });
+    [asked, unknowns.collect()]
 }
 
 /// How a double was certified.

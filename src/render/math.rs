@@ -355,7 +355,7 @@ const UNICODE: Style = Style {
     zero: "0",
 };
 
-const LATEX: Style = Style {
+pub(super) const LATEX: Style = Style {
     signs: ["-", " + ", " - "],
     brackets: |inner| format!("\\left({inner}\\right)"),
     space: "\\,",
@@ -475,7 +475,7 @@ pub fn latex(solution: &Solution, math: &[Math]) -> String {
     out
 }
 
-fn latex_op(op: &str) -> &str {
+pub(super) fn latex_op(op: &str) -> &str {
     match op {
         "×" => "\\times",
         "·" => "\\cdot",

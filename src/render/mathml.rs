@@ -43,7 +43,7 @@ pub fn formula(solution: &Solution, math: &[Math]) -> String {
     out
 }
 
-const MATHML: Style = Style {
+pub(super) const MATHML: Style = Style {
     signs: ["<mo>−</mo>", "<mo>+</mo>", "<mo>−</mo>"],
     brackets,
     space: THIN,

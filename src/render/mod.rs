@@ -3,6 +3,7 @@
 
 pub mod certified;
 pub mod compare;
+pub mod content;
 pub mod faults;
 pub mod fonts;
 pub mod friction;
@@ -223,10 +224,10 @@ fn numbers<T>(answers: Answered<T>, value: impl Fn(T) -> Value) -> Vec<Number> {
             });
         };
         match answer {
-            Ok(numeric::Answer::Scalar(v)) => push("", Ok(value(v))),
-            Ok(numeric::Answer::Vector([x, y])) => {
-                push("_x", Ok(value(x)));
-                push("_y", Ok(value(y)));
+            Ok(found) => {
+                for (suffix, v) in found.components() {
+                    push(suffix, Ok(value(v)));
+                }
             }
             Err(reason) => push("", Err(reason.to_string())),
         }

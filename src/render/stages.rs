@@ -6,7 +6,6 @@ use serde_json::{Map, Value, json};
 
 use crate::dimension::{self, Dimension};
 use crate::expr::Point;
-use crate::numeric::Answer;
 use crate::numeric::follow::{
     BodyState, Breach, Component, Followed, Impact, Impulse, Loss, Lost, Moved, Passed, Unanswered,
     What, answer,
@@ -201,10 +200,9 @@ fn answers(
             .flatten()
             .map_or_else(String::new, |kind| kind.spoken());
         match found {
-            Ok(Answer::Scalar(v)) => out.push((name.clone(), unit, Ok(v))),
-            Ok(Answer::Vector([x, y])) => {
-                out.push((format!("{name}_x"), unit.clone(), Ok(x)));
-                out.push((format!("{name}_y"), unit, Ok(y)));
+            Ok(found) => {
+                let parts = found.components().into_iter();
+                out.extend(parts.map(|(part, v)| (format!("{name}{part}"), unit.clone(), Ok(v))));
             }
             Err(Unanswered::NotANumber) => {}
             Err(reason) => out.push((name.clone(), unit, Err(reason.to_string()))),

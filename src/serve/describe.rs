@@ -8,9 +8,9 @@ use crate::expr::{Expr, Point, Symbol};
 use crate::figure;
 use crate::formula::{self, Content, latex_name};
 use crate::grade;
-use crate::render::{self, mathml, naming, symbols_of};
+use crate::render::{self, content, mathml, naming, symbols_of};
 use crate::scene::{self, Parameter, Scene, StageKind};
-use crate::solution::{self, Math, Solution};
+use crate::solution::{self, Solution};
 
 /// What is asked about a scene.
 #[derive(Clone, Debug, Default)]
@@ -82,7 +82,7 @@ fn film(scene: &Scene, shown: &Point<f64>, filmed: &Filmed) -> Value {
         let of = |e: &Expr| e.evaluate(shown).filter(|v| v.is_finite());
         let value = match read.content.answer() {
             Content::Vector([x, y, _]) => [of(x)?, of(y)?],
-            content => [of(content.expr()?)?, 0.0],
+            other => [of(other.expr()?)?, 0.0],
         };
         Some((name.clone(), value))
     };
@@ -182,9 +182,10 @@ fn reading(scene: &Scene, text: &str) -> Value {
     let known = |s: &Symbol| symbols.declared().iter().any(|d| d.name == *s);
     let unknown = read.symbols().into_iter().filter(|s| !known(s));
     let notes = read.notes.iter().map(|n| n.message(text));
+    let names = naming(scene);
     json!({
         "plain": grade::show(&read.content),
-        "mathml": math(&content(&naming(scene), &read.content)),
+        "mathml": math(&content::mathml(&read.content, &|e| mathml::expr(&names, e))),
         "unknown": unknown.map(|s| s.to_string()).collect::<Vec<_>>(),
         "notes": notes.collect::<Vec<_>>(),
     })
@@ -192,60 +193,6 @@ fn reading(scene: &Scene, text: &str) -> Value {
 
 fn math(inner: &str) -> String {
     format!("<math>{inner}</math>")
-}
-
-/// What was read, as MathML.
-fn content(names: &Solution, content: &Content) -> String {
-    let one = |e: &Expr| mathml::expr(names, e);
-    match content {
-        Content::Scalar(e) => one(e),
-        Content::Either(values) => {
-            let values: Vec<String> = values.iter().map(one).collect();
-            values.join("<mtext> or </mtext>")
-        }
-        Content::Joined(join, parts) => {
-            let parts = parts.iter().map(|part| self::content(names, part));
-            let parts: Vec<String> = parts.collect();
-            parts.join(&format!("<mtext>{}</mtext>", join.word()))
-        }
-        Content::Vector([x, y, z]) => {
-            let plane = !(x.is_zero() && y.is_zero());
-            let mut parts = Vec::new();
-            if plane || z.is_zero() {
-                parts.push(Math::Vector([x.clone(), y.clone()]));
-            }
-            if plane && !z.is_zero() {
-                parts.push(Math::Op("+"));
-            }
-            if !z.is_zero() {
-                parts.push(Math::Along(z.clone()));
-            }
-            mathml::formula(names, &parts)
-        }
-        Content::Matrix(rows) => {
-            let entry = |e: &Expr| format!("<mtd>{}</mtd>", one(e));
-            let row = |row: &Vec<Expr>| row.iter().map(entry).collect::<String>();
-            let rows = rows.iter().map(|r| format!("<mtr>{}</mtr>", row(r)));
-            let rows: String = rows.collect();
-            format!("<mrow><mo>(</mo><mtable>{rows}</mtable><mo>)</mo></mrow>")
-        }
-        Content::Quantity(q) => format!(
-            "{}<mspace width=\"0.2em\"></mspace><mi mathvariant=\"normal\">{}</mi>",
-            one(&q.written),
-            mathml::escape(&q.unit_text)
-        ),
-        Content::Relations(sides, signs) => {
-            let mut out = String::new();
-            for (i, side) in sides.iter().enumerate() {
-                if i > 0 {
-                    let sign = signs.get(i - 1).map_or("=", |s| s.sign());
-                    out.push_str(&format!("<mo>{}</mo>", mathml::escape(sign)));
-                }
-                out.push_str(&self::content(names, side));
-            }
-            out
-        }
-    }
 }
 
 /// Title and source of a scene, for lists.
