@@ -1,6 +1,6 @@
-//! The LaTeX spelling of a symbol as runs of a label: letters, indices, marks and accents.
+//! The LaTeX spelling of a symbol: letters, indices, marks and accents.
 //!
-//! In: a spelling. Out: a label. What it does not know it shows as text.
+//! In: a spelling. Out: its glyphs, and the runs of a label that they make. What it does not know it shows as text.
 
 use std::iter::Peekable;
 use std::str::Chars;
@@ -8,163 +8,178 @@ use std::str::Chars;
 use super::label::{Label, Level, Run, visible};
 use crate::formula::{letter, letters};
 
-/// Deepest nesting of braces that is followed.
-const DEEPEST: usize = 8;
+/// Deepest nesting that is followed.
+const DEEPEST: usize = 12;
+
+/// A part of a spelling.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) enum Glyph {
+    /// A letter, which leans.
+    Letter(String),
+    Number(String),
+    /// A sign between letters and numbers.
+    Sign(String),
+    /// An upright word.
+    Word(String),
+    /// A thin space.
+    Space,
+    Prime,
+    Group(Vec<Glyph>),
+    /// Something with a mark above it, as a character that combines; `None` for an arrow.
+    Accent(Option<char>, Box<Glyph>),
+    /// Below or above what stands before it.
+    Script(Level, Box<Glyph>),
+}
 
 /// Reads a spelling as far as it goes.
-pub(super) fn read(text: &str) -> Label {
-    let mut reader = Reader {
-        rest: text.chars().peekable(),
-        label: Label::default(),
-    };
-    let style = Style {
-        italic: true,
-        level: Level::Base,
-        arrow: false,
-    };
-    while reader.rest.peek().is_some() {
-        reader.group(style, 0);
-        reader.rest.next();
+pub(crate) fn glyphs(text: &str) -> Vec<Glyph> {
+    let mut reader = Reader(text.chars().peekable());
+    let mut all = Vec::new();
+    while reader.0.peek().is_some() {
+        all.extend(reader.group(0));
+        reader.0.next();
     }
-    reader.label
+    all
 }
 
-#[derive(Clone, Copy)]
-struct Style {
-    italic: bool,
-    level: Level,
-    arrow: bool,
-}
-
-struct Reader<'a> {
-    rest: Peekable<Chars<'a>>,
-    label: Label,
-}
+struct Reader<'a>(Peekable<Chars<'a>>);
 
 impl Reader<'_> {
-    /// Reads up to a closing brace, which stays.
-    fn group(&mut self, style: Style, depth: usize) {
-        while let Some(&c) = self.rest.peek() {
-            if c == '}' {
-                return;
-            }
-            self.one(style, depth);
+    /// Up to a closing brace, or the end.
+    fn group(&mut self, depth: usize) -> Vec<Glyph> {
+        let mut all = Vec::new();
+        while self.0.peek().is_some_and(|c| *c != '}') {
+            all.extend(self.one(depth));
         }
+        all
     }
 
-    /// Reads one character, command or braced group.
-    fn one(&mut self, style: Style, depth: usize) {
-        let Some(c) = self.rest.next() else { return };
-        match c {
-            '{' if depth < DEEPEST => {
-                self.group(style, depth + 1);
-                self.rest.next();
-            }
-            '_' | '^' if depth < DEEPEST => {
-                let level = if c == '_' { Level::Sub } else { Level::Sup };
-                self.one(
-                    Style {
-                        level,
-                        arrow: false,
-                        ..style
-                    },
-                    depth + 1,
-                );
-            }
-            '\\' => self.command(style, depth),
-            ' ' if style.italic => {}
-            '\'' => self.add(
-                "′",
-                Style {
-                    italic: false,
-                    ..style
-                },
-            ),
-            '-' if style.italic => self.add(
-                "−",
-                Style {
-                    italic: false,
-                    ..style
-                },
-            ),
-            c => self.add(
-                &visible(&c.to_string()),
-                Style {
-                    italic: style.italic && c.is_alphabetic(),
-                    ..style
-                },
-            ),
+    /// The characters from here on that are of one kind.
+    fn run(&mut self, is_of: fn(&char) -> bool) -> String {
+        let mut run = String::new();
+        while let Some(c) = self.0.next_if(is_of) {
+            run.push(c);
         }
+        run
     }
 
-    fn command(&mut self, style: Style, depth: usize) {
-        let mut name = String::new();
-        while let Some(&c) = self.rest.peek() {
-            if !c.is_ascii_alphabetic() {
-                break;
+    fn one(&mut self, depth: usize) -> Option<Glyph> {
+        if depth > DEEPEST {
+            // Nobody nests so deep; the rest is passed over.
+            self.0.by_ref().for_each(drop);
+            return None;
+        }
+        if self.0.peek().is_some_and(char::is_ascii_digit) {
+            return Some(Glyph::Number(self.run(char::is_ascii_digit)));
+        }
+        Some(match self.0.next()? {
+            '{' => {
+                let inner = self.group(depth + 1);
+                self.0.next();
+                Glyph::Group(inner)
             }
-            name.push(c);
-            self.rest.next();
-        }
-        if depth >= DEEPEST {
-            return;
-        }
-        let upright = Style {
-            italic: false,
-            ..style
+            '_' => Glyph::Script(Level::Sub, Box::new(self.one(depth + 1)?)),
+            '^' => Glyph::Script(Level::Sup, Box::new(self.one(depth + 1)?)),
+            '\\' => return self.command(depth),
+            ' ' | '}' => return None,
+            '\'' => Glyph::Prime,
+            '-' => Glyph::Sign(String::from("−")),
+            c if c.is_alphabetic() => Glyph::Letter(visible(&c.to_string())),
+            c => Glyph::Sign(visible(&c.to_string())),
+        })
+    }
+
+    fn command(&mut self, depth: usize) -> Option<Glyph> {
+        let name = self.run(char::is_ascii_alphabetic);
+        let mark = match name.as_str() {
+            "" => {
+                return Some(match self.0.next() {
+                    Some(',' | ';' | ':' | ' ' | '!') | None => Glyph::Space,
+                    Some(c) => Glyph::Word(visible(&c.to_string())),
+                });
+            }
+            "prime" => return Some(Glyph::Prime),
+            "mathrm" | "text" | "operatorname" | "mathbf" | "mathit" | "boldsymbol" | "rm" => {
+                return self.upright(depth);
+            }
+            "vec" => None,
+            "dot" => Some('\u{307}'),
+            "ddot" => Some('\u{308}'),
+            "hat" => Some('\u{302}'),
+            "bar" => Some('\u{304}'),
+            "tilde" => Some('\u{303}'),
+            _ => {
+                let _ = self.run(|c| *c == ' ');
+                return Some(match letter(&name) {
+                    Some("∫") => Glyph::Sign(String::from("∫")),
+                    Some(letter) => Glyph::Letter(letter.to_string()),
+                    None => Glyph::Word(name),
+                });
+            }
         };
-        match name.as_str() {
-            "" => match self.rest.next() {
-                Some(',' | ';' | ':' | ' ' | '!') | None => self.add("\u{2009}", upright),
-                Some(c) => self.add(&visible(&c.to_string()), upright),
-            },
-            "vec" => self.one(
-                Style {
-                    arrow: true,
-                    ..style
-                },
-                depth + 1,
-            ),
-            "mathrm" | "text" | "operatorname" | "mathbf" | "rm" => self.one(upright, depth + 1),
-            "dot" | "ddot" | "hat" | "bar" | "tilde" => {
-                let before = self.label.runs.len();
-                self.one(style, depth + 1);
-                let mark = match name.as_str() {
-                    "dot" => '\u{307}',
-                    "ddot" => '\u{308}',
-                    "hat" => '\u{302}',
-                    "bar" => '\u{304}',
-                    _ => '\u{303}',
-                };
-                if self.label.runs.len() > before
-                    && let Some(run) = self.label.runs.last_mut()
-                {
-                    run.text.push(mark);
-                }
-            }
-            _ => match letter(&name) {
-                Some(c) if c != "∫" => self.add(c, style),
-                other => self.add(other.unwrap_or(name.as_str()), upright),
-            },
-        }
+        let _ = self.run(|c| *c == ' ');
+        Some(Glyph::Accent(mark, Box::new(self.one(depth + 1)?)))
     }
 
-    fn add(&mut self, text: &str, style: Style) {
-        match self.label.runs.last_mut() {
-            Some(last)
-                if last.italic == style.italic
-                    && last.level == style.level
-                    && !last.arrow
-                    && !style.arrow =>
-            {
-                last.text.push_str(text);
+    /// The word in the braces that follow, or the one thing without braces.
+    fn upright(&mut self, depth: usize) -> Option<Glyph> {
+        let _ = self.run(|c| *c == ' ');
+        if self.0.next_if_eq(&'{').is_none() {
+            return self.one(depth + 1);
+        }
+        let word = self.run(|c| *c != '}');
+        self.0.next();
+        let word = word.replace(['\\', '{'], "").replace('_', " ");
+        Some(Glyph::Word(visible(&word)))
+    }
+}
+
+/// A spelling as a label.
+pub(super) fn read(text: &str) -> Label {
+    let mut label = Label::default();
+    label.set(&glyphs(text), Level::Base, false);
+    label
+}
+
+impl Label {
+    fn set(&mut self, glyphs: &[Glyph], level: Level, arrow: bool) {
+        for glyph in glyphs {
+            let (text, italic) = match glyph {
+                Glyph::Letter(text) => (text.as_str(), true),
+                Glyph::Number(text) | Glyph::Sign(text) | Glyph::Word(text) => {
+                    (text.as_str(), false)
+                }
+                Glyph::Space => ("\u{2009}", false),
+                Glyph::Prime => ("′", false),
+                Glyph::Group(inner) => {
+                    self.set(inner, level, arrow);
+                    continue;
+                }
+                Glyph::Script(level, inner) => {
+                    self.set(std::slice::from_ref(inner), *level, false);
+                    continue;
+                }
+                Glyph::Accent(mark, inner) => {
+                    self.set(std::slice::from_ref(inner), level, arrow || mark.is_none());
+                    if let (Some(run), Some(mark)) = (self.runs.last_mut(), mark) {
+                        run.text.push(*mark);
+                    }
+                    continue;
+                }
+            };
+            match self.runs.last_mut() {
+                Some(last)
+                    if last.italic == italic && last.level == level && !last.arrow && !arrow =>
+                {
+                    last.text.push_str(text);
+                }
+                _ => self.runs.push(Run {
+                    text: text.to_string(),
+                    italic,
+                    level,
+                    arrow,
+                }),
             }
-            _ => self.label.runs.push(Run {
-                text: text.to_string(),
-                italic: style.italic,
-                level: style.level,
-                arrow: style.arrow,
-            }),
         }
     }
 }

@@ -9,7 +9,7 @@ mod film;
 mod fixture;
 mod inline;
 mod label;
-mod latex;
+pub(crate) mod latex;
 mod marks;
 mod measure;
 mod motion;
@@ -32,7 +32,7 @@ mod way;
 mod words;
 
 pub use film::{End, Film, Moment, Taut, film, shown_at};
-pub use label::Label;
+pub use label::{Label, Level};
 pub(crate) use panel::framed;
 pub use tikz::{COLORS, escaped, node};
 

@@ -5,6 +5,8 @@ use num_traits::Signed;
 
 use super::math::{Style, is_plain, needs_brackets, vector_of};
 use crate::expr::{Expr, Function, Node, ratio};
+use crate::figure::Level;
+use crate::figure::latex::{Glyph, glyphs};
 use crate::formula::Quotient;
 use crate::solution::{Math, Name, Solution};
 
@@ -251,122 +253,53 @@ fn symbol(solution: &Solution, name: &str) -> String {
 
 /// A typeset symbol: base, indices and marks of the small LaTeX that names use.
 pub fn from_latex(latex: &str) -> String {
-    let chars: Vec<char> = latex.chars().collect();
-    let mut at = 0;
-    let inner = row(&chars, &mut at, 0);
-    format!("<mrow>{inner}</mrow>")
+    format!("<mrow>{}</mrow>", row(&glyphs(latex)))
 }
 
-/// Depth of nested groups that is still read; the rest is dropped.
-const DEEPEST: usize = 12;
-
-fn row(chars: &[char], at: &mut usize, depth: usize) -> String {
+fn row(glyphs: &[Glyph]) -> String {
     let mut out = String::new();
-    while *at < chars.len() && chars[*at] != '}' {
-        let base = atom(chars, at, depth);
+    let mut rest = glyphs.iter().peekable();
+    let is_script = |glyph: &&Glyph| matches!(glyph, Glyph::Script(..) | Glyph::Prime);
+    while rest.peek().is_some() {
+        let base = rest.next_if(|glyph| !is_script(glyph)).map(one_glyph);
         let (mut sub, mut sup) = (String::new(), String::new());
-        while *at < chars.len() && matches!(chars[*at], '_' | '^' | '\'') {
-            let kind = chars[*at];
-            *at += 1;
-            match kind {
-                '_' => sub.push_str(&atom(chars, at, depth)),
-                '^' => sup.push_str(&atom(chars, at, depth)),
+        while let Some(script) = rest.next_if(|glyph| is_script(glyph)) {
+            match script {
+                Glyph::Script(Level::Sub, inner) => sub.push_str(&one_glyph(inner)),
+                Glyph::Script(_, inner) => sup.push_str(&one_glyph(inner)),
                 _ => sup.push_str("<mo>′</mo>"),
             }
         }
-        let group = |s: String| {
-            if s.is_empty() {
-                s
-            } else {
-                format!("<mrow>{s}</mrow>")
-            }
+        let group = |s: String| match s.is_empty() {
+            true => s,
+            false => format!("<mrow>{s}</mrow>"),
         };
+        let base = base.unwrap_or_else(|| String::from("<mrow></mrow>"));
         out.push_str(&scripts(&base, &group(sub), &group(sup)));
     }
     out
 }
 
-fn atom(chars: &[char], at: &mut usize, depth: usize) -> String {
-    let Some(&c) = chars.get(*at) else {
-        return String::new();
-    };
-    *at += 1;
-    match c {
-        '{' => {
-            if depth > DEEPEST {
-                *at = chars.len();
-                return String::new();
-            }
-            let inner = row(chars, at, depth + 1);
-            *at += 1;
-            format!("<mrow>{inner}</mrow>")
-        }
-        '\\' => {
-            let start = *at;
-            while chars.get(*at).is_some_and(char::is_ascii_alphabetic) {
-                *at += 1;
-            }
-            let command: String = chars[start..*at].iter().collect();
-            if command.is_empty() {
-                let next = chars.get(*at).copied().unwrap_or(' ');
-                *at += 1;
-                return format!("<mi>{}</mi>", escape(&next.to_string()));
-            }
-            while chars.get(*at) == Some(&' ') {
-                *at += 1;
-            }
-            let accent = |mark: &str, chars: &[char], at: &mut usize| {
-                let inner = atom(chars, at, depth);
-                format!("<mover accent=\"true\">{inner}<mo stretchy=\"false\">{mark}</mo></mover>")
+fn one_glyph(glyph: &Glyph) -> String {
+    match glyph {
+        Glyph::Letter(text) => format!("<mi>{}</mi>", escape(text)),
+        Glyph::Number(text) => format!("<mn>{text}</mn>"),
+        Glyph::Sign(text) => format!("<mo lspace=\"0\" rspace=\"0\">{}</mo>", escape(text)),
+        Glyph::Word(text) => format!("<mi mathvariant=\"normal\">{}</mi>", escape(text)),
+        Glyph::Space => String::from(THIN),
+        Glyph::Prime | Glyph::Script(..) => row(std::slice::from_ref(glyph)),
+        Glyph::Group(inner) => format!("<mrow>{}</mrow>", row(inner)),
+        Glyph::Accent(mark, inner) => {
+            let mark = match mark {
+                None => "→",
+                Some('\u{302}') => "^",
+                Some('\u{304}') => "¯",
+                Some('\u{303}') => "~",
+                Some('\u{307}') => "˙",
+                Some(_) => "¨",
             };
-            match command.as_str() {
-                "vec" => accent("→", chars, at),
-                "hat" => accent("^", chars, at),
-                "bar" => accent("¯", chars, at),
-                "tilde" => accent("~", chars, at),
-                "dot" => accent("˙", chars, at),
-                "ddot" => accent("¨", chars, at),
-                "mathrm" | "text" | "mathbf" | "mathit" | "boldsymbol" => upright(chars, at, depth),
-                other => format!("<mi>{}</mi>", escape(letter(other))),
-            }
+            let inner = one_glyph(inner);
+            format!("<mover accent=\"true\">{inner}<mo stretchy=\"false\">{mark}</mo></mover>")
         }
-        c if c.is_ascii_digit() => {
-            let mut number = String::from(c);
-            while let Some(d) = chars.get(*at).filter(|d| d.is_ascii_digit()) {
-                number.push(*d);
-                *at += 1;
-            }
-            format!("<mn>{number}</mn>")
-        }
-        '+' | '*' | '/' | ',' | '(' | ')' => format!("<mo lspace=\"0\" rspace=\"0\">{c}</mo>"),
-        '-' => String::from("<mo lspace=\"0\" rspace=\"0\">−</mo>"),
-        '}' | ' ' => String::new(),
-        c => format!("<mi>{}</mi>", escape(&c.to_string())),
-    }
-}
-
-/// The argument of `\mathrm` as one upright word.
-fn upright(chars: &[char], at: &mut usize, depth: usize) -> String {
-    if chars.get(*at) != Some(&'{') {
-        return atom(chars, at, depth);
-    }
-    *at += 1;
-    let mut word = String::new();
-    while let Some(&c) = chars.get(*at) {
-        *at += 1;
-        match c {
-            '}' => break,
-            '\\' | '{' => {}
-            '_' => word.push(' '),
-            c => word.push(c),
-        }
-    }
-    format!("<mi mathvariant=\"normal\">{}</mi>", escape(&word))
-}
-
-fn letter(command: &str) -> &str {
-    match command {
-        "prime" => "′",
-        _ => crate::formula::letter(command).unwrap_or(command),
     }
 }
