@@ -204,7 +204,12 @@ fn strung(r: &mut Resolver<'_>, scene: &Scene, string: &StrungFile) -> Option<St
     };
     if to.is_empty() || !(1..=2).contains(&over.len()) {
         let message = "a string runs over one or two pulleys to one or more bodies";
-        let hint = "a body that is pulled along the same line is named under `with`";
+        let hint = match to.is_empty() {
+            true => {
+                "where the string is wound on a drum, a `linkage` whose coordinate is the length run off moves both; the drum turns by that over its radius"
+            }
+            false => "a body that is pulled along the same line is named under `with`",
+        };
         return r.refuse(string.span, message, hint);
     }
     let pulleys = over.iter().zip(&string.over);
