@@ -111,11 +111,11 @@ impl Field {
         let flip = argument.num.leading_is_negative();
         let term = if flip { self.neg(&argument) } else { argument };
         let same = |b: &Base| match &b.of {
-            AngleOf::Term(t) => b.divisor == 1 && self.equal(t, &term),
+            AngleOf::Term(t) => b.part.is_one() && self.equal(t, &term),
             AngleOf::Symbol(_) => false,
         };
         let known = self.bases.iter().position(same);
-        let base = known.unwrap_or_else(|| self.add_base(AngleOf::Term(term), 1));
+        let base = known.unwrap_or_else(|| self.add_base(AngleOf::Term(term), &Rational::one()));
         let base = &self.bases[base];
         let (cos, sin) = (Element::var(base.cos), Element::var(base.sin));
         Ok([cos, if flip { self.neg(&sin) } else { sin }])
@@ -132,10 +132,11 @@ impl Field {
             Some(base) => base,
             None => {
                 let divisor = factor.denom().to_u32().filter(|d| *d < 1_000_000);
-                self.add_base(of, divisor.ok_or(Stop::TooLarge("angle fraction"))?)
+                divisor.ok_or(Stop::TooLarge("angle fraction"))?;
+                self.add_base(of, factor)
             }
         };
-        let turns = factor * Rational::from(Int::from(i64::from(self.bases[base].divisor)));
+        let turns = factor / &self.bases[base].part;
         if !turns.is_integer() {
             return Ok(None);
         }

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use super::field::{AngleOf, Field, Kind};
 use super::image;
 use super::poly::Poly;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Rational, Symbol};
 
 /// Most angles whose common turn is looked for; the senses to try double with each.
 const MOST_ANGLES: usize = 4;
@@ -17,16 +17,16 @@ const MOST_ANGLES: usize = 4;
 impl Field {
     /// A polynomial in which the last angle is 0, and the formula every other angle stands for there.
     pub(crate) fn in_differences(&self, p: &Poly) -> Option<(Poly, BTreeMap<Symbol, Expr>)> {
-        let angles: Vec<(&Symbol, u32, usize, usize)> = self
+        let angles: Vec<(&Symbol, &Rational, usize, usize)> = self
             .bases
             .iter()
             .filter(|b| p.has(b.cos) || p.has(b.sin))
             .map(|b| match &b.of {
-                AngleOf::Symbol(name) => Some((name, b.divisor, b.cos, b.sin)),
+                AngleOf::Symbol(name) => Some((name, &b.part, b.cos, b.sin)),
                 AngleOf::Term(_) => None,
             })
             .collect::<Option<_>>()?;
-        let (&(last, divisor, ..), others) = angles.split_last()?;
+        let (&(last, part, ..), others) = angles.split_last()?;
         if others.is_empty() || angles.len() > MOST_ANGLES {
             return None;
         }
@@ -39,7 +39,7 @@ impl Field {
                     _ => false,
                 }
         });
-        if !independent || angles.iter().any(|(_, d, ..)| *d != divisor) {
+        if !independent || angles.iter().any(|(_, d, ..)| *d != part) {
             return None;
         }
         let turning: Vec<(usize, usize)> = angles.iter().map(|(_, _, c, s)| (*c, *s)).collect();
@@ -47,7 +47,7 @@ impl Field {
             return None;
         }
         // How the polynomial changes as each angle is turned by itself.
-        let rate = |&(_, _, c, s): &(&Symbol, u32, usize, usize)| {
+        let rate = |&(_, _, c, s): &(&Symbol, &Rational, usize, usize)| {
             let by_cos = self.mul_poly(&p.derivative(c), &Poly::var(s)).ok()?;
             let by_sin = self.mul_poly(&p.derivative(s), &Poly::var(c)).ok()?;
             Some(by_sin.sub(&by_cos))

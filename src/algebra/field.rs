@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use num_integer::Integer;
-use num_traits::{One, ToPrimitive};
+use num_traits::{One, Signed, ToPrimitive, Zero};
 use rustc_hash::FxHashMap;
 
 use super::Stop;
@@ -17,6 +17,9 @@ use super::substitution;
 use crate::domain::Domains;
 use crate::expr::angle::angle;
 use crate::expr::{Expr, Function, Int, Node, Rational, Symbol, Table};
+
+/// Highest multiple of an angle that is written out where no other multiple asks for it.
+const MOST_WRITTEN_OUT: i64 = 8;
 
 /// What a variable of the polynomials stands for.
 #[derive(Clone, Debug)]
@@ -51,11 +54,11 @@ pub(crate) enum AngleOf {
     Term(Element),
 }
 
-/// The base angle of/divisor, with the variables of its cosine and sine.
+/// The base angle part · of, with the variables of its cosine and sine.
 #[derive(Clone, Debug)]
 pub(crate) struct Base {
     pub of: AngleOf,
-    pub divisor: u32,
+    pub part: Rational,
     pub cos: usize,
     pub sin: usize,
 }
@@ -169,28 +172,28 @@ impl Field {
         let (nested, plain): (Vec<Expr>, Vec<Expr>) = found.others.into_iter().partition(has_call);
         let mut terms = Vec::new();
         self.note_terms(&plain, &mut found.angles, &mut terms);
-        for (name, divisor) in std::mem::take(&mut found.angles) {
+        for (name, part) in std::mem::take(&mut found.angles) {
             if self.base_of(&name).is_none() {
-                self.add_base(AngleOf::Symbol(name), divisor);
+                self.add_base(AngleOf::Symbol(name), &part);
             }
         }
         self.note_terms(&nested, &mut found.angles, &mut terms);
         self.add_exponentials(&found.exponents);
-        for (term, divisor) in terms {
+        for (term, part) in terms {
             let same = |b: &Base| matches!(&b.of, AngleOf::Term(t) if self.equal(t, &term));
-            if let (false, Some(divisor)) = (self.bases.iter().any(same), divisor.to_u32()) {
-                self.add_base(AngleOf::Term(term), divisor);
+            if let (false, Some(_)) = (self.bases.iter().any(same), part.denom().to_u32()) {
+                self.add_base(AngleOf::Term(term), &part);
             }
         }
         self.relate_signs(&relations);
     }
 
-    /// The terms of arguments with the least common denominators of their coefficients; bare symbols among the angles.
+    /// The terms of arguments with the largest part of them that all are multiples of; bare symbols among the angles.
     fn note_terms(
         &mut self,
         arguments: &[Expr],
-        angles: &mut Table<u32>,
-        terms: &mut Vec<(Element, Int)>,
+        angles: &mut Table<Rational>,
+        terms: &mut Vec<(Element, Rational)>,
     ) {
         for argument in arguments {
             let Ok(element) = self.element(argument) else {
@@ -204,18 +207,18 @@ impl Field {
             for (term, factor) in found {
                 match self.as_symbol(&term) {
                     Some(name) if &*name == "pi" => {}
-                    Some(name) => refine(angles.get_or_insert(&name, || 1), &factor),
+                    Some(name) => refine(angles.get_or_insert(&name, Rational::zero), &factor),
                     None => self.note_term(terms, term, &factor),
                 }
             }
         }
     }
 
-    /// A term with the least common denominator of its coefficients.
-    fn note_term(&self, terms: &mut Vec<(Element, Int)>, term: Element, factor: &Rational) {
+    /// A term with the largest part that its coefficients are multiples of.
+    fn note_term(&self, terms: &mut Vec<(Element, Rational)>, term: Element, factor: &Rational) {
         match terms.iter_mut().find(|(t, _)| self.equal(t, &term)) {
-            Some((_, divisor)) => *divisor = divisor.lcm(factor.denom()),
-            None => terms.push((term, factor.denom().clone())),
+            Some((_, part)) => *part = common(part, factor),
+            None => terms.push((term, factor.clone())),
         }
     }
 
@@ -225,7 +228,7 @@ impl Field {
         if exponents.len() < 2 {
             return;
         }
-        let mut terms: Vec<(Element, Int)> = Vec::new();
+        let mut terms: Vec<(Element, Rational)> = Vec::new();
         self.note_terms(exponents, &mut Table::default(), &mut terms);
         for e in exponents {
             let Ok(element) = self.element(e) else {
@@ -236,8 +239,8 @@ impl Field {
                 self.note_term(&mut terms, term, &factor);
             }
         }
-        for (term, divisor) in terms {
-            let part = self.number(&Rational::new(Int::one(), divisor));
+        for (term, part) in terms {
+            let part = self.number(&handy(&part));
             if let Ok(own) = self.mul(&term, &part) {
                 let _ = self.exponential(&own);
             }
@@ -309,13 +312,14 @@ impl Field {
         self.mask = mono_max(&self.mask, &mono_of(v, 0x7e));
     }
 
-    pub(crate) fn add_base(&mut self, of: AngleOf, divisor: u32) -> usize {
+    /// A base angle of which multiples of the part stand for cosines and sines.
+    pub(crate) fn add_base(&mut self, of: AngleOf, part: &Rational) -> usize {
         let index = self.bases.len();
         let (cos, sin) = (self.adjoin(Kind::Cos(index)), self.adjoin(Kind::Sin(index)));
         self.relate(sin, 2, Poly::rest_of_square(cos));
         self.bases.push(Base {
             of,
-            divisor,
+            part: handy(part),
             cos,
             sin,
         });
@@ -546,10 +550,27 @@ impl Field {
     }
 }
 
-/// A divisor of an angle that a coefficient of it makes finer.
-fn refine(divisor: &mut u32, factor: &Rational) {
-    if let Some(d) = factor.denom().to_u32() {
-        *divisor = divisor.lcm(&d.min(1_000)).min(1_000_000);
+/// A part of an angle that a coefficient of it makes finer.
+fn refine(part: &mut Rational, factor: &Rational) {
+    let least = |r: Rational, most: i64| {
+        Rational::new(r.numer().clone(), r.denom().clone().min(Int::from(most)))
+    };
+    if factor.denom().to_u32().is_some() {
+        *part = least(common(part, &least(factor.clone(), 1_000)), 1_000_000);
+    }
+}
+
+/// The largest number that both are multiples of; zero is a multiple of all.
+fn common(a: &Rational, b: &Rational) -> Rational {
+    Rational::new(a.numer().gcd(b.numer()), a.denom().lcm(b.denom()))
+}
+
+/// A part that what is read later is likely a multiple of too: one over its denominator, unless that would make high multiples
+/// of all there is.
+fn handy(part: &Rational) -> Rational {
+    match part.numer().abs() > Int::from(MOST_WRITTEN_OUT) {
+        true => part.abs(),
+        false => Rational::new(Int::one(), part.denom().clone()),
     }
 }
 
@@ -562,8 +583,8 @@ fn has_call(e: &Expr) -> bool {
 #[derive(Default)]
 struct Found {
     symbols: Table<()>,
-    /// Least common denominator of each symbol's coefficients.
-    angles: Table<u32>,
+    /// The largest part of each angle that its coefficients are multiples of.
+    angles: Table<Rational>,
     /// Arguments of sin, cos, tan that are not linear in symbols.
     others: Vec<Expr>,
     /// Different exponents of the exponential function.
@@ -592,7 +613,7 @@ impl Found {
                 match angle(argument) {
                     Some(a) => {
                         for (name, factor) in a.symbols {
-                            refine(self.angles.get_or_insert(&name, || 1), &factor);
+                            refine(self.angles.get_or_insert(&name, Rational::zero), &factor);
                         }
                     }
                     None => {

@@ -5,7 +5,11 @@ use num_traits::{One, Signed, Zero};
 
 use super::field::Field;
 use super::parts::Parts;
+use super::poly::Poly;
 use crate::expr::{Expr, Int, Node, Rational, ratio};
+
+/// Longest sum whose sign is asked for to write it.
+pub(super) const MOST_SIGNED: usize = 3;
 
 /// A factor of a written product.
 struct Factor {
@@ -18,7 +22,15 @@ struct Factor {
 
 impl Factor {
     fn written(self) -> Expr {
-        self.base.power(Expr::from(self.power))
+        match self.base.node() {
+            // (eⁿ)² is e²ⁿ.
+            Node::Power(base, exponent)
+                if self.power.is_integer() && exponent.as_number().is_none() =>
+            {
+                base.power(Expr::from(self.power) * exponent)
+            }
+            _ => self.base.power(Expr::from(self.power)),
+        }
     }
 }
 
@@ -26,11 +38,33 @@ impl Factor {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Rank {
     Number,
+    /// π and coefficients of friction, as in 2π r and μ m g.
+    Coefficient,
     /// Masses stand before other symbols, as in m l².
     Mass,
+    /// A coefficient of restitution, as in m e² g h.
+    Restitution,
+    /// The acceleration of free fall, as in m g h and 2 g H.
+    Gravity,
     Symbol,
     Other,
     Sum,
+}
+
+impl Rank {
+    fn of(base: &Expr) -> Rank {
+        match base.node() {
+            Node::Number(_) => Rank::Number,
+            Node::Symbol(name) => match name.split('_').next().unwrap_or_default() {
+                "pi" | "mu" => Rank::Coefficient,
+                "e" => Rank::Restitution,
+                "g" => Rank::Gravity,
+                letter if letter.starts_with(['m', 'M']) => Rank::Mass,
+                _ => Rank::Symbol,
+            },
+            _ => Rank::Other,
+        }
+    }
 }
 
 impl Field {
@@ -38,8 +72,9 @@ impl Field {
     pub(super) fn assemble(&self, above: &Parts, below: &Parts) -> Expr {
         let mut number = Rational::new(above.content.clone(), below.content.clone());
         let mut factors: Vec<Factor> = Vec::new();
-        // Sums of mixed signs may be turned round to carry a minus sign; 1 − e² reads better as it is.
-        let mut turnable: Option<(bool, Expr)> = None;
+        // Sums of mixed signs may be turned round to carry a minus sign; 1 − e² reads better as it is, and what is known to
+        // be positive shows it.
+        let mut turnable: Vec<(bool, &Poly, Expr)> = Vec::new();
         for (parts, sign) in [(above, 1i64), (below, -1)] {
             for (f, k) in &parts.factors {
                 let mut power = ratio(i64::from(*k) * sign, 1);
@@ -48,12 +83,7 @@ impl Field {
                     let (expr, own) = self.generator(v);
                     let root = (!own.is_one()).then_some(v);
                     power *= own;
-                    let rank = match expr.node() {
-                        Node::Number(_) => Rank::Number,
-                        Node::Symbol(name) if name.starts_with(['m', 'M']) => Rank::Mass,
-                        Node::Symbol(_) => Rank::Symbol,
-                        _ => Rank::Other,
-                    };
+                    let rank = Rank::of(&expr);
                     (expr, rank, root)
                 } else {
                     let (expr, flipped, mixed) = self.sum(f);
@@ -61,13 +91,12 @@ impl Field {
                         number = -number;
                     }
                     let number = matches!(expr.node(), Node::Sum(terms) if terms.iter().any(|t| t.as_number().is_some()));
-                    let better = turnable.as_ref().is_none_or(|(had, _)| *had && !number);
                     // Below the line none is turned to have more minus than plus.
                     let is_mostly_plus = matches!(expr.node(), Node::Sum(terms)
                         if 2 * terms.iter().filter(|t| t.is_negative()).count() < terms.len());
                     let keeps = sign < 0 && is_mostly_plus;
-                    if mixed && !keeps && k % 2 == 1 && better {
-                        turnable = Some((number, expr.clone()));
+                    if mixed && !keeps && k % 2 == 1 {
+                        turnable.push((number, f, expr.clone()));
                     }
                     (expr, Rank::Sum, None)
                 };
@@ -85,7 +114,12 @@ impl Field {
                 }
             }
         }
-        if let (true, Some((_, sum))) = (number.is_negative(), turnable) {
+        turnable.sort_by_key(|(number, ..)| *number);
+        // Of a sum alone nothing is shown by a minus in front.
+        let alone = factors.len() == 1 && number == -Rational::one();
+        let known = |f: &Poly| !alone && f.len() <= MOST_SIGNED && self.sign_poly(f).is_some();
+        let turnable = turnable.into_iter().find(|(_, f, _)| !known(f));
+        if let (true, Some((.., sum))) = (number.is_negative(), turnable) {
             let odd =
                 |f: &&mut Factor| f.base == sum && f.power.is_integer() && f.power.numer().is_odd();
             if let Some(place) = factors.iter_mut().find(odd) {

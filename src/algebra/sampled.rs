@@ -128,7 +128,7 @@ impl Field {
                         Some(_) => pick(self.ends(name), fraction(name, k)),
                     },
                     AngleOf::Term(term) => self.sample_element(term, k)?,
-                } / f64::from(base.divisor);
+                } * to_f64(&base.part);
                 match self.gens[v].kind {
                     Kind::Cos(_) => angle.cos(),
                     _ => angle.sin(),

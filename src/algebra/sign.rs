@@ -374,20 +374,20 @@ impl Field {
         let AngleOf::Symbol(name) = &base.of else {
             return None;
         };
-        let divisor = ratio(1, i64::from(base.divisor));
+        let part = &base.part;
         let Some(domain) = self.domains.symbols.get(name) else {
-            return Some(Interval::open(ratio(0, 1), ratio(1, 2) * divisor));
+            return Some(Interval::open(ratio(0, 1), ratio(1, 2) * part));
         };
         let end = |limit: &Option<Limit>, up: bool| {
             limit.as_ref().map(|l| {
                 if l.of_pi || l.value.is_zero() {
-                    return (&l.value * &divisor, l.open);
+                    return (&l.value * part, l.open);
                 }
                 let over = match up != l.value.is_negative() {
                     true => ratio(106, 333),
                     false => ratio(113, 355),
                 };
-                (&l.value * over * &divisor, true)
+                (&l.value * over * part, true)
             })
         };
         let (low, high) = (end(&domain.low, false), end(&domain.high, true));

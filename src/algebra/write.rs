@@ -11,10 +11,13 @@ use super::field::{AngleOf, Field, Kind};
 use super::mono::{Mono, exponent, mono_add, mono_div, mono_divides, mono_is_one, mono_of, powers};
 use super::parts::{Parts, letters, strike};
 use super::poly::Poly;
-use crate::expr::{Expr, Function, Int, Rational, ratio};
+use super::product::MOST_SIGNED;
+use crate::expr::{Expr, Function, Int, Node, Rational, ratio};
 
 /// Longest sum above or below a line that is looked at for a term that stands better beside it.
 const MOST_PARTED: usize = 24;
+/// A quotient of this many nodes is long.
+const LONG: usize = 40;
 /// Longest sum whose terms are grouped.
 const MOST_GROUPED: usize = 300;
 /// Longest sum whose terms are joined.
@@ -30,6 +33,9 @@ struct Term {
     coeff: Int,
     gathered: Option<Expr>,
 }
+
+/// A written part of a sum behind its place in it.
+type Placed = ((u32, usize), Expr);
 
 impl Field {
     /// The element as a person would write it. Read again, it gives the same element.
@@ -103,10 +109,9 @@ impl Field {
         above.join_conjugates();
         below.join_conjugates();
         let quotient = self.assemble(&above, &below);
-        match self.parted(x) {
-            Some(parts) if parts.size() < quotient.size() => parts,
-            _ => quotient,
-        }
+        let others = [self.parted(x), self.from_no_rebound(x, quotient.size())];
+        let all = std::iter::once(quotient).chain(others.into_iter().flatten());
+        all.min_by_key(Expr::size).unwrap_or_else(Expr::zero)
     }
 
     /// A quotient with what stands above with the whole denominator taken out: `(g (M + m) − F)/(M + m)` is `g − F/(M + m)`.
@@ -139,6 +144,32 @@ impl Field {
         let mut both = [over(taken, Vec::new()), over(rest, den.clone())];
         both.sort_by_key(Expr::is_negative);
         Some(Expr::sum(both))
+    }
+
+    /// A long quotient with a coefficient of restitution e to the first power, as what holds for e = −1, where nothing
+    /// happens and no denominator is left, and what 1 + e brings: `u − (1 + e) w`.
+    fn from_no_rebound(&self, x: &Element, size: usize) -> Option<Expr> {
+        if size < LONG || x.num.len() > MOST_GROUPED || x.den.factors.is_empty() {
+            return None;
+        }
+        let is_bare = |v: &usize| {
+            let bare = matches!(self.gens[*v].kind, Kind::Symbol(_)) && x.num.degree(*v) == 1;
+            bare && !x.den.factors.iter().any(|(f, _)| f.has(*v)) && exponent(&x.den.mono, *v) == 0
+        };
+        let of = x.num.variables().into_iter().filter(is_bare);
+        let all = of.filter_map(|v| {
+            let [none, once] = <[Poly; 2]>::try_from(x.num.by_power(v)).ok()?;
+            let mut factors = x.den.factors.iter();
+            let still = factors.try_fold(none.sub(&once), |p, (f, k)| {
+                (0..*k).try_fold(p, |p, _| p.try_div(f))
+            })?;
+            let (int, mono) = (x.den.int.clone(), x.den.mono.clone());
+            let factors = Vec::new();
+            let still = self.written(&Element::new(still, Den { int, mono, factors }));
+            let rebound = self.written(&Element::from_poly(Poly::var(v).add(&Poly::one())));
+            Some(still + rebound * self.written(&Element::new(once, x.den.clone())))
+        });
+        all.min_by_key(Expr::size)
     }
 
     /// Numerator and factors of the denominator without what they have in common, where both hold a cosine: each of them may
@@ -203,7 +234,7 @@ impl Field {
             AngleOf::Symbol(name) => Expr::from(name.clone()),
             AngleOf::Term(term) => self.written(term),
         };
-        whole * Expr::ratio(1, i64::from(base.divisor))
+        whole * Expr::from(base.part.clone())
     }
 
     /// A sum with a positive term in front, if it has one; whether its sign was turned; whether a minus can be put into it.
@@ -218,10 +249,10 @@ impl Field {
         }
         let mut terms = self.shortened(p);
         let minus = terms.iter().filter(|t| t.coeff.is_negative()).count();
-        // What a relation says to be positive is written so; else, with more minus than plus, or as many and a number that
+        // What is known to be positive is written so; else, with more minus than plus, or as many and a number that
         // is negative, the other way round reads better.
         let number_negative = terms.iter().any(|t| t.coeff.is_negative() && t.is_number());
-        let flip = self.stated_sign(p).map_or_else(
+        let flip = self.shown_sign(p).map_or_else(
             || 2 * minus > terms.len() || (2 * minus == terms.len() && number_negative),
             |positive| !positive,
         );
@@ -234,14 +265,38 @@ impl Field {
         (Expr::sum(written.into_iter().map(|(_, e)| e)), flip, mixed)
     }
 
-    /// Writes the terms, those with a common factor under one bracket where that is shorter. Each comes with its place
-    /// in the natural order: numbers first, then by degree.
-    fn grouped(&self, mut terms: Vec<Term>) -> Vec<((u32, usize), Expr)> {
+    /// Whether a sum is positive, where a relation says so or a short one shows it.
+    fn shown_sign(&self, p: &Poly) -> Option<bool> {
+        self.stated_sign(p).or_else(|| {
+            let mixed = p
+                .terms()
+                .any(|(_, c)| c.is_negative() != p.coeff(0).is_negative());
+            let sign = (mixed && p.len() <= MOST_SIGNED).then(|| self.sign_poly(p))??;
+            Some(sign.is_not_negative())
+        })
+    }
+
+    /// Writes the terms, those with a common factor under one bracket where that is shorter, a square among them as one where
+    /// that is shorter still. Each comes with its place in the natural order: numbers first, then by degree.
+    fn grouped(&self, mut terms: Vec<Term>) -> Vec<Placed> {
         terms.sort_by_key(Term::degree);
-        let mut out = Vec::new();
+        let square = square_group(&terms).map(|group| self.bracketed(terms.clone(), Some(group)));
+        let plain = self.bracketed(terms, None);
+        let size = |all: &Vec<Placed>| all.iter().map(|(_, e)| e.size()).sum::<usize>();
+        let all = std::iter::once(plain).chain(square);
+        all.min_by_key(size).unwrap_or_default()
+    }
+
+    /// The same, beginning with a given group.
+    fn bracketed(&self, mut terms: Vec<Term>, mut first_group: Option<Vec<usize>>) -> Vec<Placed> {
+        let mut out: Vec<Placed> = Vec::new();
+        let mut totals: Vec<Poly> = Vec::new();
         let mut at = 0;
         while terms.len() > usize::from(out.is_empty()) + 1 && terms.len() <= MOST_GROUPED {
-            let Some(group) = best_group(&terms, out.is_empty()) else {
+            let group = first_group
+                .take()
+                .or_else(|| best_group(&terms, out.is_empty()));
+            let Some(group) = group else {
                 break;
             };
             let mut total = Poly::zero();
@@ -251,7 +306,21 @@ impl Field {
                 first = first.min(term.degree());
                 total = total.add(&Poly::term(&term.mono, term.coeff));
             }
-            out.push(((first, at), self.written(&Element::from_poly(total))));
+            let group = self.written(&Element::from_poly(total.clone()));
+            match out
+                .iter_mut()
+                .zip(&mut totals)
+                .find(|((_, had), _)| share_bracket(had, &group))
+            {
+                Some(((_, had), other)) => {
+                    *other = other.add(&total);
+                    *had = self.written(&Element::from_poly(other.clone()));
+                }
+                None => {
+                    out.push(((first, at), group));
+                    totals.push(total);
+                }
+            }
             at += 1;
         }
         for term in terms {
@@ -381,6 +450,35 @@ fn joinable(
 fn trimmed(mono: &[u64]) -> &[u64] {
     let len = mono.iter().rposition(|w| *w != 0).map_or(0, |k| k + 1);
     &mono[..len]
+}
+
+/// Whether both are products with the same bracket: `I (M + m) + J (M + m)` is `(I + J) (M + m)`.
+fn share_bracket(a: &Expr, b: &Expr) -> bool {
+    let (Node::Product(first), Node::Product(second)) = (a.node(), b.node()) else {
+        return false;
+    };
+    let is_bracket = |e: &Expr| matches!(e.node(), Node::Sum(_));
+    first.iter().any(|e| is_bracket(e) && second.contains(e))
+}
+
+/// Three of more terms that are a square, as a² + 2 a b + b², ascending.
+fn square_group(terms: &[Term]) -> Option<Vec<usize>> {
+    if !(4..=MOST_PARTED).contains(&terms.len()) {
+        return None;
+    }
+    let plain = |i: &usize| terms[*i].gathered.is_none();
+    let of = |i: usize| Poly::term(&terms[i].mono, terms[i].coeff.clone());
+    (0..terms.len()).filter(plain).find_map(|i| {
+        (i + 1..terms.len()).filter(plain).find_map(|j| {
+            let four = of(i).mul(&of(j)).ok()?.scale(&Int::from(4));
+            let is_middle = |k: &usize| of(*k).mul(&of(*k)).is_ok_and(|square| square == four);
+            let middle = (0..terms.len()).filter(plain).find(is_middle)?;
+            let mut group = vec![i, middle, j];
+            group.sort_unstable();
+            group.dedup();
+            (group.len() == 3).then_some(group)
+        })
+    })
 }
 
 /// The terms that are best written under one bracket, ascending, not all of them if `proper`; `None` where that saves nothing.

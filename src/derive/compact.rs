@@ -16,7 +16,7 @@ use crate::laws::{Affine, Kinematics, Unknown};
 use crate::scene::{Ask, ContactLaw, EnergyWhen, Scene};
 
 /// An answer of at most this many characters is printed in full.
-const LONG: usize = 110;
+const LONG: usize = 75;
 /// A common part of more characters than this gets a name.
 const NAMED: usize = 9;
 

@@ -374,6 +374,34 @@ fn results_are_written_as_a_person_would() {
             (&v1 + &v2).powi(40) / (&v1 + &v2).powi(38),
             "(^ (+ v1 v2) 2)",
         ),
+        (s("H") * s("g") * s("d") * s("mu") * &m, "(* mu m g H d)"),
+        (
+            &m1 + &m2 * &((&l + &v).powi(2) + u.powi(2)),
+            "(+ m1 (* m2 (+ (^ (+ l v) 2) (^ phi 2))))",
+        ),
+        (
+            &v1 - (n(1) + &e) * (&v1 + &v2) * (&m1 + &m2 * &u) / (&m * &u + &m1 * &l.powi(2) + &m2),
+            "(+ v1 (* -1 (+ 1 e) (+ m1 (* m2 phi)) (^ (+ m2 (* m phi) (* m1 (^ l 2))) -1) (+ v1 v2)))",
+        ),
+        (
+            &v1.powi(2) - &m * &l * (n(1) - t.cos()),
+            "(+ (^ v1 2) (* -1 m l (+ 1 (* -1 (cos theta)))))",
+        ),
+        (
+            (&v * &m1 + &u * &m1 + &v * &m2 + &u * &m2 + &m * &l * &e) / (n(2) * &m1 + &m2),
+            "(* (^ (+ (* 2 m1) m2) -1) (+ (* (+ m1 m2) (+ phi v)) (* m e l)))",
+        ),
+        (
+            (&m.powi(2) * &l * (n(1) + &e).powi(2) * (n(1) - t.cos())
+                - n(2) * &v1 * &(&m2 + &m).powi(2))
+                .sqrt(),
+            "(^ (+ (* (^ m 2) l (^ (+ 1 e) 2) (+ 1 (* -1 (cos theta)))) (* -2 v1 (^ (+ m m2) 2))) 1/2)",
+        ),
+        (e.power(s("n")).powi(2) * &l, "(* l (^ e (* 2 n)))"),
+        (
+            (&t * Expr::ratio(37, 216)).cos() * &l,
+            "(* l (cos (* 37/216 theta)))",
+        ),
     ] {
         let mut field = Field::new(&Domains::default());
         field.prepare([&from]);
