@@ -129,7 +129,10 @@ impl Writer<'_> {
             .zip(&row.0)
             .map(|(u, k)| k * &Expr::symbol(self.d.names.plain(*u)));
         let left = Expr::sum(terms.filter(|t| !t.is_zero()));
-        self.claim(left, row.1.clone(), reason);
+        match left.is_negative() && row.1.is_negative() {
+            true => self.claim(-left, -&row.1, reason),
+            false => self.claim(left, row.1.clone(), reason),
+        };
     }
 
     /// The closed form of an unknown's symbol.

@@ -67,20 +67,28 @@ impl Page<'_> {
             }
         }
         self.speed_at_end(&told.stages[i], &mut end);
-        let case = told.stages[i].cases.get(outcome);
-        if !end.boxed.is_empty() {
-            if !end.steps.is_empty() {
-                self.solution.push(Part::Display(end.steps));
-            }
-            if case.is_some_and(|case| !case.handed.is_empty()) {
-                self.solution.say("In terms of the given quantities,");
-            }
-            self.solution.push(Part::Result(end.boxed));
-        }
+        self.boxed(here, outcome, &mut end);
         if !end.numbers.is_empty() {
             end.numbers.push(say("."));
             self.solution.text(end.numbers);
         }
+    }
+
+    /// Puts the answers so far into a box, behind what they come from.
+    fn boxed(&mut self, told: &StageTold, outcome: usize, end: &mut End) {
+        if end.boxed.is_empty() {
+            return;
+        }
+        let steps = std::mem::take(&mut end.steps);
+        if !steps.is_empty() {
+            self.solution.push(Part::Display(steps));
+        }
+        let case = told.cases.get(outcome);
+        if case.is_some_and(|case| !case.handed.is_empty()) {
+            self.solution.say("In terms of the given quantities,");
+        }
+        let boxed = std::mem::take(&mut end.boxed);
+        self.solution.push(Part::Result(boxed));
     }
 
     /// One answer about the end of a stage.
@@ -120,7 +128,12 @@ impl Page<'_> {
         let made = here.steps.iter().find(found).filter(|_| flown.is_none());
         let made = made.map(|step| self.made_of(here, step));
         self.solution.meanings.insert(symbol.clone(), meaning);
-        for line in self.carried(here, &ask) {
+        let carried = self.carried(here, &ask);
+        if !carried.is_empty() {
+            // The motion it is carried along with is told first.
+            self.boxed(here, outcome, end);
+        }
+        for line in carried {
             let known = end.steps.iter().any(|l: &Line| l.math == line.math);
             end.steps.extend((!known).then_some(line));
         }

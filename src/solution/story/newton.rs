@@ -374,7 +374,7 @@ fn spread(e: &Expr) -> Expr {
             let Node::Sum(terms) = sum.node() else {
                 return e.clone();
             };
-            Expr::sum(terms.iter().map(|term| &others * term))
+            Expr::sum(terms.iter().map(|term| term * &others))
         }
         _ => e.clone(),
     }
