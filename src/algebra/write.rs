@@ -109,7 +109,7 @@ impl Field {
         above.join_conjugates();
         below.join_conjugates();
         let quotient = self.assemble(&above, &below);
-        let others = [self.parted(x), self.from_no_rebound(x, quotient.size())];
+        let others = [self.parted(x), self.with_rebound(x, quotient.size())];
         let all = std::iter::once(quotient).chain(others.into_iter().flatten());
         all.min_by_key(Expr::size).unwrap_or_else(Expr::zero)
     }
@@ -148,7 +148,7 @@ impl Field {
 
     /// A long quotient with a coefficient of restitution e to the first power, as what holds for e = −1, where nothing
     /// happens and no denominator is left, and what 1 + e brings: `u − (1 + e) w`.
-    fn from_no_rebound(&self, x: &Element, size: usize) -> Option<Expr> {
+    fn with_rebound(&self, x: &Element, size: usize) -> Option<Expr> {
         if size < LONG || x.num.len() > MOST_GROUPED || x.den.factors.is_empty() {
             return None;
         }
