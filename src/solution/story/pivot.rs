@@ -2,7 +2,7 @@
 
 use super::Page;
 use crate::answer::Answer;
-use crate::expr::{Expr, Symbol, Vector, dot, minus};
+use crate::expr::{Expr, Node, Symbol, Vector, dot, minus};
 use crate::scene::{Ask, StageKind, Turn};
 use crate::solution::known::number;
 use crate::solution::neat::{alike, neat, tidied};
@@ -261,8 +261,12 @@ impl Page<'_> {
             let (Some([_, inertia]), Some(value)) = (&told.inertia, answer.formula()) else {
                 continue;
             };
-            let counted = Expr::from(if *clockwise { -1 } else { 1 });
-            let moment = counted * self.moment(told, turn, *at_end);
+            let moment = self.moment(told, turn, *at_end);
+            let moment = match (moment.node(), clockwise) {
+                (Node::Sum(terms), true) => Expr::sum(terms.iter().map(|t| -t)),
+                (_, true) => -moment,
+                (_, false) => moment,
+            };
             let claim = Claim::new(inertia * value, moment.clone());
             let why = "moment of inertia times angular acceleration = moments";
             let step = Some(self.solution.step(Vec::new(), vec![claim], why));
