@@ -140,8 +140,11 @@ pub fn digits_shared(answer: &Rational, exact: &[Rational; 2]) -> u32 {
     if off.is_zero() {
         return 100;
     }
+    // Bounds on both sides of 1 are those of 1, and not of 0.999….
+    let [low, high] = exact.each_ref().map(Signed::abs);
+    let size = low.max(high);
     (1..=MOST_DIGITS)
         .rev()
-        .find(|n| off <= half_unit(&middle, *n))
+        .find(|n| off <= half_unit(&size, *n))
         .unwrap_or(0)
 }

@@ -157,6 +157,12 @@ impl Enclosure {
         }
     }
 
+    /// The interval that ends so much higher.
+    pub(super) fn reaching(&self, above: &Dyadic, bits: u32) -> Enclosure {
+        let high = self.high.add(above, bits, Round::Up);
+        Enclosure::new(self.low.clone(), high)
+    }
+
     /// The interval widened by ±`by`.
     pub fn widen(&self, by: &Dyadic, bits: u32) -> Enclosure {
         let low = self.low.add(&by.neg(), bits, Round::Down);

@@ -227,34 +227,31 @@ pub(super) fn exp(x: &Enclosure, bits: u32) -> Outcome<Enclosure> {
     if x.top() > 39 {
         return Unknown;
     }
-    Value(monotone(x, |t| exp_point(t, bits)))
+    let width = x.width(64);
+    if width.top().saturating_add(i64::from(bits) / 2) > 0 {
+        return Value(monotone(x, |t| exp_point(t, bits)));
+    }
+    // e^(x + d) ≤ eˣ (1 + 2d) for d ≤ 1.
+    let low = exp_point(&x.low, bits);
+    let above = low.high.mul(&width.scale(1));
+    Value(low.reaching(&above, bits))
 }
 
 fn exp_point(x: &Dyadic, bits: u32) -> Enclosure {
+    if x.sign() == 0 {
+        return unit();
+    }
     let halvings = halvings(bits, 2, 6);
     let w = bits + 64 + halvings as u32;
-    let point = Enclosure::point(x.clone());
-    let ln2 = ln_two(w);
-    let k = match ln2.recip(w) {
-        Some(inverse) => nearest(&point.mul(&inverse, w).low),
-        None => BigInt::zero(),
-    };
-    let turns = Enclosure::point(Dyadic::new(k.clone(), 0));
-    let y = point.sub(&turns.mul(&ln2, w), w).scale(-halvings);
-    // |y| < 1/2: the rest of the series is at most the first term left out times 1/(1 − 1/2).
-    let (mut term, mut total) = (unit(), unit());
-    for n in 1.. {
-        term = term.mul(&y, w).div_small(n, w);
-        if term.abs().high.top() < -i64::from(w) {
-            total = total.widen(&term.abs().high.scale(1), w);
-            break;
-        }
-        total = total.add(&term, w);
-    }
+    // Any integer k is right; this one leaves a rest between 0 and 0.7, whichever way its double is rounded.
+    let k = (x.to_f64(Round::Down) / std::f64::consts::LN_2 - 1.0 / 256.0).floor() as i64;
+    let turns = Enclosure::point(Dyadic::from_int(k));
+    let y = Enclosure::point(x.clone()).sub(&turns.mul(&ln_two(w), w), w);
+    let mut total = fixed_series(&y.scale(-halvings), w, false, |n| [n, 1]);
     for _ in 0..halvings {
         total = total.square(w);
     }
-    total.scale(k.to_i64().unwrap_or(0)).rounded(bits)
+    total.scale(k).rounded(bits)
 }
 
 /// ln x.
@@ -265,7 +262,16 @@ pub(super) fn ln(x: &Enclosure, bits: u32) -> Outcome<Enclosure> {
     if x.low.sign() <= 0 {
         return Unknown;
     }
-    Value(monotone(x, |t| ln_point(t, bits)))
+    let width = x.width(64);
+    let is_narrow = width.top().saturating_add(i64::from(bits) / 2) < x.low.top();
+    match Enclosure::point(x.low.clone()).recip(64) {
+        // ln(x + d) ≤ ln x + d/x.
+        Some(slope) if is_narrow => {
+            let above = slope.high.mul(&width);
+            Value(ln_point(&x.low, bits).reaching(&above, bits))
+        }
+        _ => Value(monotone(x, |t| ln_point(t, bits))),
+    }
 }
 
 /// ln x = k ln 2 + 2 artanh((m − 1)/(m + 1)) with x = m·2^k and m in [1/√2, √2], roughly.
@@ -282,7 +288,7 @@ fn ln_point(x: &Dyadic, bits: u32) -> Enclosure {
     let mut roots = 0;
     // Near 1 the quotient is small already, and roots would cancel digits.
     if m.sub(&unit(), 64).abs().high.top() > -8 {
-        roots = halvings(bits, 2, 4);
+        roots = halvings(bits, 2, 0);
     }
     let w = w + roots as u32 + 8;
     for _ in 0..roots {
@@ -311,8 +317,7 @@ fn atan(x: &Enclosure, bits: u32) -> Enclosure {
     if !is_narrow || width.sign() == 0 {
         return monotone(x, |t| atan_point(t, bits));
     }
-    let low = atan_point(&x.low, bits);
-    Enclosure::new(low.low, low.high.add(&width, bits, Round::Up))
+    atan_point(&x.low, bits).reaching(&width, bits)
 }
 
 /// atan x by |x| > 1 → π/2 − atan(1/x), then atan x = 2 atan(x/(1 + √(1 + x²))).

@@ -1,6 +1,6 @@
 //! Enclosures against exact fractions, known digits and each other.
 
-use num_traits::Signed;
+use num_traits::{Signed, Zero};
 use proptest::prelude::*;
 
 use super::dyadic::{Dyadic, Round};
@@ -180,6 +180,22 @@ proptest! {
                 }
             } else {
                 prop_assert!(!matches!((&coarse, &fine), (Outcome::Undefined, Outcome::Value(_)) | (Outcome::Value(_), Outcome::Undefined)));
+            }
+        }
+    }
+
+    #[test]
+    fn functions_of_a_narrow_interval_reach_from_end_to_end(a in fraction(), narrow in 42i64..60) {
+        prop_assume!(!a.is_zero());
+        let low = Dyadic::from_rational(&a, 53, Round::Down);
+        let width = Dyadic::new(1, low.top() - narrow);
+        let x = Enclosure::new(low.clone(), low.add(&width, 120, Round::Up));
+        for function in [Function::Exp, Function::Ln, Function::Atan] {
+            let value = |x: &Enclosure, bits| series::call(x, function, bits).value();
+            let Some(whole) = value(&x, 80) else { continue };
+            for end in [&x.low, &x.high] {
+                let fine = value(&Enclosure::point(end.clone()), 400).expect("a value as well");
+                prop_assert!(whole.low <= fine.low && fine.high <= whole.high, "{function:?} of {x:?}");
             }
         }
     }
