@@ -185,6 +185,13 @@ impl Content {
         names
     }
 
+    /// Whether a name occurs.
+    pub fn mentions(&self, name: &str) -> bool {
+        let mut found = false;
+        self.each(&mut |e| found = found || e.mentions(name));
+        found
+    }
+
     /// Calls `visit` for every expression inside.
     pub fn each(&self, visit: &mut dyn FnMut(&Expr)) {
         match self {

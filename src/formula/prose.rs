@@ -84,7 +84,15 @@ pub(super) fn behind_words(text: &str, known: &dyn Fn(&str) -> bool) -> Option<u
 
 /// The value that goes on from what was asked: `≈ 1.2 m/s`, `= 1.2 m/s`, `about 1.2 m/s`.
 pub(super) fn value(text: &str) -> Option<&str> {
-    const WORDS: &str = "about|approximately|approx.|approx|roughly|circa|ca.";
+    const WORDS: [&str; 7] = [
+        "about",
+        "approximately",
+        "approx.",
+        "approx",
+        "roughly",
+        "circa",
+        "ca.",
+    ];
     let text = text.trim_start();
     let signed = |sign: &&str| text.strip_prefix(*sign);
     if let Some(behind) = ["≈", "\\approx", "="].iter().find_map(signed) {
@@ -96,7 +104,7 @@ pub(super) fn value(text: &str) -> Option<&str> {
         let is_number = number.starts_with(|c: char| c.is_ascii_digit() || "-−+.".contains(c));
         (said.eq_ignore_ascii_case(word) && is_number).then_some(behind)
     };
-    WORDS.split('|').find_map(said)
+    WORDS.into_iter().find_map(said)
 }
 
 /// Where the last of several statements starts that follow from each other: `mgh = ½mv² ⟹ v = √(2gh)`; also behind a word

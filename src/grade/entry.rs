@@ -78,9 +78,19 @@ pub fn entry(line: &str, defaults: &Options) -> Result<Entry, BadLine> {
 pub use strict::id_in;
 
 fn fill(fields: &Map<String, Value>, id: &Value, defaults: &Options) -> Result<Entry, String> {
-    const FIELDS: &str = "id, expected, answer, scene, quantity, symbols, tolerance, form";
-    if let Some(name) = fields.keys().find(|k| !FIELDS.split(", ").any(|f| f == *k)) {
-        return Err(format!("unknown field {name:?}; known are {FIELDS}"));
+    const FIELDS: [&str; 8] = [
+        "id",
+        "expected",
+        "answer",
+        "scene",
+        "quantity",
+        "symbols",
+        "tolerance",
+        "form",
+    ];
+    if let Some(name) = fields.keys().find(|k| !FIELDS.contains(&k.as_str())) {
+        let known = FIELDS.join(", ");
+        return Err(format!("unknown field {name:?}; known are {known}"));
     }
     let text = |name: &str| match fields.get(name) {
         None | Some(Value::Null) => Ok(None),

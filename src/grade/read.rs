@@ -244,15 +244,28 @@ fn mended(key: &Key, text: &str, fault: Fault) -> Result<Reading, Fault> {
 
 /// Refuses a direction in words behind a formula: `9.31 rad/s clockwise`, `5 N to the left`.
 fn direction(text: &str) -> Option<Fault> {
-    const WORDS: &str = "clockwise|to the right|to the left|upward|upwards|downward|downwards|rightward|\
-        leftward|eastward|westward|northward|southward";
+    const WORDS: [&str; 13] = [
+        "clockwise",
+        "to the right",
+        "to the left",
+        "upward",
+        "upwards",
+        "downward",
+        "downwards",
+        "rightward",
+        "leftward",
+        "eastward",
+        "westward",
+        "northward",
+        "southward",
+    ];
     let said = text.trim_end_matches([' ', '.', ')', '}']);
     let ends = |word: &&str| {
         let at = said.len().checked_sub(word.len()).filter(|at| *at > 0);
         let found = at.and_then(|at| said.get(at..));
         found.is_some_and(|end| end.eq_ignore_ascii_case(word))
     };
-    let word = WORDS.split('|').find(ends)?;
+    let word = WORDS.into_iter().find(ends)?;
     let at = said.len() - word.len();
     let (what, message) = match word {
         "clockwise" => ("sense", "a sense of rotation is no part of the formula"),

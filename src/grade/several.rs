@@ -13,7 +13,7 @@ use crate::formula::{Content, Join, Quantity, Reading, Relation};
 pub(super) fn joined(ctx: &Context, expected: &Content, reading: &Reading) -> Option<Finding> {
     let answer = &reading.content;
     let is_joined = |content: &Content| matches!(content, Content::Joined(..));
-    let unnamed = |content: &Content| content.symbols().contains(UNNAMED);
+    let unnamed = |content: &Content| content.mentions(UNNAMED);
     let relations =
         |content: &Content| matches!(content, Content::Relations(..) | Content::Joined(..));
     if unnamed(expected) != unnamed(answer) {
@@ -134,7 +134,7 @@ fn unit_missing(ctx: &Context, answer: &Content) -> Option<Finding> {
 
 /// A content that says of something without a name what the other says of its symbol.
 fn named_as(content: &Content, other: &Content) -> Option<Content> {
-    if content.symbols().contains(UNNAMED) || !other.symbols().contains(UNNAMED) {
+    if content.mentions(UNNAMED) || !other.mentions(UNNAMED) {
         return Some(content.clone());
     }
     let subject = subject(content, &other.symbols())?;
