@@ -1,6 +1,6 @@
 //! The generators of a field, the relations between them, and arithmetic of its elements.
 
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use num_integer::Integer;
@@ -13,6 +13,7 @@ use super::element::{Den, Element};
 use super::gcd::Fuel;
 use super::mono::{Mono, exponent, mono_max, mono_of};
 use super::poly::Poly;
+use super::sampled::Held;
 use super::substitution;
 use crate::domain::Domains;
 use crate::expr::angle::angle;
@@ -88,8 +89,12 @@ pub struct Field {
     pub(crate) complete: bool,
     /// Values of the generators at fixed points of the domain, made when first needed.
     pub(crate) samples: RefCell<Vec<Vec<f64>>>,
+    /// At which of these points what is supposed holds, found when first needed.
+    pub(super) held: OnceCell<Held>,
     /// What halving the domain has told of signs.
     pub(super) halved: RefCell<BTreeMap<Poly, substitution::Found>>,
+    /// Whether a root is known to be positive, of those whose radicand's sign has been looked for.
+    pub(super) roots: RefCell<BTreeMap<usize, bool>>,
     /// Roots whose radicand's sign is being looked for.
     pub(super) asked: RefCell<Vec<usize>>,
     pub(crate) fuel: Fuel,
@@ -113,7 +118,9 @@ impl Field {
             supposed: Vec::new(),
             complete: true,
             samples: RefCell::default(),
+            held: OnceCell::new(),
             halved: RefCell::default(),
+            roots: RefCell::default(),
             asked: RefCell::default(),
             fuel: Fuel::new(),
             read: FxHashMap::default(),

@@ -62,6 +62,11 @@ impl Fuel {
         self.now.set(Fuel::FULL.min(self.store.get()));
     }
 
+    /// Whether the operation at hand has none left.
+    pub fn is_spent(&self) -> bool {
+        self.now.get() == 0
+    }
+
     pub fn burn(&self, amount: usize) -> Result<(), Stop> {
         let amount = amount as u64;
         self.store.set(self.store.get().saturating_sub(amount));

@@ -1,10 +1,13 @@
 //! Signs that stated relations decide: with M > m, M − m is positive, and so is 2M − m.
 
+use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 
 use super::Sign;
 use super::field::{Field, Kind};
 use super::poly::Poly;
+use super::sampled::Points;
 use super::substitution::MOST_TERMS;
 use crate::domain::{Domain, Relation};
 use crate::expr::{Expr, Rational, Symbol, ratio};
@@ -66,6 +69,8 @@ impl Field {
             // Normal forms found before know nothing of it.
             self.read.clear();
             self.samples.get_mut().clear();
+            self.held.take();
+            self.roots.get_mut().clear();
             self.halved.get_mut().clear();
         }
     }
@@ -115,46 +120,72 @@ impl Field {
             let found = self.supposed.iter().find(|(q, _)| q == p);
             found.map(|(_, closed)| Sign::made(true, !closed))
         };
-        stated(p)
-            .or_else(|| stated(&p.neg()).map(Sign::flip))
-            .or_else(|| self.eliminated(p, &self.supposed, &[]))
+        let known = stated(p).or_else(|| stated(&p.neg()).map(Sign::flip));
+        if known.is_some() {
+            return known;
+        }
+        let all = self.supposed.iter().enumerate();
+        let all = all.map(|(of, (excess, closed))| Related {
+            of,
+            excess: Cow::Borrowed(excess),
+            closed: *closed,
+        });
+        let all: Vec<Related> = all.collect();
+        self.eliminated(p, &all, &[], &mut Search::new(self, p))
     }
 
     /// A relation A v + B > 0 with A > 0 makes v = (δ − B)/A with a positive δ, which takes the place of v: a sign that
-    /// follows for all positive δ holds. `excesses` are the variables that stand for such a δ already.
+    /// follows for all positive δ holds. `used` tells what has been replaced already.
     fn eliminated(
         &self,
         p: &Poly,
-        relations: &[(Poly, bool)],
-        excesses: &[(usize, bool)],
+        relations: &[Related],
+        used: &[Used],
+        search: &mut Search,
     ) -> Option<Sign> {
-        for (i, (relation, closed)) in relations.iter().enumerate() {
-            for v in relation.variables() {
+        for relation in relations {
+            for v in relation.excess.variables() {
                 let is_free =
                     matches!(self.gens[v].kind, Kind::Symbol(_)) && self.gens[v].relation.is_none();
-                if !is_free || !p.has(v) || excesses.iter().any(|(e, _)| *e == v) {
+                if !is_free || !p.has(v) || used.iter().any(|u| u.v == v) {
                     continue;
                 }
-                let Some((top, below)) = self.solved(relation, v, excesses) else {
+                let own = Used {
+                    of: relation.of,
+                    v,
+                    closed: relation.closed,
+                };
+                let used = [used, &[own]].concat();
+                let others: Vec<&Related> = relations.iter().filter(|r| r.of != own.of).collect();
+                // A first one is cheaper tried than weighed at points.
+                let is_weighed = used.len() > 1;
+                if is_weighed && !search.is_worth(&used, &others) {
+                    continue;
+                }
+                let Some((top, below)) = self.solved(&relation.excess, v, &used) else {
                     continue;
                 };
                 let Some(q) = replaced(p, v, &top, &below) else {
                     continue;
                 };
-                let mut excesses = excesses.to_vec();
-                excesses.push((v, *closed));
-                if let Some(sign) = self.with_excesses(&q, &excesses) {
-                    return Some(sign);
+                if !is_weighed || search.is_open(&used) {
+                    let excesses: Vec<_> = used.iter().map(|u| (u.v, u.closed)).collect();
+                    let found = self.with_excesses(&q, &excesses);
+                    if found.is_some() {
+                        return found;
+                    }
                 }
-                if excesses.len() == DEPTH {
+                if used.len() == DEPTH || !search.may_follow(&used, &others) {
                     continue;
                 }
-                let others = relations.iter().enumerate().filter(|(j, _)| *j != i);
-                let others = others
-                    .filter_map(|(_, (r, closed))| Some((replaced(r, v, &top, &below)?, *closed)));
-                let others: Vec<(Poly, bool)> = others.collect();
-                if let Some(sign) = self.eliminated(&q, &others, &excesses) {
-                    return Some(sign);
+                let others = others.into_iter().filter_map(|r| {
+                    let excess = Cow::Owned(replaced(&r.excess, v, &top, &below)?);
+                    Some(Related { excess, ..*r })
+                });
+                let others: Vec<Related> = others.collect();
+                let found = self.eliminated(&q, &others, &used, search);
+                if found.is_some() {
+                    return found;
                 }
             }
         }
@@ -162,17 +193,12 @@ impl Field {
     }
 
     /// The variable v as top/below, below positive, where v in `top` stands for the excess of the relation.
-    fn solved(
-        &self,
-        relation: &Poly,
-        v: usize,
-        excesses: &[(usize, bool)],
-    ) -> Option<(Poly, Poly)> {
+    fn solved(&self, relation: &Poly, v: usize, used: &[Used]) -> Option<(Poly, Poly)> {
         let parts = relation.by_power(v);
         let [b, a] = parts.as_slice() else {
             return None;
         };
-        if excesses.iter().any(|(e, _)| a.has(*e)) {
+        if used.iter().any(|u| a.has(u.v)) {
             return None;
         }
         let excess = Poly::var(v);
@@ -181,6 +207,81 @@ impl Field {
             Sign::Negative => Some((b.sub(&excess), a.neg())),
             _ => None,
         }
+    }
+}
+
+/// One of the relations supposed, by place, with what has been replaced in it.
+struct Related<'a> {
+    of: usize,
+    excess: Cow<'a, Poly>,
+    closed: bool,
+}
+
+/// A variable for which the excess of a relation stands.
+#[derive(Clone, Copy)]
+struct Used {
+    of: usize,
+    v: usize,
+    closed: bool,
+}
+
+/// A search for the sign of a polynomial by several relations: some of them prove none where both signs are seen at points
+/// at which all of these hold.
+struct Search<'a> {
+    field: &'a Field,
+    of: &'a Poly,
+    /// The sample points at which it is positive and negative; found when first needed.
+    signs: OnceCell<[Points; 2]>,
+    /// Which relations took the place of which variables: the order makes no difference.
+    tried: BTreeSet<Vec<(usize, usize)>>,
+}
+
+impl<'a> Search<'a> {
+    fn new(field: &'a Field, of: &'a Poly) -> Search<'a> {
+        Search {
+            field,
+            of,
+            signs: OnceCell::new(),
+            tried: BTreeSet::new(),
+        }
+    }
+
+    /// Whether no point rules out that these relations prove a sign.
+    fn is_open(&self, used: &[Used]) -> bool {
+        self.is_open_at(&self.signs_given(used))
+    }
+
+    /// Whether no point rules out that these relations, with others up to the greatest number, prove a sign.
+    fn may_follow(&self, used: &[Used], others: &[&Related]) -> bool {
+        self.may_follow_at(&self.signs_given(used), others, DEPTH - used.len())
+    }
+
+    fn may_follow_at(&self, signs: &[Points; 2], others: &[&Related], left: usize) -> bool {
+        left > 0
+            && others.iter().any(|r| {
+                let signs = signs.map(|seen| seen.within(&self.field.held().each[r.of]));
+                self.is_open_at(&signs) || self.may_follow_at(&signs, others, left - 1)
+            })
+    }
+
+    /// Whether these relations may lead to a sign, and have not been tried in another order.
+    fn is_worth(&mut self, used: &[Used], others: &[&Related]) -> bool {
+        let mut pairs: Vec<(usize, usize)> = used.iter().map(|u| (u.of, u.v)).collect();
+        pairs.sort_unstable();
+        (self.is_open(used) || self.may_follow(used, others)) && self.tried.insert(pairs)
+    }
+
+    fn is_open_at(&self, signs: &[Points; 2]) -> bool {
+        signs.iter().any(Points::is_empty)
+    }
+
+    /// Where each sign is seen among the points at which these relations hold.
+    fn signs_given(&self, used: &[Used]) -> [Points; 2] {
+        let find = || self.field.signs_at_points(self.of);
+        let each = &self.field.held().each;
+        let given = |all: Points, u: &Used| all.within(&each[u.of]);
+        let signs = self.signs.get_or_init(find);
+        signs.map(|seen| used.iter().fold(seen, given))
     }
 }
 

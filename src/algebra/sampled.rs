@@ -8,13 +8,50 @@ use super::poly::Poly;
 use super::prime::{PLAIN, prime, random, seed};
 use crate::expr::number::to_f64;
 use crate::expr::{Int, Rational, Symbol};
-use num_traits::One;
 
 /// Points at which an unproved sign is looked at. Enough that a sign change over a tenth of the domain is hardly missed;
 /// what is missed still stands in the list of assumptions.
 const SAMPLES: usize = 80;
+/// How many times as many are drawn where relations leave only some of them.
+const RELATED: usize = 8;
 /// How many of them are near a corner of the domain: what is linear in each symbol changes sign there if anywhere.
 const CORNERS: usize = 32;
+
+/// What sample points tell of what is supposed.
+#[derive(Clone, Debug)]
+pub(super) struct Held {
+    /// The points at which all of it holds.
+    pub points: Vec<usize>,
+    /// Of each part, the points at which it is positive.
+    pub each: Vec<Points>,
+}
+
+/// Some of the sample points, as bits.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Points([u128; (RELATED * SAMPLES).div_ceil(u128::BITS as usize)]);
+
+impl Points {
+    /// Those whose values are of some kind.
+    fn that(values: &[Option<f64>], is: impl Fn(f64) -> bool) -> Points {
+        let mut points = Points(Default::default());
+        for (k, value) in values.iter().enumerate() {
+            let bit = u128::from(value.is_some_and(&is));
+            points.0[k / 128] |= bit << (k % 128);
+        }
+        points
+    }
+
+    /// Those that are among others, too.
+    pub fn within(mut self, others: &Points) -> Points {
+        self.0.iter_mut().zip(others.0).for_each(|(a, b)| *a &= b);
+        self
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.0.iter().all(|bits| *bits == 0)
+    }
+}
 
 /// Coefficients in doubles, with their monomials.
 fn in_doubles(p: &Poly) -> Vec<(f64, &[u64])> {
@@ -28,8 +65,8 @@ impl Field {
         self.ensure_samples();
         let (mut plus, mut minus) = (false, false);
         let terms = in_doubles(p);
-        for k in (0..self.sample_count()).filter(|k| self.keeps_what_is_supposed(*k)) {
-            if let Some(value) = self.sample_terms(&terms, k) {
+        for k in &self.held().points {
+            if let Some(value) = self.sample_terms(&terms, *k) {
                 plus |= value > 0.0;
                 minus |= value < 0.0;
             }
@@ -44,20 +81,46 @@ impl Field {
     fn sample_count(&self) -> usize {
         match self.supposed.len() {
             0 => SAMPLES,
-            _ => 8 * SAMPLES,
+            _ => RELATED * SAMPLES,
         }
     }
 
-    fn keeps_what_is_supposed(&self, k: usize) -> bool {
-        let mut supposed = self.supposed.iter();
-        supposed.all(|(p, _)| self.sample(p, k).is_none_or(|value| value >= 0.0))
+    /// The sample points at which what is supposed holds.
+    pub(super) fn held(&self) -> &Held {
+        self.held.get_or_init(|| {
+            self.ensure_samples();
+            let supposed = self.supposed.iter();
+            let values: Vec<Vec<Option<f64>>> = supposed.map(|(p, _)| self.values(p)).collect();
+            let keeps = |k: &usize| {
+                let mut values = values.iter().map(|of| of[*k]);
+                values.all(|value| value.is_none_or(|value| value >= 0.0))
+            };
+            Held {
+                points: (0..self.sample_count()).filter(keeps).collect(),
+                each: values
+                    .iter()
+                    .map(|of| Points::that(of, |v| v > 0.0))
+                    .collect(),
+            }
+        })
+    }
+
+    /// The sample points at which a polynomial is positive, and those at which it is negative.
+    pub(super) fn signs_at_points(&self, p: &Poly) -> [Points; 2] {
+        self.ensure_samples();
+        let values = self.values(p);
+        let [above, below] = [|v: f64| v > 0.0, |v: f64| v < 0.0];
+        [Points::that(&values, above), Points::that(&values, below)]
+    }
+
+    /// Values at all sample points.
+    fn values(&self, p: &Poly) -> Vec<Option<f64>> {
+        let terms = in_doubles(p);
+        let all = 0..self.sample_count();
+        all.map(|k| self.sample_terms(&terms, k)).collect()
     }
 
     /// Value at a sample point; 0 where rounding leaves the sign open, `None` where a generator has no value.
-    fn sample(&self, p: &Poly, k: usize) -> Option<f64> {
-        self.sample_terms(&in_doubles(p), k)
-    }
-
     fn sample_terms(&self, terms: &[(f64, &[u64])], k: usize) -> Option<f64> {
         let samples = self.samples.borrow();
         let (mut total, mut size) = (0.0, 0.0);
@@ -76,21 +139,24 @@ impl Field {
         Some(if known { total } else { 0.0 })
     }
 
-    fn sample_element(&self, x: &Element, k: usize) -> Option<f64> {
-        let mut value = self.sample(&x.num, k)? / to_f64(&Rational::from(x.den.int.clone()));
-        value /= self.sample(&Poly::term(&x.den.mono, Int::one()), k)?;
-        for (f, e) in &x.den.factors {
-            value /= self.sample(f, k)?.powi(*e as i32);
+    /// Values of an element at all sample points.
+    fn element_values(&self, x: &Element) -> Vec<Option<f64>> {
+        let mut values = self.values(&x.num);
+        let mono = Poly::term(&x.den.mono, x.den.int.clone());
+        let factors = x.den.factors.iter().map(|(f, e)| (f, *e as i32));
+        for (below, power) in [(&mono, 1)].into_iter().chain(factors) {
+            for (value, below) in values.iter_mut().zip(self.values(below)) {
+                *value = value.zip(below).map(|(v, below)| v / below.powi(power));
+            }
         }
-        Some(value)
+        values
     }
 
     fn ensure_samples(&self) {
         let known = self.samples.borrow().len();
         for v in known..self.gens.len() {
-            let column: Vec<f64> = (0..self.sample_count())
-                .map(|k| self.sample_generator(v, k).unwrap_or(f64::NAN))
-                .collect();
+            let column = self.generator_values(v).into_iter();
+            let column = column.map(|value| value.unwrap_or(f64::NAN)).collect();
             self.samples.borrow_mut().push(column);
         }
     }
@@ -104,60 +170,81 @@ impl Field {
         [range.low, range.high].map(|end| end.map(|(value, _)| to_f64(&value)))
     }
 
-    fn sample_generator(&self, v: usize, k: usize) -> Option<f64> {
-        let value = match &self.gens[v].kind {
-            Kind::Symbol(name) if &**name == "pi" => std::f64::consts::PI,
-            Kind::Symbol(name) => match &self.gens[v].relation {
+    /// Values of a generator at all sample points, by those of what it is made of.
+    fn generator_values(&self, v: usize) -> Vec<Option<f64>> {
+        let all = 0..self.sample_count();
+        let each = |values: Vec<Option<f64>>, f: &dyn Fn(f64) -> f64| {
+            let values = values.into_iter();
+            values.map(|value| value.map(f)).collect()
+        };
+        let drawn = |name: &Symbol, ends: [Option<f64>; 2]| {
+            let (all, seed) = (all.clone(), seed(name));
+            all.map(|k| Some(pick(ends, fraction(seed, k)))).collect()
+        };
+        let relation = self.gens[v].relation.as_ref();
+        match &self.gens[v].kind {
+            Kind::Symbol(name) if &**name == "pi" => {
+                vec![Some(std::f64::consts::PI); all.len()]
+            }
+            Kind::Symbol(name) => match relation {
+                None => drawn(name, self.ends(name)),
                 Some((_, value)) => {
-                    let size = self.sample(value, k)?.max(0.0).sqrt();
                     let [low, high] = self.ends(name);
                     let positive = low.is_some_and(|l| l >= 0.0);
                     let negative = high.is_some_and(|h| h <= 0.0);
-                    match positive || (!negative && k.is_multiple_of(2)) {
-                        true => size,
-                        false => -size,
-                    }
+                    let values = self.values(value).into_iter().enumerate();
+                    let signed = values.map(|(k, value)| {
+                        let size = value?.max(0.0).sqrt();
+                        let is_above = positive || (!negative && k.is_multiple_of(2));
+                        Some(if is_above { size } else { -size })
+                    });
+                    signed.collect()
                 }
-                None => pick(self.ends(name), fraction(name, k)),
             },
             Kind::Cos(base) | Kind::Sin(base) => {
                 let base = &self.bases[*base];
-                let angle = match &base.of {
-                    AngleOf::Symbol(name) => match self.domains.symbols.get(name) {
-                        None => fraction(name, k) * std::f64::consts::FRAC_PI_2,
-                        Some(_) => pick(self.ends(name), fraction(name, k)),
-                    },
-                    AngleOf::Term(term) => self.sample_element(term, k)?,
-                } * to_f64(&base.part);
+                let angles = match &base.of {
+                    AngleOf::Symbol(name) if self.domains.symbols.contains_key(name) => {
+                        drawn(name, self.ends(name))
+                    }
+                    AngleOf::Symbol(name) => {
+                        drawn(name, [Some(0.0), Some(std::f64::consts::FRAC_PI_2)])
+                    }
+                    AngleOf::Term(term) => self.element_values(term),
+                };
+                let part = to_f64(&base.part);
                 match self.gens[v].kind {
-                    Kind::Cos(_) => angle.cos(),
-                    _ => angle.sin(),
+                    Kind::Cos(_) => each(angles, &|angle| (angle * part).cos()),
+                    _ => each(angles, &|angle| (angle * part).sin()),
                 }
             }
-            Kind::Root => {
-                let (degree, value) = self.gens[v].relation.as_ref()?;
-                let value = self.sample(value, k)?;
-                match degree {
-                    2 => value.sqrt(),
-                    n => value.signum() * value.abs().powf(1.0 / f64::from(*n)),
+            Kind::Root => match relation {
+                None => vec![None; all.len()],
+                Some((2, value)) => each(self.values(value), &f64::sqrt),
+                Some((n, value)) => {
+                    let n = 1.0 / f64::from(*n);
+                    each(self.values(value), &|x| x.signum() * x.abs().powf(n))
                 }
-            }
-            Kind::Abs(p) => self.sample(p, k)?.abs(),
+            },
+            Kind::Abs(p) => each(self.values(p), &f64::abs),
             Kind::Call(function, x) => {
-                crate::expr::Scalar::call(&self.sample_element(x, k)?, *function)?
+                let values = self.element_values(x).into_iter();
+                let call = |x: f64| crate::expr::Scalar::call(&x, *function);
+                values.map(|x| x.and_then(call)).collect()
             }
-            Kind::Power(base, exponent) => self
-                .sample_element(base, k)?
-                .powf(self.sample_element(exponent, k)?),
-        };
-        Some(value)
+            Kind::Power(base, exponent) => {
+                let bases = self.element_values(base).into_iter();
+                let both = bases.zip(self.element_values(exponent));
+                both.map(|(a, b)| Some(a?.powf(b?))).collect()
+            }
+        }
     }
 }
 
-/// A number in (0, 1), fixed by name and index: near the ends first, then well spread.
-fn fraction(name: &str, k: usize) -> f64 {
+/// A number in (0, 1), fixed by the seed of a name and by index: near the ends first, then well spread.
+fn fraction(seed: u64, k: usize) -> f64 {
     const NEAR: f64 = 1e-6;
-    let z = random::<PLAIN>(seed(name), k as u64);
+    let z = random::<PLAIN>(seed, k as u64);
     match (k, z & 1) {
         (0, _) => NEAR,
         (1, _) => 1.0 - NEAR,

@@ -302,12 +302,20 @@ impl Field {
         let Some((_, radicand)) = relation.filter(|_| !self.asked.borrow().contains(&v)) else {
             return Known::NotNegative;
         };
-        self.asked.borrow_mut().push(v);
-        let sign = self.sign_poly(radicand);
-        self.asked.borrow_mut().pop();
-        match sign {
-            Some(Sign::Positive) => Known::Positive,
-            _ => Known::NotNegative,
+        let known = self.roots.borrow().get(&v).copied();
+        let is_positive = known.unwrap_or_else(|| {
+            self.asked.borrow_mut().push(v);
+            let is_positive = self.sign_poly(radicand) == Some(Sign::Positive);
+            self.asked.borrow_mut().pop();
+            // What was not proved for want of work, or because another root was being looked at, is looked for again.
+            if is_positive || self.asked.borrow().is_empty() && !self.fuel.is_spent() {
+                self.roots.borrow_mut().insert(v, is_positive);
+            }
+            is_positive
+        });
+        match is_positive {
+            true => Known::Positive,
+            false => Known::NotNegative,
         }
     }
 
