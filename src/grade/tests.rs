@@ -27,8 +27,8 @@ fn a_word_behind_a_number_is_called_a_unit_as_a_whole() {
 
 #[test]
 fn what_takes_too_much_work_is_undecided_for_that_reason() {
-    let expected = "cos(99*q)*cos(98*q)*cos(97*p)*cos(96*p) = acos(w/4) + atan(9/12)";
-    let open = grade(expected, "q = cos(99*q)*cos(98*q)*cos(97*p)*cos(96*p)");
+    let expected = "sin(7*q)^9*cos(5*q)^9*sin(4*p)^9*cos(3*p)^9 = acos(w/4) + atan(9/12)";
+    let open = grade(expected, "q = sin(7*q)^9*cos(5*q)^9*sin(4*p)^9*cos(3*p)^9");
     assert_eq!(open.note, "UNDECIDED_LIMIT");
     assert!(open.proof.words.contains("limit of work"));
 }
