@@ -255,9 +255,9 @@ impl Field {
     }
 
     /// Takes what an expression vanishes with not to be negative: for proofs about points at which a root or a logarithm of
-    /// it has a value. Whether anything new was learnt.
+    /// it has a value. Whether anything new was learnt: where another factor may be zero, nothing is told of the rest.
     pub fn suppose(&mut self, e: &Expr) -> bool {
-        let Some((p, _)) = self.undecided_part(e) else {
+        let Some((p, false)) = self.undecided_part(e) else {
             return false;
         };
         self.take(p, true);
