@@ -1,7 +1,7 @@
 //! Cosine and sine of combinations of base angles and of π, exactly where square roots give them.
 
 use num_integer::Integer;
-use num_traits::{One, ToPrimitive, Zero};
+use num_traits::{One, Zero};
 
 use super::Stop;
 use super::element::Element;
@@ -131,8 +131,9 @@ impl Field {
         let base = match known {
             Some(base) => base,
             None => {
-                let divisor = factor.denom().to_u32().filter(|d| *d < 1_000_000);
-                divisor.ok_or(Stop::TooLarge("angle fraction"))?;
+                if *factor.denom() >= Int::from(1_000_000) {
+                    return Err(Stop::TooLarge("angle fraction"));
+                }
                 self.add_base(of, factor)
             }
         };
