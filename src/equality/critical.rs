@@ -25,9 +25,8 @@ const ARGUMENTS: usize = 8;
 const SYMBOLS: usize = 6;
 /// Most points walked from.
 const STARTS: usize = 10;
-/// Points from which the least value of an expression is looked for, and rounds through its symbols.
+/// Points from which the least value of an expression is looked for.
 const DESCENTS: usize = 3;
-const ROUNDS: usize = 3;
 /// Most parts of a domain that are looked at.
 const PARTS: usize = 400;
 
@@ -306,17 +305,19 @@ pub(super) fn tested(
     Ok(left)
 }
 
-/// The point to which going down leads: symbol by symbol to where the expression is least along the domain.
+/// The point to which going down leads: symbol by symbol to where the expression is least along the domain, first to a
+/// simple number near it and then to nearer ones.
 fn descended(e: &Expr, start: &Sample, domains: &Domains, roles: &Roles) -> Sample {
     let mut at = start.clone();
     let names = free_symbols(std::slice::from_ref(e), domains, start);
-    for name in names.iter().cycle().take(ROUNDS * names.len()) {
+    let rounds = [1e-3, 1e-6, 1e-9].into_iter();
+    for (share, name) in rounds.flat_map(|share| names.iter().map(move |name| (share, name))) {
         let here = doubles(&at);
         let Some(domain) = domains.symbols.get(name) else {
             continue;
         };
         let beside = |x: f64, side: f64| {
-            let value = from_f64(x + side * 1e-3 * x.abs().max(1e-2))?;
+            let value = from_f64(x + side * share * x.abs().max(1e-2))?;
             Some(Limit::number(value, false))
         };
         let role = roles.symbols.get(name).cloned().unwrap_or_default();

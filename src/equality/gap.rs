@@ -55,7 +55,7 @@ fn forbidden(a: &Expr, b: &Expr, at: &Sample) -> bool {
 }
 
 /// What one of the two divides by and the other does not, where it may be zero on the domain.
-fn poles(a: &Expr, b: &Expr, domains: &Domains) -> Vec<Expr> {
+pub(crate) fn poles(a: &Expr, b: &Expr, domains: &Domains) -> Vec<Expr> {
     let (mut left, mut right) = (divisors(a, domains), divisors(b, domains));
     let both: Vec<Expr> = left.iter().filter(|e| right.contains(e)).cloned().collect();
     left.retain(|e| !both.contains(e));
@@ -79,7 +79,7 @@ fn poles(a: &Expr, b: &Expr, domains: &Domains) -> Vec<Expr> {
 }
 
 /// What a formula divides by, positive symbols left out.
-fn divisors(e: &Expr, domains: &Domains) -> Vec<Expr> {
+pub(crate) fn divisors(e: &Expr, domains: &Domains) -> Vec<Expr> {
     let mut out: Vec<Expr> = Vec::new();
     for part in e.parts() {
         let base = match part.node() {

@@ -91,15 +91,36 @@ pub(super) fn rough_zeros(f: &Expr, name: &Symbol, at: &Point<f64>, domain: &Dom
     out
 }
 
-/// Where a formula is least along a symbol, roughly.
+/// Where a formula is least along a symbol: least of some numbers, and then between the neighbours of that one.
 pub(super) fn lowest(f: &Expr, name: &Symbol, at: &Point<f64>, domain: &Domain) -> Option<f64> {
     let mut point = at.clone();
-    let values = grid(domain).into_iter().filter_map(|x| {
+    let mut value = |x: f64| {
         point.values.insert(name.clone(), x);
-        Some((x, f.evaluate(&point).filter(|v| v.is_finite())?))
-    });
-    let least = values.min_by(|(_, v), (_, w)| v.total_cmp(w));
-    least.map(|(x, _)| x)
+        f.evaluate(&point).filter(|v| v.is_finite())
+    };
+    let grid = grid(domain);
+    let values = grid.iter().map(|x| value(*x)).collect::<Vec<_>>();
+    let values = values.iter().enumerate();
+    let known = values.filter_map(|(k, v)| Some((k, (*v)?)));
+    let (k, _) = known.min_by(|(_, v), (_, w)| v.total_cmp(w))?;
+    let (mut low, mut high) = (
+        grid[k.saturating_sub(1)],
+        *grid.get(k + 1).unwrap_or(&grid[k]),
+    );
+    let mut least = grid[k];
+    for _ in 0..2 * STEPS {
+        let third = (high - low) / 3.0;
+        let (left, right) = (low + third, high - third);
+        let (Some(l), Some(r)) = (value(left), value(right)) else {
+            break;
+        };
+        match l < r {
+            true => high = right,
+            false => low = left,
+        }
+        least = 0.5 * (low + high);
+    }
+    Some(least)
 }
 
 type Value<'a> = &'a mut dyn FnMut(f64) -> Option<f64>;

@@ -21,6 +21,7 @@ use crate::algebra::Stop;
 use crate::domain::{Domain, Domains, Roles, Sample, at_ends, roles, samples};
 use crate::expr::{Expr, Node, Rational, effort};
 use crate::interval::Enclosure;
+pub(crate) use gap::{divisors, poles};
 pub(crate) use line::zero_apart;
 use measure::Size;
 pub(crate) use measure::work;
@@ -92,12 +93,13 @@ impl Equality {
         matches!(self, Equality::Same { .. })
     }
 
-    /// Whether they are equal on the whole domain.
+    /// Whether they are proved equal on the whole domain, with no sign that was only seen.
     pub fn is_identity(&self) -> bool {
         let Equality::Same { how } = self else {
             return false;
         };
-        matches!(how, How::Identity { .. })
+        let is_seen = |a: &Assumption| matches!(a, Assumption::NotNegative(_));
+        matches!(how, How::Identity { assumptions, .. } if !assumptions.iter().any(is_seen))
     }
 
     /// Whether a point tells them apart.

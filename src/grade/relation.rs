@@ -23,6 +23,7 @@ use super::compare::{Context, Finding};
 use super::{Apart, Diagnosis, Verdict};
 use crate::algebra::{self, Field, Sign};
 use crate::domain::{Coordinate, Domain, Domains, Sample, roles, samples};
+use crate::equality;
 use crate::expr::{Expr, Function, Node, Point, Rational, Symbol, ratio};
 use crate::formula::{Content, Join, Relation, is_angle_name, write_plain};
 use crate::interval::{Interval, Outcome, evaluate};
@@ -277,6 +278,10 @@ fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
             given.extend(undone.given);
         }
         let found = as_written(ctx, &pair[0], &pair[1]);
+        // What was undone on the domain is not undone beyond it.
+        if found.assumed.iter().any(|given| given == REALS) {
+            break;
+        }
         // Beyond what has to hold beside, the one may hold where the other has no value.
         let equation = expected.relation == Relation::Equal;
         match found.verdict {
@@ -392,6 +397,36 @@ fn same_sign(expected: &Normal, answer: &Normal, domains: &Domains) -> Option<bo
 
 /// Two equations.
 fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
+    let mut finding = solutions(ctx, expected, answer);
+    if finding.is_equivalent() {
+        let domains = ctx
+            .key
+            .question
+            .domains
+            .of(&[&expected.difference, &answer.difference]);
+        finding.assume(poles(&expected.difference, &answer.difference, &domains));
+    }
+    finding
+}
+
+/// What one equation divides by and the other does not, where it may be zero with the other fulfilled, in words.
+fn poles(f: &Expr, g: &Expr, domains: &Domains) -> Vec<String> {
+    let matters = |pole: &Expr| {
+        let excluded = |name: &Symbol| {
+            let Some(root) = solve_for(pole, name, domains) else {
+                return false;
+            };
+            [f, g]
+                .iter()
+                .any(|e| sign_of(&e.put(name, &root), domains).is_some_and(Sign::is_strict))
+        };
+        !pole.symbols().iter().any(excluded)
+    };
+    let poles = equality::poles(f, g, domains).into_iter().filter(matters);
+    poles.map(|pole| not_zero(&pole)).collect()
+}
+
+fn solutions(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     let domains = &ctx.key.question.domains;
     let (f, g) = (&expected.difference, &answer.difference);
     let compared = locus::compare(f, g, domains);

@@ -10,6 +10,7 @@ use num_traits::{Signed, Zero};
 use super::{Normal, differences, equation};
 use crate::algebra::{Cell, Field};
 use crate::domain::{Domain, Domains, Limit, roles};
+use crate::equality::divisors;
 use crate::expr::number::sqrt_exact;
 use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
 use crate::formula::{Relation, write_plain};
@@ -176,17 +177,31 @@ fn along(first: &Cases, second: &Cases, name: &Symbol, domains: &Domains) -> Opt
         let folded = &folded;
         all.iter().map(move |e| unfolded(e, folded, signs))
     });
-    let choices: Vec<Expr> = choices.chain(folded.iter().cloned()).collect();
+    // And what each divides by, which a normal form may have cancelled.
+    let divisors: Vec<Vec<Expr>> = all.iter().map(|e| plain_divisors(e, domains)).collect();
+    let others = folded.iter().chain(divisors.iter().flatten()).cloned();
+    let choices: Vec<Expr> = choices.chain(others).collect();
     let mut field = Field::new(domains);
     field.prepare(&choices);
     let elements: Option<Vec<_>> = choices.iter().map(|e| field.element(e).ok()).collect();
     let mut cells = field.signs_along(name, &elements?)?;
     for cell in &mut cells {
-        let arguments = cell.signs.split_off(all.len() << folded.len());
+        let mut arguments = cell.signs.split_off(all.len() << folded.len());
+        let mut below = arguments.split_off(folded.len()).into_iter();
         let signs = arguments.iter().enumerate().try_fold(0, |signs, (k, s)| {
             Some(signs | usize::from(s.as_ref()?.is_lt()) << k)
         })?;
         cell.signs.drain(..signs * all.len());
+        for (sign, divisors) in cell.signs.iter_mut().zip(&divisors) {
+            let below = below.by_ref().take(divisors.len());
+            if below
+                .filter(|below| below.is_none_or(Ordering::is_eq))
+                .count()
+                > 0
+            {
+                *sign = None;
+            }
+        }
     }
     let mut out = Along {
         lost: None,
@@ -220,6 +235,18 @@ fn along(first: &Cases, second: &Cases, name: &Symbol, domains: &Domains) -> Opt
         }
     }
     Some(out)
+}
+
+/// What a formula divides by, where no function takes part.
+fn plain_divisors(e: &Expr, domains: &Domains) -> Vec<Expr> {
+    let mut all = divisors(e, domains);
+    let is_plain = |part: &Expr| match part.node() {
+        Node::Call(..) => false,
+        Node::Power(_, k) => k.as_number().is_some_and(|k| k.is_integer()),
+        _ => true,
+    };
+    all.retain(|e| e.parts().all(is_plain));
+    all
 }
 
 /// What absolute values are taken of; `None` where these are too many or one stands inside another.

@@ -4,13 +4,14 @@ use super::super::compare::{Context, Finding, scalars};
 use super::super::{Apart, Verdict};
 use super::factor::{Factor, factor};
 use super::locus::{self, Extent};
-use super::solved::lies_in;
+use super::solved::lies_inside;
 use super::{
     Normal, REALS, apart_at_points, holding, not_zero, over_reals, same_solutions, says_nothing,
     sign_of, solve_for, sought_in, undecided, unknowns, unrooted,
 };
 use crate::algebra::Sign;
 use crate::domain::{Domains, Sample};
+use crate::equality::poles;
 use crate::expr::Expr;
 use crate::formula::Relation;
 use crate::interval::{Big, Outcome, evaluate};
@@ -109,7 +110,9 @@ fn by_factor(
                 "the two differ by a factor that is positive",
             ));
         }
-        if common.weak.iter().all(free) {
+        // Where one of the two divides by it, that one has no value there.
+        let below = poles(f, g, &domains.of(&[f, g]));
+        if (common.weak.iter()).all(|part| free(part) || below.contains(part)) {
             let mut finding = same_solutions("the two differ by a factor that is not negative");
             let weak = common.weak.iter();
             finding.assumed = weak.map(not_zero).collect();
@@ -156,23 +159,26 @@ fn beside_boundary(ctx: &Context, open: &Normal, sure: &Normal) -> Finding {
     }
 }
 
-/// Whether two inequalities set different bounds on the same symbol, one of which lies in its domain somewhere.
+/// Whether two inequalities set different bounds on the same symbol, one of which lies inside its domain where they differ.
 fn other_bound(ctx: &Context, f: &Expr, g: &Expr) -> Option<Finding> {
     let domains = &ctx.key.question.domains;
     let plain = ctx.plain();
     unknowns(f, g).iter().find_map(|name| {
-        let (a, b) = (solve_for(f, name, domains)?, solve_for(g, name, domains)?);
-        let inside = |bound: &Expr, sample: &Sample| {
-            let Outcome::Value(value) = evaluate::<Big<200>>(bound, &sample.point(true)) else {
+        let bounds = [solve_for(f, name, domains)?, solve_for(g, name, domains)?];
+        let part = |sample: &Sample| {
+            let point = sample.point::<Big<200>>(true);
+            let values = bounds.each_ref().map(|bound| evaluate(bound, &point));
+            let [Outcome::Value(a), Outcome::Value(b)] = values else {
                 return false;
             };
-            lies_in(&value.0, name, domains)
+            let [a, b] = [a.0, b.0];
+            a.is_disjoint(&b) && [a, b].iter().any(|v| lies_inside(v, name, domains))
         };
-        let mut points = domains.points(&[&a, &b], 12).into_iter();
-        if !points.any(|sample| inside(&a, &sample) || inside(&b, &sample)) {
+        let [a, b] = &bounds;
+        if !domains.points(&[a, b], 12).iter().any(part) {
             return None;
         }
-        let finding = scalars(&plain, &a, &b);
+        let finding = scalars(&plain, a, b);
         (finding.verdict == Verdict::Different).then_some(Finding {
             note: "DIFF_INEQUALITY",
             ..finding

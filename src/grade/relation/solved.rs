@@ -103,10 +103,22 @@ pub(super) fn solution_apart(f: &Expr, g: &Expr, domains: &Domains) -> Option<(S
 /// Whether a value lies in a symbol's domain, which is positive where nothing is declared.
 pub(super) fn lies_in(value: &Enclosure, name: &Symbol, domains: &Domains) -> bool {
     let domain = domains.symbols.get(name).cloned();
-    let domain = domain.unwrap_or_else(Domain::positive);
-    [&value.low, &value.high]
-        .into_iter()
-        .all(|end| domain.contains(&end.to_rational()))
+    holds_value(&domain.unwrap_or_else(Domain::positive), value)
+}
+
+/// Whether it does so and is no end of it.
+pub(super) fn lies_inside(value: &Enclosure, name: &Symbol, domains: &Domains) -> bool {
+    let domain = domains.symbols.get(name).cloned();
+    let mut domain = domain.unwrap_or_else(Domain::positive);
+    for limit in [&mut domain.low, &mut domain.high].into_iter().flatten() {
+        limit.open = true;
+    }
+    holds_value(&domain, value)
+}
+
+fn holds_value(domain: &Domain, value: &Enclosure) -> bool {
+    let mut ends = [&value.low, &value.high].into_iter();
+    ends.all(|end| domain.contains(&end.to_rational()))
 }
 
 /// Whether the root's value lies strictly inside the symbol's domain.

@@ -5,9 +5,10 @@ use super::super::{Apart, Verdict};
 use super::cells::{self, Along, Cases};
 use super::solved::{rounded, solve_for, unknowns};
 use super::{
-    GAINED, LOST, Normal, OTHER, REALS, apart_at_points, differences, holding, link, over_reals,
-    same_solutions, says_nothing, told, undecided,
+    GAINED, LOST, Normal, OTHER, REALS, apart_at_points, differences, holding, link, not_zero,
+    over_reals, same_solutions, says_nothing, sign_of, told, undecided,
 };
+use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, roles};
 use crate::equality::{self, Equality, How};
 use crate::expr::{Expr, Function, Node, Symbol};
@@ -167,8 +168,11 @@ pub(super) fn compare(
         let [lost, gained] = [(&expected, &answer), (&answer, &expected)]
             .map(|(system, other)| fulfilled(system, other, &domains));
         match (lost, gained) {
-            (Some(Ok(())), Some(Ok(()))) => {
-                return same_solutions("each system of equations, solved, fulfils the other");
+            (Some(Ok(given)), Some(Ok(more))) => {
+                let words = "each system of equations, solved, fulfils the other";
+                let mut finding = same_solutions(words);
+                finding.assume([given, more].concat());
+                return finding;
             }
             (Some(Err(at)), _) => return other_system(at, true),
             (_, Some(Err(at))) => return other_system(at, false),
@@ -241,9 +245,15 @@ fn with_distances(systems: [&[Normal]; 2], domains: &Domains) -> ([Vec<Normal>; 
 /// Where a point parts two systems.
 type At = (String, Expr);
 
-/// Whether a system of equations, solved one after the other, fulfils another; else a point at which it does not.
-fn fulfilled(system: &[Normal], other: &[Normal], domains: &Domains) -> Option<Result<(), At>> {
+/// Whether a system of equations, solved one after the other, fulfils another, and what must not be zero for it in words;
+/// else a point at which it does not.
+fn fulfilled(
+    system: &[Normal],
+    other: &[Normal],
+    domains: &Domains,
+) -> Option<Result<Vec<String>, At>> {
     let mut known: BTreeMap<Symbol, Expr> = BTreeMap::new();
+    let mut given = Vec::new();
     for n in system {
         let left = n.difference.substitute(&known);
         if equality::vanishes(&left, domains) {
@@ -255,6 +265,10 @@ fn fulfilled(system: &[Normal], other: &[Normal], domains: &Domains) -> Option<R
         let (name, root) = names
             .into_iter()
             .find_map(|name| Some((name.clone(), solve_for(&left, &name, domains)?)))?;
+        let slope = left.derivative(&name);
+        if !sign_of(&slope, domains).is_some_and(Sign::is_strict) {
+            given.push(not_zero(&slope.split_number().1));
+        }
         for value in known.values_mut() {
             *value = value.put(&name, &root);
         }
@@ -269,7 +283,7 @@ fn fulfilled(system: &[Normal], other: &[Normal], domains: &Domains) -> Option<R
         }
     }
     // Solutions have to lie in the domain to say anything.
-    point_of(&known, &Expr::one(), domains).map(|_| Ok(()))
+    point_of(&known, &Expr::one(), domains).map(|_| Ok(given))
 }
 
 /// A point of the domain among the solutions at which an expression is not zero.
