@@ -33,8 +33,17 @@ fn split_into(p: Poly, times: u32, out: &mut Parts, fuel: &Fuel) {
         return;
     }
     match divisor(&p, fuel) {
-        Some((d, q)) => {
-            split_into(d, times, out, fuel);
+        Some((d, mut q)) => {
+            let mut found = Parts::one();
+            split_into(d, times, &mut found, fuel);
+            for (f, k) in found.factors {
+                // What is found once is sought in the cofactor too: a factor of higher degree is not found there by itself.
+                while let Some(rest) = q.try_div(&f) {
+                    out.note(f.clone(), times);
+                    q = rest;
+                }
+                out.note(f, k);
+            }
             split_into(q, times, out, fuel);
         }
         None => out.note(p, times),

@@ -166,6 +166,11 @@ proptest! {
             whole = whole.mul(&f.pow(*k).expect("small")).expect("small");
         }
         prop_assert_eq!(whole, p);
+        for (i, (f, _)) in parts.factors.iter().enumerate() {
+            for (g, _) in &parts.factors[..i] {
+                prop_assert!(gcd(f, g, &Fuel::new()).expect("within limits").is_one(), "{:?} and {:?} have a factor in common", f, g);
+            }
+        }
     }
 
     #[test]
