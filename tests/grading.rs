@@ -383,6 +383,37 @@ fn beliefs_are_tried_for_formulas_of_answers() {
     }
 }
 
+#[test]
+fn numbers_are_judged_where_the_answer_needs_no_other_values() {
+    let text = fs::read_to_string(root().join("derivations/more/cars-lock-and-skid.json"));
+    let mut file: serde_json::Value =
+        serde_json::from_str(&text.expect("a scene")).expect("a scene as JSON");
+    for (name, value) in [
+        ("m", 1000.0),
+        ("M", 1500.0),
+        ("mu", 0.7),
+        ("g", 9.81),
+        ("d", 10.0),
+    ] {
+        file["parameters"][name]["value"] = value.into();
+    }
+    file["questions"]["h"] = serde_json::json!({"value": "v_first^2/(2*g)"});
+    let sheet = keys(scene::read(&file.to_string()).expect("a sound scene"));
+    for (quantity, answer, note) in [
+        ("v_first", "29.3 m/s", "EQUIV_ROUNDED"),
+        ("v_first", "11.7 m/s", "DIFF_BELIEF"),
+        ("h", "43.75 m", "EQUIV_ROUNDED"),
+        ("h", "45 m", "DIFF_TOLERANCE"),
+        ("h", "43.75", "DIFF_UNIT_MISSING"),
+        ("h", "43.75 kg", "DIFF_UNIT"),
+        ("u", "11.7 m/s", "DIFF_DIMENSION"),
+    ] {
+        let entry = sheet.entry(quantity).expect("a question of the scene");
+        let grade = sheet.judge(&entry, answer, &Options::default());
+        assert_eq!(grade.note, note, "{quantity}: {answer}");
+    }
+}
+
 /// SplitMix64.
 fn next(state: &mut u64) -> u64 {
     *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);

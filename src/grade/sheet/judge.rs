@@ -3,11 +3,12 @@
 use super::super::believed::{self, Written};
 use super::super::worked::worked;
 use super::super::{
-    Diagnosis, Grade, Options, Strength, Tolerance, Verdict, fraction, judge_against, key_of,
+    Diagnosis, Grade, Key, Options, Strength, Tolerance, Verdict, fraction, judge_against, key_of,
     number, read,
 };
 use super::{Entry, Sheet, rows};
 use crate::answer::Answer;
+use crate::dimension;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Quantity, Reading, Relation};
 use crate::scene::Ask;
@@ -229,14 +230,22 @@ impl Sheet {
         options: &Options,
     ) -> Option<(Grade, Option<f64>)> {
         let values = believed::values(&self.scene);
-        let has_values = values.len() == self.scene.parameters.len() && !values.is_empty();
+        let all = values.len() == self.scene.parameters.len();
+        let valued = |e: &Expr| match e.symbols() {
+            symbols if symbols.is_empty() => all,
+            symbols => symbols.iter().all(|s| values.contains_key(s)),
+        };
         let asked = |s: &Symbol| entry.key.question.asked.iter().any(|g| g.name == *s);
-        if !has_values || !reading.symbols().iter().all(asked) {
+        let of_unit = match reading.symbols().iter().all(asked) {
+            true => None,
+            false => Some(number_with_unit(&entry.key, reading, answer)?),
+        };
+        if values.is_empty() {
             return None;
         }
         let closed = match &entry.key.reading.content {
-            Content::Scalar(closed) => closed,
-            Content::Vector(closed) => {
+            Content::Scalar(closed) if valued(closed) => closed,
+            Content::Vector(closed) if closed.iter().all(valued) => {
                 let exact = closed.each_ref().map(|e| e.substitute(&values));
                 return Some((components(entry, exact, answer, options)?, None));
             }
@@ -245,12 +254,16 @@ impl Sheet {
         let exact = closed.substitute(&values);
         let mut question = entry.key.question.clone();
         question.dimension = None;
+        if of_unit.is_some() {
+            question.symbols.clear();
+        }
+        let reading = of_unit.as_ref().unwrap_or(reading);
         let dimension = entry.key.question.dimension.as_ref();
         let content = match dimension.filter(|d| !d.is_none()) {
             Some(dimension) => Content::Quantity(Box::new(Quantity {
                 value: exact.clone(),
                 written: exact.clone(),
-                unit: crate::dimension::unit(&dimension.si().replace('²', "^2")).ok()?,
+                unit: dimension::unit(&dimension.si().replace('²', "^2")).ok()?,
                 unit_text: dimension.si(),
             })),
             None => Content::Scalar(exact.clone()),
@@ -267,10 +280,35 @@ impl Sheet {
             grade.note = "EQUIV_ROUNDED";
             grade.proof.words = format!("the exact value rounded to {digits} significant digits");
         }
+        if of_unit.is_some() {
+            let words = "letters behind the number are its unit, not symbols of the scene";
+            grade.assumed.push(words.into());
+        }
         let value = reading.content.answer().expr().and_then(fraction)?;
         let room = number::half_unit(&value, digits.min(12));
         Some((grade, Some(crate::expr::number::to_f64(&room) * 1.000_001)))
     }
+}
+
+/// `0.31 m` where m is also a mass of the scene and a length is asked: a number with its unit, since only that fits.
+fn number_with_unit(key: &Key, reading: &Reading, answer: &str) -> Option<Reading> {
+    let asked = key.question.dimension.as_ref()?;
+    let dimension = |name: &str| {
+        let given = key.question.symbols.iter().find(|g| *g.name == *name);
+        given?.dimension.clone()
+    };
+    let formula = reading.content.answer().expr()?;
+    if dimension::of(formula, &dimension).is_ok_and(|d| d.as_ref() == Some(asked)) {
+        return None;
+    }
+    let mut question = key.question.clone();
+    question.symbols.clear();
+    let number = read::answer(&key_of(Content::Scalar(Expr::one()), &question), answer).ok()?;
+    let fits = match number.content.answer() {
+        Content::Quantity(q) => q.unit.dimension == *asked,
+        _ => false,
+    };
+    (fits && number.literal.is_some()).then_some(number)
 }
 
 /// A vector in numbers, each component to three digits or within the tolerance.
