@@ -231,17 +231,16 @@ impl Answer {
     /// Its unit as a person says it; 1 for a plain number.
     pub fn unit(&self, scene: &Scene) -> String {
         let asked = scene.question(&self.question);
-        let is_angle = asked.is_some_and(|q| match &q.ask {
-            Ask::Angle { .. } => true,
-            Ask::Condition { parameter, .. } => {
-                let of = scene.parameter(parameter);
-                of.is_some_and(Parameter::is_angle)
-            }
-            _ => false,
+        let of = asked.and_then(|q| match &q.ask {
+            Ask::Condition { parameter, .. } => scene.parameter(parameter),
+            _ => None,
         });
-        match is_angle {
-            true => String::from("rad"),
-            false => self.dimension.spoken(),
+        let is_angle = asked.is_some_and(|q| matches!(q.ask, Ask::Angle { .. }));
+        match of {
+            _ if is_angle || of.is_some_and(Parameter::is_angle) => String::from("rad"),
+            // A moment has the dimension of an energy, and no joules.
+            Some(of) if of.unit == "N m" => of.unit.clone(),
+            _ => self.dimension.spoken(),
         }
     }
 

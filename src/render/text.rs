@@ -200,7 +200,8 @@ fn number(scene: &Scene, alone: Option<&Derivation>, a: &Answer) -> Option<Strin
     let number = super::digits(value);
     Some(match closed.is_arc() {
         true => format!("{number} rad, {}°", super::digits(value.to_degrees())),
-        false => a.dimension.measured(&number),
+        false if a.dimension.is_none() => number,
+        false => format!("{number} {}", a.unit(scene)),
     })
 }
 

@@ -245,8 +245,7 @@ fn hinged(scene: &Scene, hinge: &Hinge) -> Tried {
                     "before the collision `{a}` and `{b}` move differently at the hinge `{name}`{}",
                     at(&point)
                 );
-                let hint =
-                    "with `velocity` left out, a body with its `spin` moves as its hinges do";
+                let hint = "with `velocity` left out, a body with its `spin` moves as its hinges do; a point that is caught in the collision is a contact, \"law\": \"sticking\"";
                 return Tried::Refuted(message, hint.into());
             }
             Zero::Unknown => {

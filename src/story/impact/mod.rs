@@ -15,6 +15,7 @@ use outcome::{
 };
 
 use super::{Case, Kept, Refused, StageTold, State};
+use crate::answer::calc::sign;
 use crate::derive;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, sentence};
@@ -196,18 +197,14 @@ fn kept(scene: &Scene, one_sided: &[OneSided], cases: &[Case]) -> Vec<Kept> {
         && let Some(closed) = &case.value(ENERGY)
         && case.after.why_open([closed]).is_none()
     {
-        out.push(if closed.is_zero() {
-            Kept {
-                what: "kinetic energy".into(),
-                conserved: true,
-                why: "the loss comes out as 0".into(),
-            }
-        } else {
-            Kept {
-                what: "kinetic energy".into(),
-                conserved: false,
-                why: sentence!("the loss comes out as {}", closed),
-            }
+        let why = match sign(closed, &scene.domains).is_negative() {
+            true => sentence!("the gain comes out as {}", &-closed),
+            false => sentence!("the loss comes out as {}", closed),
+        };
+        out.push(Kept {
+            what: "kinetic energy".into(),
+            conserved: closed.is_zero(),
+            why,
         });
     }
     out

@@ -230,7 +230,8 @@ fn fits(course: &Course<'_>, pair: &Pair<'_>) -> Result<(), Lost> {
         let lead = states[if i < pair.company { 0 } else { pair.company }];
         let off = cross(&pair.along, &[*u, *v]).abs();
         let apart = (u - lead[3]).abs().max((v - lead[4]).abs());
-        if off.max(apart) > ROUNDING * fastest || spin.abs() > REST {
+        let turns = pair.movers.inertias[i][1] > 0.0 && spin.abs() > REST;
+        if off.max(apart) > ROUNDING * fastest || turns {
             return Err(
                 course.contradiction("it does not begin to move along the line without turning")
             );

@@ -113,7 +113,7 @@ pub(in crate::numeric::follow) fn slide(
     let [pull, rubs] = [pull, rubs].map(|force| force / mass);
     let size = sizes(course, slide, &movers, &acting, [speed, pull, rubs])?;
     let turns = acting.contact.is_some();
-    fits(course, &movers.states[..company], &acting, &size)?;
+    fits(course, (&movers, company), &acting, &size)?;
     ropes.fits(course, &movers, speed, size.speed)?;
     let units = Units {
         length: size.length,
@@ -314,15 +314,17 @@ fn roughen(
 /// The bodies begin to move together along the line, and turn only where they may.
 fn fits(
     course: &Course<'_>,
-    states: &[[f64; 6]],
+    (movers, company): (&Movers, usize),
     acting: &Acting,
     size: &Sizes,
 ) -> Result<(), Lost> {
+    let states = &movers.states[..company];
     let [.., u, v, spin] = states[0];
     let off = cross(&acting.along, &[u, v]).abs();
+    // What has no extension turns nothing.
     let turning = match acting.contact {
-        Some(_) => 0.0,
-        None => spin.abs() * size.length,
+        None if movers.inertias[0][1] > 0.0 => spin.abs() * size.length,
+        _ => 0.0,
     };
     if off.max(turning) > ROUNDING * size.speed {
         let why = "it does not begin to move along the line without turning";

@@ -8,7 +8,7 @@ use crate::algebra::Sign;
 use crate::answer::calc::{Seen, is_zero, sign, tidy};
 use crate::expr::{Expr, Vector, dot};
 use crate::formula::{sentence, write_plain};
-use crate::scene::{Slide, Stage};
+use crate::scene::{Shape, Slide, Stage};
 use crate::story::{Refused, State};
 
 /// The motion behind the bend by which the bodies come to their line, where there is one: along it, as fast as before.
@@ -97,7 +97,8 @@ pub(super) fn fits_line(
             };
             return refuse("across it, its velocity is", &aside, hint);
         }
-        if !may_turn && is_zero(&before.spin[b], domains) == Some(false) {
+        let is_small = matches!(body.shape, Shape::Particle);
+        if !may_turn && !is_small && is_zero(&before.spin[b], domains) == Some(false) {
             let hint = match is_alone && body.shape.radius().is_some() {
                 true => "a round body may turn where it slides with `friction` or is `rolling`",
                 false => "an impact before it may stop what does not fit",
