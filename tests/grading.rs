@@ -81,7 +81,9 @@ fn every_row_of_the_tables_gets_its_verdict() {
         let [expected, answer, verdict, reason] = [0, 1, 2, 3].map(|i| cells[i].as_str());
         let symbols = cells.get(4).map_or("", String::as_str);
         let grade = judge(expected, answer, &question(symbols), &Options::default());
-        let given = cells.get(5).is_none_or(|given| grade.assumed.contains(given));
+        let given = cells
+            .get(5)
+            .is_none_or(|given| grade.assumed.contains(given));
         if grade.verdict.word() != verdict || !given {
             let read = grade.read_as().unwrap_or_default();
             let _ = writeln!(

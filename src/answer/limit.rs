@@ -14,9 +14,8 @@ use super::taylor::{Side, Taylor, rooted};
 use super::{Answer, Form, Near};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, roles, samples};
-use crate::expr::{Expr, Node, Point, Symbol};
+use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Sentence, sentence};
-use crate::interval::{Interval, Outcome, evaluate};
 
 /// Highest power among which the leading one is looked for.
 const LEADING: usize = 6;
@@ -417,13 +416,7 @@ fn tried(
     let closer = if order == 0 { 1024.0 } else { 8.0 };
     let mut seen = 0;
     for sample in samples(&roles, &domains, 6) {
-        let mut point: Point<f64> = Point::default();
-        let exact = sample.point::<Interval>(true);
-        for name in sample.coordinates.keys() {
-            if let Outcome::Value(v) = evaluate(&Expr::symbol(name), &exact) {
-                point.values.insert(name.clone(), 0.5 * (v.low + v.high));
-            }
-        }
+        let mut point = sample.doubles();
         let at = match to {
             Ok(to) => Some(to.evaluate(&point)?),
             Err(()) => None,

@@ -49,6 +49,22 @@ impl PartialEq for Coordinate {
 }
 
 impl Coordinate {
+    /// The value of the symbol, rounded.
+    pub fn double(&self) -> f64 {
+        match self {
+            Coordinate::Number(value) => to_f64(value),
+            Coordinate::Pi(value) => to_f64(value) * std::f64::consts::PI,
+            Coordinate::Direction {
+                divisor,
+                unit: [c, s],
+                turns,
+            } => {
+                let turn = 2.0 * std::f64::consts::PI * f64::from(*turns);
+                f64::from(*divisor) * (to_f64(s).atan2(to_f64(c)) + turn)
+            }
+        }
+    }
+
     /// The coordinate in words: `v = 1`, `theta with cos(theta) = 3/5`.
     pub fn words(&self, symbol: &str) -> String {
         match self {

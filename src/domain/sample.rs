@@ -274,6 +274,15 @@ impl Sample {
         moved
     }
 
+    /// The point in doubles; angles have their values, but no directions.
+    pub fn doubles(&self) -> Point<f64> {
+        let mut point = Point::default();
+        for (name, coordinate) in &self.coordinates {
+            point.values.insert(name.clone(), coordinate.double());
+        }
+        point
+    }
+
     /// The point for evaluation in a certified number type. With `radians`, angles known by direction also get their value.
     pub fn point<T: Certified>(&self, radians: bool) -> Point<Outcome<T>> {
         let mut point = Point::default();

@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use num_traits::{One, Zero};
 
 use super::Assumption;
-use super::line::{doubles, lowest, rough_zeros};
+use super::line::{lowest, rough_zeros};
 use super::refute::sign_at;
 use crate::algebra::{Field, Sign};
 use crate::domain::{Coordinate, Domain, Domains, Limit, Roles, Sample};
@@ -95,7 +95,7 @@ pub(super) fn points(
         arguments.iter().map(sign).collect()
     };
     let mut starts: Vec<Sample> = near.iter().take(2).cloned().collect();
-    let mut seen: Vec<Vec<Option<bool>>> = near.iter().map(|at| pattern(&doubles(at))).collect();
+    let mut seen: Vec<Vec<Option<bool>>> = near.iter().map(|at| pattern(&at.doubles())).collect();
     let mut out = Vec::new();
     let mut next = 0;
     while next < starts.len().min(STARTS) && out.len() < MOST {
@@ -105,7 +105,7 @@ pub(super) fn points(
             let Some(domain) = domains.symbols.get(&name) else {
                 continue;
             };
-            let from = doubles(&start);
+            let from = start.doubles();
             let own = arguments.iter().filter(|e| e.symbols().contains(&name));
             let zeros = own.flat_map(|e| rough_zeros(e, &name, &from, domain));
             let mut zeros: Vec<f64> = zeros.collect();
@@ -117,7 +117,7 @@ pub(super) fn points(
                     continue;
                 };
                 let moved = start.moved(&name, value);
-                let signs = pattern(&doubles(&moved));
+                let signs = pattern(&moved.doubles());
                 if seen.contains(&signs) || !domains.admits(&moved) {
                     continue;
                 }
@@ -137,7 +137,7 @@ pub(super) fn points(
             continue;
         };
         for corner in corners(e, start, domains) {
-            let signs = pattern(&doubles(&corner));
+            let signs = pattern(&corner.doubles());
             if out.len() < MOST && !seen.contains(&signs) && domains.admits(&corner) {
                 seen.push(signs);
                 out.push(corner);
@@ -312,7 +312,7 @@ fn descended(e: &Expr, start: &Sample, domains: &Domains, roles: &Roles) -> Samp
     let names = free_symbols(std::slice::from_ref(e), domains, start);
     let rounds = [1e-3, 1e-6, 1e-9].into_iter();
     for (share, name) in rounds.flat_map(|share| names.iter().map(move |name| (share, name))) {
-        let here = doubles(&at);
+        let here = at.doubles();
         let Some(domain) = domains.symbols.get(name) else {
             continue;
         };
@@ -327,7 +327,7 @@ fn descended(e: &Expr, start: &Sample, domains: &Domains, roles: &Roles) -> Samp
         });
         let Some(value) = value else { continue };
         let moved = at.moved(name, value);
-        let [old, new] = [here, doubles(&moved)].map(|point| e.evaluate(&point));
+        let [old, new] = [here, moved.doubles()].map(|point| e.evaluate(&point));
         if new.is_some() && new < old {
             at = moved;
         }
@@ -348,7 +348,7 @@ fn kinks(e: &Expr, start: &Sample, domains: &Domains) -> Vec<Sample> {
             let values = far(domain).into_iter();
             for value in values.chain([start.coordinates[&led].clone()]) {
                 let moved = start.moved(&led, value);
-                let here = doubles(&moved);
+                let here = moved.doubles();
                 for follows in inside.iter().filter(|name| **name != led).take(2) {
                     let Some(domain) = domains.symbols.get(follows) else {
                         continue;

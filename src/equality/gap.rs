@@ -3,7 +3,6 @@
 //! What one divides by and the other does not is told where it may be zero; where only one has values on a whole part of
 //! the domain, such as √(d − g)² beside d − g, the part is told with a point of it.
 
-use super::line::doubles;
 use super::refute::Tally;
 use super::{Assumption, Condition, Counterexample, Equality, Ground, How, Value, critical};
 use crate::algebra::{Field, Sign};
@@ -48,7 +47,7 @@ fn is_seen(assumption: &Assumption) -> bool {
 
 /// Whether a root or logarithm of something negative forbids a value at a point, so that it does so around it as well.
 fn forbidden(a: &Expr, b: &Expr, at: &Sample) -> bool {
-    let point = doubles(at);
+    let point = at.doubles();
     let negative = |e: &Expr| e.evaluate(&point).is_some_and(|v| v < 0.0);
     let arguments = critical::arguments(&[a, b]);
     arguments.iter().any(|(e, needed)| *needed && negative(e))

@@ -2,34 +2,13 @@
 
 use super::refute::sign_at;
 use crate::domain::{Coordinate, Domain, Sample};
-use crate::expr::number::{from_f64, to_f64};
+use crate::expr::number::from_f64;
 use crate::expr::{Expr, Point, Symbol, effort};
 use crate::interval::dyadic::Dyadic;
 use crate::interval::{Enclosure, Interval, Outcome, evaluate};
 
 /// Steps of a search between two numbers.
 const STEPS: u32 = 60;
-
-/// A point in doubles.
-pub(super) fn doubles(at: &Sample) -> Point<f64> {
-    let mut point = Point::default();
-    for (name, coordinate) in &at.coordinates {
-        let value = match coordinate {
-            Coordinate::Number(value) => to_f64(value),
-            Coordinate::Pi(value) => to_f64(value) * std::f64::consts::PI,
-            Coordinate::Direction {
-                divisor,
-                unit: [c, s],
-                turns,
-            } => {
-                let turn = 2.0 * std::f64::consts::PI * f64::from(*turns);
-                f64::from(*divisor) * (to_f64(s).atan2(to_f64(c)) + turn)
-            }
-        };
-        point.values.insert(name.clone(), value);
-    }
-    point
-}
 
 /// Numbers of a domain in ascending order, dense near its ends and, where it has none, near zero.
 fn grid(domain: &Domain) -> Vec<f64> {
@@ -179,7 +158,7 @@ pub(crate) fn zero_apart(
         Outcome::Value(v) if v.low > 0.0 || v.high < 0.0 => Some(v),
         _ => None,
     };
-    let roots = rough_zeros(f, name, &doubles(at), domain);
+    let roots = rough_zeros(f, name, &at.doubles(), domain);
     roots.into_iter().find_map(|root| {
         // A zero that is a double is one for certain if the value there is exactly zero.
         if inside(root) {

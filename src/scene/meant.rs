@@ -22,6 +22,15 @@ pub(super) fn meant(word: &str, here: &[&str]) -> Option<&'static str> {
         "height" | "rise" if here.contains(&"position") => {
             "how high a body is at the end of a stage is its `position` along y; how high it will rise is a `value`, such as \"v^2/(2*g)\""
         }
+        "points" => {
+            "the points of a scene stand at its top, as \"points\": {\"A\": [\"x\", \"y\"]}"
+        }
+        "between" | "of" | "body" | "on" if here.contains(&"bodies") => {
+            "those that meet are `bodies`, a list"
+        }
+        "restitution" if here.contains(&"frictionless") => {
+            "a contact with a coefficient of restitution has \"law\": \"frictionless\" and \"restitution\": \"e\""
+        }
         "elastic" => {
             "an elastic collision is \"law\": \"frictionless\" with \"restitution\": \"1\""
         }
@@ -53,7 +62,7 @@ pub(super) fn meant(word: &str, here: &[&str]) -> Option<&'static str> {
         "omega" | "angular_velocity" | "rotation" => "an angular velocity is `spin`",
         "gained" | "gain" | "released" => "energy that is gained is `lost` with a minus sign",
         "spring" | "springs" => {
-            "no motion presses a spring; how far a body presses one follows from its energy E, another question: \"solve\": \"x\", \"holds\": \"k*x^2/2 = E\""
+            "a body meets a `spring` with `stiffness` in a `slide`, in `stages`; how far it is pressed by an energy E is another question: \"solve\": \"x\", \"holds\": \"k*x^2/2 = E\""
         }
         "explosive" | "charge" | "burst" | "explosion" => {
             "a burst is an impact at a contact without law, with \"gains_energy\": true and what is known `after`"

@@ -277,7 +277,21 @@ impl Scene {
     pub fn course(&self) -> Cow<'_, [Stage]> {
         match self.has_stages() {
             true => Cow::Borrowed(&self.stages),
-            false => Cow::Owned(vec![Stage::alone(self)]),
+            false => {
+                // What is printed, drawn or told of parameters is no part of the impact.
+                let impact = Scene {
+                    bodies: self.bodies.clone(),
+                    hinges: self.hinges.clone(),
+                    contacts: self.contacts.clone(),
+                    blows: self.blows.clone(),
+                    after: self.after.clone(),
+                    questions: self.questions.clone(),
+                    axles: self.axles.clone(),
+                    gains_energy: self.gains_energy,
+                    ..Scene::default()
+                };
+                Cow::Owned(vec![Stage::alone(impact)])
+            }
         }
     }
 

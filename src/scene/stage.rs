@@ -51,9 +51,9 @@ pub struct Stage {
 
 impl Stage {
     /// The one impact of a scene without stages, as its only stage; it has no name.
-    pub fn alone(scene: &Scene) -> Stage {
+    pub fn alone(scene: Scene) -> Stage {
         Stage {
-            scene: scene.clone(),
+            scene,
             ..Stage::default()
         }
     }
@@ -158,7 +158,7 @@ impl Scene {
                 question.ask.is_motion() || matches!(question.ask, Ask::Friction { .. });
             question.stage = is_impact.then_some(0);
         }
-        let mut stage = Stage::alone(self);
+        let mut stage = Stage::alone(self.clone());
         stage.name = String::from(name);
         let is_asked = |q: &Question| q.ask.is_motion() || matches!(q.ask, Ask::Friction { .. });
         stage.scene.questions.retain(is_asked);

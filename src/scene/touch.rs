@@ -9,12 +9,11 @@ use std::collections::BTreeMap;
 
 use super::outline::{Need, Spot, distance, pieces};
 use super::parameters::number_words;
-use super::proof::{middle, sign};
+use super::proof::sign;
 use super::{Body, Contact, ContactLaw, Scene, Shape};
 use crate::algebra::Sign;
 use crate::domain::{Domains, generic_point, roles, samples};
 use crate::expr::{Expr, Point, Symbol, Vector};
-use crate::interval::{Interval, Outcome};
 
 /// A contact that does not lie on one of its bodies.
 #[derive(Clone, Debug, PartialEq)]
@@ -143,22 +142,9 @@ fn example(
     let roles = roles(&all.iter().collect::<Vec<_>>());
     let (domains, _) = domains.completed(&roles);
     samples(&roles, &domains, 4).iter().find_map(|sample| {
-        let point = sample.point::<Interval>(true);
-        let number = |x: &Outcome<Interval>| match x {
-            Outcome::Value(v) => middle(v),
-            _ => f64::NAN,
-        };
-        let mut doubles = Point::default();
-        for (name, x) in &point.values {
-            doubles.values.insert(name.clone(), number(x));
-        }
-        for (name, (divisor, unit)) in &point.directions {
-            let unit = unit.each_ref().map(number);
-            doubles.directions.insert(name.clone(), (*divisor, unit));
-        }
+        let mut doubles = sample.doubles();
         // What is given stays as it is given; the sample stands for the rest.
         for (name, value) in given {
-            doubles.directions.remove(name);
             doubles
                 .values
                 .insert(name.clone(), value.evaluate(&Point::default())?);

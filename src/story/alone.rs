@@ -36,7 +36,7 @@ pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
             "",
         )
     });
-    let stage = Stage::alone(scene);
+    let stage = Stage::alone(scene.clone());
     let before = super::start(scene, &[]);
     let after = unasked(scene, &before);
     let case = Case {

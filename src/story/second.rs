@@ -263,10 +263,14 @@ fn shaken(e: Option<&Expr>, point: &Point<f64>) -> f64 {
     let Some((e, here)) = e.and_then(|e| Some((e, e.evaluate(point)?))) else {
         return 0.0;
     };
-    let moves = point.values.keys().filter_map(|name| {
-        let mut near = point.clone();
-        *near.values.get_mut(name)? *= 1.0 + BACKWARD;
-        Some((e.evaluate(&near)? - here).abs())
+    let used = e.symbols();
+    let used = point.values.iter().filter(|(name, _)| used.contains(*name));
+    let mut near = point.clone();
+    let moves = used.filter_map(|(name, value)| {
+        near.values.insert(name.clone(), value * (1.0 + BACKWARD));
+        let there = e.evaluate(&near);
+        near.values.insert(name.clone(), *value);
+        Some((there? - here).abs())
     });
     moves.sum::<f64>() + rounding(e, point)
 }
