@@ -200,29 +200,31 @@ impl Field {
         let gcd = even.extended_gcd(&odd);
         let over_odd = (i128::from(k) * i128::from(gcd.x)).rem_euclid(i128::from(odd)) as i64;
         let over_even = (k - over_odd * even) / odd;
-        // What cannot be written out may still be the same power of the same.
-        if odd == 1
-            && even == 1
-            && k.abs() > MOST_POWER
-            && let Some(power) = self.high_power(&base, k)?
-        {
-            return Ok(power);
-        }
         let mut root = base.clone();
         for _ in 0..even.ilog2() {
             root = self.sqrt(&root)?;
         }
-        let root = self.pow(&root, over_even)?;
+        let root = self.power(&root, over_even)?;
         if odd == 1 {
             return Ok(root);
         }
         let other = self.odd_root(&base, odd as u32)?;
-        let other = self.pow(&other, over_odd)?;
+        let other = self.power(&other, over_odd)?;
         self.mul(&root, &other)
     }
 
-    /// A power too high to be written out, factor by factor: (2 x)^9999 is 2^9999 x^9999. Nothing where it is a number, or holds
-    /// a factor with a relation, such as a root.
+    /// A power, written out or not: what cannot be may still be the same power of the same.
+    fn power(&mut self, base: &Element, k: i64) -> Result<Element, Stop> {
+        if k.abs() > MOST_POWER
+            && let Some(power) = self.high_power(base, k)?
+        {
+            return Ok(power);
+        }
+        self.pow(base, k)
+    }
+
+    /// A power too high to be written out, factor by factor: (2 x)^9999 is 2^9999 x^9999, and (√2 x)^9998 is 2^4999 x^9998.
+    /// Nothing where a factor is related to symbols, such as a root of one.
     fn high_power(&mut self, base: &Element, k: i64) -> Result<Option<Element>, Stop> {
         let shared = base.num.mono_content();
         let content = base.num.content();
@@ -235,15 +237,23 @@ impl Field {
         let factors = factors.map(|(factor, e)| (factor.clone(), -i64::from(*e)));
         let mut parts: Vec<(Poly, i64)> = above.chain(below).chain(factors).collect();
         parts.extend((!rest.is_constant()).then_some((rest, 1)));
-        let bound = |v: usize| self.gens[v].relation.is_some();
-        let related =
-            |(part, _): &(Poly, i64)| part.len() == 1 && part.variables().into_iter().any(bound);
-        if parts.is_empty() || parts.iter().any(related) {
-            return Ok(None);
-        }
         let number = Rational::new(content, base.den.int.clone());
         let mut total = self.pow(&self.number(&number), k)?;
         for (part, e) in parts {
+            let relation = match part.variables().as_slice() {
+                [v] if part.len() == 1 => self.gens[*v].relation.clone(),
+                _ => None,
+            };
+            if let Some((degree, value)) = relation {
+                let Some(value) = value.as_constant().cloned() else {
+                    return Ok(None);
+                };
+                let (whole, left) = (e * k).div_mod_floor(&i64::from(degree));
+                let whole = self.pow(&self.number(&value.into()), whole)?;
+                let left = self.pow(&Element::from_poly(part), left)?;
+                total = self.mul(&total, &self.mul(&whole, &left)?)?;
+                continue;
+            }
             let exponent = self.integer((e * k).abs());
             let power = self.opaque_power(Element::from_poly(part), exponent);
             total = match e * k > 0 {

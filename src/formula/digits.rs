@@ -140,7 +140,11 @@ impl Lexer<'_> {
             }
         }
         let behind = self.text[end..].trim_start().chars().next();
-        let alone = behind.is_none_or(|c| "+-−±*·/=<>≤≥≈)]},;.$|".contains(c));
+        // `40% m`: of a remainder the sign is no closer to the one number than to the other.
+        let closer = self.text[..start].ends_with(|c: char| c.is_ascii_digit())
+            && self.text[end..].starts_with(' ')
+            && behind.is_some_and(|c| c.is_alphabetic() || c == '\\');
+        let alone = closer || behind.is_none_or(|c| "+-−±*·/=<>≤≥≈)]},;.$|".contains(c));
         if !alone || !matches!(self.before, Before::Number { .. }) {
             let fault = Fault::new("a percent sign belongs behind a number", start, end);
             return Err(fault.hint("write 5% or 0.05"));

@@ -166,7 +166,8 @@ pub(crate) fn ten_to(power: i64) -> Rational {
     }
 }
 
-/// `0.1\overline{6}` and `0.\bar{3}`: a decimal number whose last digits repeat without end.
+/// `0.1\overline{6}`, `0.\bar{3}` and `0.(3)`: a decimal number whose last digits repeat without end. Brackets behind a digit,
+/// as in `0.1(6)`, may be a product.
 pub(crate) fn repeating(
     text: &str,
     at: usize,
@@ -174,13 +175,13 @@ pub(crate) fn repeating(
     begun: &Literal,
 ) -> Option<(Literal, usize)> {
     let rest = &text[end..];
-    let mark = ["\\overline{", "\\bar{"]
-        .iter()
-        .find(|mark| rest.starts_with(**mark))?;
-    let (digits, _) = rest[mark.len()..].split_once('}')?;
+    let marks = [("\\overline{", '}'), ("\\bar{", '}'), ("(", ')')];
+    let (mark, close) = marks.iter().find(|(mark, _)| rest.starts_with(mark))?;
+    let (digits, _) = rest[mark.len()..].split_once(*close)?;
     let are_digits = digits.len() < 9 && digits.bytes().all(|b| b.is_ascii_digit());
     let period = digits.parse::<u32>().ok().filter(|_| are_digits)?;
-    if !text[at..end].contains('.') {
+    let written = &text[at..end];
+    if !written.contains('.') || *close == ')' && !written.ends_with('.') {
         return None;
     }
     let nines = ten_to(digits.len() as i64) - Rational::from(Int::from(1));

@@ -43,14 +43,15 @@ pub(super) fn euler(
     options: &Options,
     finding: &mut compare::Finding,
 ) {
-    fn number(e: &Expr) -> Expr {
+    let is_e = |e: &Expr| e.as_symbol().is_some_and(|s| &**s == "e");
+    fn number(e: &Expr, is_e: &dyn Fn(&Expr) -> bool) -> Expr {
         match e.node() {
-            Node::Power(base, k) if base.as_symbol().is_some_and(|s| &**s == "e") => {
-                Expr::call(Function::Exp, number(k))
-            }
-            _ => e.map_parts(number),
+            Node::Power(base, k) if is_e(base) => Expr::call(Function::Exp, number(k, is_e)),
+            Node::Call(Function::Ln, x) if is_e(x) => Expr::one(),
+            _ => e.map_parts(|part| number(part, is_e)),
         }
     }
+    let number = |e: &Expr| number(e, &is_e);
     let (expected, answer) = (&key.reading.content, &reading.content);
     let occurs = |content: &Content| {
         let mut found = false;
@@ -86,7 +87,7 @@ pub(super) fn euler(
     let mut counts = occurs(expected);
     let mut note = |part: &Expr| {
         if let Node::Power(base, k) = part.node()
-            && base.as_symbol().is_some_and(|s| &**s == "e")
+            && is_e(base)
         {
             let counter = |name: &Symbol| matches!(&**name, "n" | "N" | "k" | "i" | "j");
             counts &= is_count(k) && (!logarithm || k.symbols().iter().any(counter));
