@@ -100,7 +100,7 @@ impl Den {
         Ok(())
     }
 
-    /// Replaces gⁿ by its value for roots g. Sines stay, since a sine may cancel against the numerator.
+    /// Replaces gⁿ by its value for roots g, odd ones of either sign among them. Sines stay, since a sine may cancel against the numerator.
     fn settle(&mut self, field: &Field) -> Result<bool, Stop> {
         let mut negative = false;
         if mono_is_one(&self.mono) {
@@ -108,7 +108,7 @@ impl Den {
         }
         for v in mono_variables(&self.mono) {
             let Some(Generator {
-                kind: Kind::Root,
+                kind: Kind::Root | Kind::Power(..),
                 relation: Some((degree, value)),
             }) = field.gens.get(v)
             else {

@@ -430,7 +430,13 @@ impl Field {
                     // Generators that are roots are not negative.
                     (None, _) => {
                         let part = self.number(&crate::expr::ratio(1, i64::from(n)));
-                        self.opaque_power(Element::from_poly(f), part)
+                        let root = self.opaque_power(Element::from_poly(f.clone()), part);
+                        if let Some(v) = self.as_generator(&root)
+                            && self.gens[v].relation.is_none()
+                        {
+                            self.relate(v, n, f);
+                        }
+                        root
                     }
                 };
                 let power = self.pow(&root, left)?;
