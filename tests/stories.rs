@@ -212,7 +212,7 @@ fn every_check_of_every_story_holds_and_every_question_has_an_answer() {
             let mut followed = a.checks.iter().filter(|c| c.kind == "integration");
             assert!(
                 followed.all(|c| c.holds == Some(true)),
-                "{name}: {} is not held against the scene followed in numbers",
+                "{name}: {} is not compared with the scene followed numerically",
                 a.name
             );
         }

@@ -450,6 +450,6 @@ fn tried(
         }
     }
     (seen > 0).then(|| Check::new("numbers", format!(
-            "at {seen} points: {closer} times closer, what is left out is at least {power} times smaller"
+            "at {seen} points: where the parameter is {closer} times closer, the error is at least {power} times smaller"
         ), Some(true)))
 }

@@ -6,18 +6,21 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::Course;
+use super::fixture::hatched;
 use super::label::Label;
 use super::marks::centers;
 use super::place::Spot;
-use super::plane::{Pair, ahead, apart, bearing, minus, polar, size, unit};
+use super::plane::{Pair, ahead, apart, bearing, dot, left, minus, plus, polar, right, size, unit};
 use super::pose::{Look, Pose, posed};
 use super::sheet::{Ink, Line, SIZE, SMALL, Sheet, arc};
-use super::stage::{Stage, spanning};
+use super::stage::{DOT, Stage, THICK, spanning};
 use super::values::Values;
 use super::way::Gone;
 use crate::expr::Expr;
-use crate::scene::{Ask, Body, FallEnd, Hinge, Scene, SlideEnd, StageKind, Turn, Until};
+use crate::scene::{Ask, Body, FallEnd, Hinge, Scene, Slide, SlideEnd, StageKind, Turn, Until};
 
+/// By how much a plank is longer than the slip, at each end, in pixels.
+const PLANK: f64 = 16.0;
 /// Shortest length that is marked, in pixels.
 const SHORTEST: f64 = 8.0;
 
@@ -62,9 +65,14 @@ pub fn motion(scene: &Scene, values: &Values, course: &Course) -> Option<Sheet> 
     let last = gone.last(&begin);
     let (from, end) = (&begin[gone.body], &last[gone.body]);
     surroundings(&stage, sheet, kind, from, end)?;
+    let below = match kind {
+        StageKind::Slide(slide) => plank(&stage, sheet, slide, [&begin, &last]),
+        _ => Vec::new(),
+    };
     let moved: Vec<[&Pose; 2]> = gone
         .ways
         .iter()
+        .filter(|(b, _)| !below.contains(b))
         .map(|(b, _)| [&begin[*b], &last[*b]])
         .collect();
     if let StageKind::Linkage(_) = kind {
@@ -103,7 +111,7 @@ pub fn motion(scene: &Scene, values: &Values, course: &Course) -> Option<Sheet> 
             trail(sheet, &points);
         }
     }
-    measures(&stage, sheet, course, gone.turned, [from, end]);
+    measures(&stage, sheet, course, &gone, [from, end]);
     forces(&stage, sheet, kind, &gone);
     centers(&stage, sheet, &[gone.body]);
     for (pose, word) in [(from, "beginning"), (end, "end")] {
@@ -115,6 +123,51 @@ pub fn motion(scene: &Scene, values: &Values, course: &Course) -> Option<Sheet> 
     }
     sheet.settle();
     Some(std::mem::take(sheet))
+}
+
+/// Draws what a body slides on at the beginning and at the end, as long as the slip, and the floor below it; gives the bodies
+/// drawn so. What has an outline of its own is drawn as usual.
+fn plank(stage: &Stage, sheet: &mut Sheet, slide: &Slide, ends: [&[Pose]; 2]) -> Vec<usize> {
+    let Some(on) = &slide.on else {
+        return Vec::new();
+    };
+    let below = on.company();
+    let is_dot = |b: &usize| matches!(ends[0][*b].look, Look::Dot);
+    let along = stage.values.pair(&slide.along).map(unit);
+    let (Some(along), true) = (along, below.iter().all(is_dot)) else {
+        return Vec::new();
+    };
+    let down = if along[0] < 0.0 {
+        left(along)
+    } else {
+        right(along)
+    };
+    let at = |k: usize, b: usize| stage.px(ends[k][b].center);
+    let own = minus(at(1, on.body), at(0, on.body));
+    let slip = dot(
+        minus(minus(at(1, slide.body), at(0, slide.body)), own),
+        along,
+    );
+    let first = ahead(at(0, slide.body), down, DOT + 0.8);
+    let corners = |by: Pair| {
+        let point = |far: f64, deep: f64| plus(by, ahead(ahead(first, along, far), down, deep));
+        vec![
+            point(-PLANK, 0.0),
+            point(slip + PLANK, 0.0),
+            point(slip + PLANK, THICK * 2.0),
+            point(-PLANK, THICK * 2.0),
+        ]
+    };
+    let [begins, stops] = [[0.0; 2], own].map(corners);
+    let floor = |p: Pair, far: f64| ahead(ahead(p, along, far), down, 1.7);
+    let floor = [floor(begins[3], -20.0), floor(stops[2], 20.0)];
+    sheet.path(begins, true, Line::dashed(Ink::Body), 1.0);
+    sheet.path(stops, true, Line::solid(), 1.0);
+    match along[0] < 0.0 {
+        true => hatched(sheet, floor[1], floor[0], down),
+        false => hatched(sheet, floor[0], floor[1], down),
+    }
+    below
 }
 
 /// Whether something round is where a round body comes to: it has gone on by then, as another stage tells.
@@ -161,17 +214,26 @@ fn measures(
     stage: &Stage,
     sheet: &mut Sheet,
     course: &Course,
-    turned: f64,
+    gone: &Gone,
     [from, end]: [&Pose; 2],
 ) {
     let [first, last] = [from, end].map(|pose| stage.px(pose.center));
     match &course.kind {
-        StageKind::Turn(turn) => angle(stage, sheet, course, turn, (from, turned)),
+        StageKind::Turn(turn) => angle(stage, sheet, course, turn, (from, gone.turned)),
         StageKind::Slide(slide) => {
             let asked = |ask: &Ask| matches!(ask, Ask::Distance);
             let label = match &slide.until {
                 SlideEnd::Distance(distance) => Some(Label::formula(distance, stage.scene)),
                 _ => course.symbol(asked),
+            };
+            // Along the body below it is the way beyond that body's own.
+            let own = slide.on.as_ref().map(|on| gone.way(on.body));
+            let first = match own {
+                Some([from, .., to]) => {
+                    let [from, to] = [from, to].map(|pose| stage.px(pose.center));
+                    plus(first, minus(to, from))
+                }
+                _ => first,
             };
             if let Some(label) = label {
                 beside(sheet, first, last, label);

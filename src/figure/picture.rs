@@ -6,10 +6,10 @@ use super::during::impulses;
 use super::label::Label;
 use super::marks::{axes, centers, masses, names, turning, velocity, wall_point};
 use super::measure;
-use super::plane::{Pair, ahead, apart, left, minus, plus, size};
+use super::plane::{Pair, ahead, apart, dot, left, minus, plus, size};
 use super::quantity::{LEGIBLE, speed, spin_before, spin_name, vector_name, velocity_name};
 use super::sheet::Sheet;
-use super::stage::{Moment, Stage};
+use super::stage::{DOT, Moment, Stage};
 use crate::expr::{Expr, Point};
 use crate::numeric::system::Unknown;
 use crate::numeric::{Motion, motion_of, solve_f64, solved};
@@ -143,6 +143,14 @@ pub fn after(stage: &Stage, motion: &Motion<f64>) -> Sheet {
         let start = stage.px(stage.poses[i].center);
         let start = plus(start, asides[i]);
         let told = body.is_particle() && asked_at(stage, motion, stage.poses[i].center, v);
+        // Of particles that go on together the foremost has the arrow.
+        let leads = |j: &usize| {
+            let ahead_of = minus(plus(stage.px(stage.poses[*j].center), asides[*j]), start);
+            let together =
+                size(minus(motion.velocity[*j], v)) < 1e-7 * most && size(ahead_of) < 3.0 * DOT;
+            scene.bodies[*j].is_particle() && together && dot(ahead_of, v) > 1e-9
+        };
+        let told = told || body.is_particle() && stage.movable().iter().any(leads);
         if known && size(v) > 1e-7 * most && !body.is_fixed() && !told {
             velocity(
                 &mut sheet,

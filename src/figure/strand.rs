@@ -85,7 +85,8 @@ impl Stage<'_> {
         for (b, body) in self.scene.bodies.iter().enumerate() {
             if let Some(end) = hints.string(&body.name) {
                 let end = end.as_ref().and_then(|e| self.values.pair(e));
-                out.push(self.hung(b, self.poses[b].center, end, [0.0, 1.0]));
+                let at = end.map_or(self.poses[b].center, |end| leaves(&self.poses[b], end));
+                out.push(self.hung(b, at, end, [0.0, 1.0]));
             }
         }
         out
@@ -123,6 +124,15 @@ impl Stage<'_> {
             }
             StageKind::Wind(wind) => from_to(self.values.pair(&wind.around)?, wind.body),
             StageKind::Slide(slide) => self.strung(slide, poses)?,
+            StageKind::Linkage(linkage) => {
+                let hung = linkage.places.iter().filter_map(|(b, _)| {
+                    let end = self.scene.figure.string(&self.scene.bodies[*b].name)?;
+                    let end = self.values.pair(end.as_ref()?)?;
+                    let from = leaves(&poses[*b], end);
+                    Some(Strand::between((Some(*b), from), (None, end)))
+                });
+                hung.collect()
+            }
             _ => Vec::new(),
         })
     }
@@ -176,5 +186,17 @@ impl Stage<'_> {
             }
         }
         Some(out)
+    }
+}
+
+/// Where a string leaves a body for the place it is fastened to: the rim of a round one, where it hangs straight down beside it.
+fn leaves(pose: &Pose, end: Pair) -> Pair {
+    match &pose.look {
+        Look::Round { radius, .. }
+            if ((end[0] - pose.center[0]).abs() - radius).abs() < 1e-6 * radius =>
+        {
+            [end[0], pose.center[1]]
+        }
+        _ => pose.center,
     }
 }

@@ -228,9 +228,15 @@ impl Writer<'_> {
             .collect();
         // A single equation that already reads `unknown = value` needs no further line.
         if let ([claim], [(u, value)]) = (before.as_slice(), pairs.as_slice()) {
-            let symbol = Expr::symbol(self.d.names.plain(*u));
-            if claim.left == symbol && claim.right == *value {
-                self.told.insert(Symbol::from(self.d.names.plain(*u)));
+            let name = self.d.names.plain(*u);
+            if claim.left == Expr::symbol(name) && claim.right == *value {
+                let is_asked = self.d.answers.iter().any(|a| a.name == name);
+                self.told.insert(Symbol::from(name));
+                let is_left_out = value.is_zero() && (is_asked || !self.makes_an_answer(*u));
+                self.zero.extend(is_left_out.then_some(*u));
+                if is_asked && let Some(line) = self.take_last_line() {
+                    self.push(Part::Result(vec![line]));
+                }
                 return;
             }
         }
@@ -337,6 +343,32 @@ impl Writer<'_> {
             ];
             self.text(fill("{} is the impulse at {}, found below.", [of, at]));
         }
+    }
+
+    /// Whether an answer under another name is made of this component of a velocity, or of this spin.
+    fn makes_an_answer(&self, unknown: Unknown) -> bool {
+        let mut asks = self.scene.questions.iter().map(|q| &q.ask);
+        asks.any(|ask| match (ask, unknown) {
+            (Ask::Velocity { body, along, .. }, Unknown::Velocity(b, axis)) => {
+                let is_across = along.as_ref().is_some_and(|d| d[axis].is_zero());
+                *body == b && !is_across
+            }
+            (Ask::Velocity { body, .. } | Ask::Spin { body, .. }, Unknown::Spin(b)) => *body == b,
+            _ => false,
+        })
+    }
+
+    /// Takes the line away that was displayed last.
+    fn take_last_line(&mut self) -> Option<Line> {
+        let parts = &mut self.solution.sections.last_mut()?.parts;
+        let Some(Part::Display(lines)) = parts.last_mut() else {
+            return None;
+        };
+        let line = lines.pop();
+        if lines.is_empty() {
+            parts.pop();
+        }
+        line
     }
 
     fn last_part(&self) -> Option<&Part> {

@@ -16,15 +16,20 @@ impl Writer<'_> {
     /// Every line from a block's equations to the values of its unknowns, except the last.
     pub(super) fn eliminate(&mut self, block: &Block) {
         let mut rows: Vec<Row> = Vec::new();
-        let mut put_in = false;
+        let mut changed: Vec<Row> = Vec::new();
         for equation in &block.equations {
+            let mut put_in = false;
             let mut coeffs = vec![Expr::zero(); block.unknowns.len()];
             let mut rhs = equation.known.clone();
-            for (u, k) in &equation.terms {
-                match block.unknowns.iter().position(|v| v == u) {
-                    Some(i) => coeffs[i] = k.clone(),
+            let terms = equation
+                .terms
+                .iter()
+                .filter(|(u, _)| !self.zero.contains(u));
+            for (u, k) in terms.cloned().collect::<Vec<_>>() {
+                match block.unknowns.iter().position(|v| *v == u) {
+                    Some(i) => coeffs[i] = k,
                     None => {
-                        let Some(value) = self.value_of(*u) else {
+                        let Some(value) = self.value_of(u) else {
                             return;
                         };
                         rhs = rhs - k * &value;
@@ -32,8 +37,11 @@ impl Writer<'_> {
                     }
                 }
             }
-            rows.push((coeffs, self.tidy(&rhs)));
+            let row = (coeffs, self.tidy(&rhs));
+            changed.extend(put_in.then(|| row.clone()));
+            rows.push(row);
         }
+        let put_in = !changed.is_empty();
         if put_in {
             self.say("With the earlier results substituted,");
         }
@@ -43,19 +51,24 @@ impl Writer<'_> {
             if factor.is_one() || opposite.is_one() {
                 return;
             }
+            let is_zero = rhs.is_zero();
+            let mut divisor = factor;
             if put_in {
-                let row = rows[0].clone();
+                let mut row = rows[0].clone();
+                if divisor.is_negative() {
+                    row = (vec![opposite.clone()], -&row.1);
+                    divisor = opposite;
+                }
                 self.row_line(&block.unknowns, &row, "earlier results substituted");
             }
-            if !rhs.is_zero() {
-                self.text(fill("Dividing by {},", [words::formula(&factor)]));
+            if !is_zero {
+                self.text(fill("Dividing by {},", [words::formula(&divisor)]));
             }
             return;
         }
-        if put_in {
-            for row in rows.clone() {
-                self.row_line(&block.unknowns, &row, "earlier results substituted");
-            }
+        // The others stand above as they are.
+        for row in changed {
+            self.row_line(&block.unknowns, &row, "earlier results substituted");
         }
         self.forward(block, rows);
     }

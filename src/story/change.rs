@@ -117,6 +117,9 @@ impl Change<'_> {
         let [spins_on, still] =
             [w0 - w1, w1.clone()].map(|w| is_zero(&w, self.domains) == Some(true));
         let turns = self.turning(w0, w1);
+        if let Some(turns) = turns.as_ref().filter(|_| self.is_pinned()) {
+            return Some(Clause::Alone(format!("`{name}` {turns}")));
+        }
         // Of a body that a joint holds at its center only the spin is worth a word.
         Some(Clause::Alone(match (keeps, rests, spins_on, still) {
             (_, true, true, true) => format!("`{name}` {}", moves?),
@@ -131,6 +134,14 @@ impl Change<'_> {
                 (None, None) => return None,
             },
         }))
+    }
+
+    /// Whether a hinge to a fixed body leaves it nothing but to turn.
+    fn is_pinned(&self) -> bool {
+        let scene = &self.told.placed.scene;
+        let is_fixed = |b: &usize| scene.bodies[*b].is_fixed();
+        let mut hinges = scene.hinges.iter().map(|h| h.bodies);
+        hinges.any(|all| all.contains(&self.b) && all.iter().any(is_fixed))
     }
 
     /// Which way a velocity points, as far as its signs are known.

@@ -74,7 +74,7 @@ fn check(worst: f64, count: usize, what: &str) -> Check {
     let worst_shown = if worst <= 1e-12 { 1e-12 } else { worst };
     let points = if count == 1 { "point" } else { "points" };
     let words = format!(
-        "{what}: integrated in time at {count} {points}, relative difference at most {worst_shown:.0e}"
+        "{what} agrees with the motion integrated in time at {count} {points} (relative difference at most {worst_shown:.0e})"
     );
     Check::new("integration", words, Some(worst < CLOSE))
 }

@@ -238,7 +238,7 @@ impl Compared {
             return Check::new(
                 kind,
                 format!(
-                    "{what} is not held against the scene followed in numbers{}",
+                    "{what} is not compared with the scene followed numerically{}",
                     second.why_not()
                 ),
                 second.contradicts().then_some(false),
@@ -248,10 +248,12 @@ impl Compared {
         let words = match &self.apart {
             // The integrator works to 1e-12; what is below is the rounding of the machine at hand.
             None => format!(
-                "{what}: as followed in numbers from the file at {points}, relative difference at most {:.0e}",
+                "{what} agrees at {points} with the scene followed numerically from the given data (relative difference at most {:.0e})",
                 self.worst.max(1e-10)
             ),
-            Some(apart) => format!("{what}: followed in numbers from the file, {apart}"),
+            Some(apart) => format!(
+                "{what} differs from the scene followed numerically from the given data: {apart}"
+            ),
         };
         Check::new(kind, words, Some(self.apart.is_none()))
     }
@@ -346,7 +348,7 @@ impl Second<'_> {
                 compared.put("the time it takes", [time, *found], size, shaken);
             }
         }
-        compared.check("where the bodies are and how they move", self)
+        compared.check("the motion", self)
     }
 
     fn state(

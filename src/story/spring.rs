@@ -47,7 +47,7 @@ pub(super) fn share(mut out: Answer, given: [&Expr; 3], domains: &Domains) -> Ve
         _ => None,
     };
     out.text.push(sentence!("with the blow J spread evenly over the time {}, the body obeys m y″ + k y = J/τ from rest; so y = J (1 − cos(t √(k/m)))/(k τ), and at the end the body has the momentum J sin φ/φ with φ = {}: the spring has taken the rest", during, &phase));
-    out.checks.push(Check::new("identity", "substituted into the equation of motion, this motion satisfies it and its initial conditions, and its momentum at the end leaves the share", holds));
+    out.checks.push(Check::new("identity", "this motion satisfies the equation of motion and its initial conditions, and its momentum at the end leaves this share", holds));
     out.checks.push(integrate::share(domains, given, &share));
     let mut short = out.clone();
     short.name = format!("{}_short", out.name);

@@ -125,7 +125,8 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
                 if several {
                     all.push(acting(one_sided, case).into());
                 }
-                all.extend(change::words(told, case).into_iter().map(Sentence::from));
+                let changes = in_one(change::words(told, case));
+                all.extend(changes.into_iter().map(Sentence::from));
                 if all.is_empty() {
                     all.push("which way the bodies move depends on the values".into());
                 }
@@ -151,18 +152,16 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
             let lead = format!("{} {verb}", names.join(" and "));
             let coordinate = Expr::symbol(&linkage.coordinate);
             let [from, to] = &linkage.ends;
+            let is_angle =
+                |p: &crate::scene::Parameter| p.name == linkage.coordinate && p.unit == "rad";
+            let angle = match scene.parameters.iter().any(is_angle) {
+                true => "the angle ",
+                false => "",
+            };
             out.push(match *from == coordinate {
-                true => sentence!("{} from {} to {}", lead, from, to),
+                true => sentence!("{} from {}{} to {}", lead, angle, from, to),
                 false => sentence!("{}: {} goes from {} to {}", lead, &coordinate, from, to),
             });
-            let by_it = |e: &Expr| e.symbols().contains(&linkage.coordinate);
-            let points = scene.points.iter();
-            let carried = points.filter(|p| p.at.iter().any(by_it));
-            let carried: Vec<String> = carried.map(|p| format!("`{}`", p.name)).collect();
-            if !carried.is_empty() {
-                let verb = if carried.len() == 1 { "moves" } else { "move" };
-                out.push(format!("{} {verb} with it", listed(&carried)).into());
-            }
         }
         StageKind::Wind(wind) => {
             let (free, name) = (" of it is free; `", &scene.bodies[wind.body].name);
@@ -175,6 +174,17 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
         }
     }
     out
+}
+
+/// Short clauses as one sentence; those that have parts themselves stay apart.
+fn in_one(clauses: Vec<String>) -> Vec<String> {
+    let any = |part: &str| clauses.iter().any(|c| c.contains(part));
+    match clauses.as_slice() {
+        _ if any(",") => clauses,
+        [one, two] if any(" and ") => vec![format!("{one}, and {two}")],
+        [_, _, ..] if !any(" and ") => vec![listed(&clauses)],
+        _ => clauses,
+    }
 }
 
 /// A fall or a flight: how far or how long, and who falls along.
@@ -222,7 +232,7 @@ fn falling(told: &StageTold, fall: &Fall) -> Vec<Sentence> {
     for b in fall.bodies() {
         if is_zero(&told.after.spin[b], &scene.domains) == Some(false) {
             out.push(sentence!(
-                "`{}` keeps its spin, since nothing has a moment about its center of mass",
+                "the spin of `{}` does not change, since nothing has a moment about its center of mass",
                 &scene.bodies[b].name
             ));
         }
@@ -246,9 +256,11 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
         (_, Some(_), false) if slide.level => " slide together on a rough level surface",
         (_, Some(_), true) => " slides on a rough surface",
         (_, Some(_), false) => " slide together on a rough surface",
-        (_, None, true) => " moves along a line",
-        (_, None, false) => " move together along a line",
+        (_, None, true) => " moves",
+        (_, None, false) => " move",
     };
+    let free = slide.friction.is_none() && !grips && !slide.rolling;
+    let way = towards(slide).filter(|_| free);
     let lead = names.join(" and ");
     if let Some(on) = &slide.on {
         let below: Vec<String> = on.company().iter().map(name).collect();
@@ -261,7 +273,9 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
         let below = below.join(" and ");
         let lead = format!("{lead} {verb} on {below}, which moves on a {floor} floor,");
         return match &slide.until {
-            SlideEnd::Distance(s) => sentence!("{} through {} along it", lead, measured(s, "m")),
+            SlideEnd::Distance(s) => {
+                sentence!("{} over the distance {} along it", lead, measured(s, "m"))
+            }
             SlideEnd::Time(t) => sentence!("{} for {}", lead, measured(t, "s")),
             _ => sentence!("{} until both move together", lead),
         };
@@ -273,7 +287,13 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
             (_, false) => sentence!("{} are at rest already", lead),
         };
     }
-    let lead = lead + how;
+    let lead = match free {
+        true => {
+            let together = if one { "" } else { " together" };
+            lead + how + way.unwrap_or(" along a straight line") + together
+        }
+        false => lead + how,
+    };
     let strings = slide.strings.iter().map(|s| {
         let list = |all: &[usize]| all.iter().map(name).collect::<Vec<_>>().join(" and ");
         let rough = s.friction.as_ref().map_or("", |_| " on a rough surface");
@@ -290,12 +310,26 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
     };
     let lead = lead + spring;
     match &slide.until {
-        SlideEnd::Distance(s) => sentence!("{} through {}{}", lead, measured(s, "m"), strings),
+        SlideEnd::Distance(s) if way.is_some() => {
+            sentence!("{} by {}{}", lead, measured(s, "m"), strings)
+        }
+        SlideEnd::Distance(s) => {
+            sentence!("{} over the distance {}{}", lead, measured(s, "m"), strings)
+        }
         SlideEnd::Time(t) => sentence!("{} for {}{}", lead, measured(t, "s"), strings),
         SlideEnd::Stops if one => sentence!("{} until it stops{}", lead, strings),
         SlideEnd::Stops => sentence!("{} until they stop{}", lead, strings),
         SlideEnd::Rolls | SlideEnd::Together => sentence!("{} until it rolls{}", lead, strings),
     }
+}
+
+/// The direction of a motion along an axis; none seen from above, where none is up.
+fn towards(slide: &Slide) -> Option<&'static str> {
+    let [x, y] = slide.along.each_ref().map(|e| [e.is_one(), (-e).is_one()]);
+    let ways = [" to the right", " to the left", " up", " down"];
+    let mut all = [x, y].concat().into_iter().zip(ways);
+    let way = all.find(|(is, _)| *is).map(|(_, way)| way);
+    way.filter(|_| !slide.level)
 }
 
 /// Whether a body is known not to rise at the beginning.
@@ -466,7 +500,9 @@ pub(super) fn missing(told: &StageTold) -> Vec<Sentence> {
     );
     out.push(words.into());
     let closing = counting.closing_laws.iter();
-    out.extend(closing.map(|law| sentence!("what could close them: {}", law)));
+    out.extend(
+        closing.map(|law| sentence!("what would close them: {}", law.replacen(':', ",", 1))),
+    );
     out.extend(used.into_iter().map(|u| sentence!("supposed here: {}", u)));
     out
 }

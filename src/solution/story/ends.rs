@@ -190,6 +190,13 @@ impl Page<'_> {
             return None;
         };
         let radius = told.placed.scene.bodies[slide.body].shape.radius()?;
+        if let (Ask::Angle { .. }, Some(way)) = (ask, &told.way) {
+            let distance = self.to(told, |ask| matches!(ask, Ask::Distance))?;
+            let ratio = tidied(self.scene, &(value * radius / way));
+            let is_rim = ratio == Expr::one() || ratio == -Expr::one();
+            let by = |way: &Expr| &ratio * way / radius;
+            return is_rim.then(|| [by(&Expr::symbol(&distance.name)), by(way)]);
+        }
         let rolls = matches!(slide.until, SlideEnd::Rolls);
         let speed = told.steps.iter().find(|s| s.letter == "v")?;
         let way = tidied(self.scene, &(value * radius / &speed.value));

@@ -184,6 +184,11 @@ impl Page<'_> {
                     dot(&[x.clone(), y], &along)
                 })
             }
+            Ask::Angle { body, clockwise } if fall.bodies().contains(body) => {
+                let spin = &told.before.spin[*body];
+                let spin = self.named(&if *clockwise { -spin } else { spin.clone() });
+                [&shown, time].map(|time| &spin * time)
+            }
             Ask::Time if told.time.as_ref() == answer.formula() => {
                 let raw = self.takes(told, fall, time);
                 [raw.clone(), raw]

@@ -27,6 +27,9 @@ use crate::formula::Sentence;
 use crate::scene::{Ask, Scene, Stage};
 use crate::story::{Case, StageTold, Told, line};
 
+/// Longest condition, in characters, that is a heading.
+const LONG_HEADING: usize = 40;
+
 /// Writes the solution of a scene with stages.
 pub(super) fn tell(scene: &Scene, told: &Told, detail: Detail) -> Solution {
     let mut page = Page {
@@ -295,7 +298,10 @@ impl Page<'_> {
         };
         if several {
             let mut heading = vec![say(format!("Case {}: ", k + 1))];
-            heading.extend(sentence::sentence(self.scene, &case.holds_where()));
+            match self.by_contact(told) {
+                true => heading.push(say(sentence::called(self.scene, &case.rubs))),
+                false => heading.extend(sentence::sentence(self.scene, &case.holds_where())),
+            }
             self.solution.section(1, heading);
         }
         let (scene, derivation) = case.asked();
@@ -315,9 +321,8 @@ impl Page<'_> {
             writer.case();
         }
         writer.given_after();
-        let full = self.solution.detail == Detail::Full;
-        let earlier = cases::in_earlier(self.told, [i, k]).filter(|_| !full);
-        let again = cases::again(self.scene, &told.cases, k).filter(|_| !full);
+        let earlier = cases::in_earlier(self.told, [i, k]);
+        let again = cases::again(self.scene, &told.cases, k);
         match (earlier, again) {
             (Some([j, c]), _) => {
                 let there = &self.told.stages[j];
@@ -384,6 +389,15 @@ impl Page<'_> {
             needs,
             meanings: writer.solution.meanings,
         });
+    }
+
+    /// Whether cases are called by what a rough contact does: their conditions are long, and stand before them.
+    fn by_contact(&self, told: &StageTold) -> bool {
+        let differ = |c: &Case| told.cases.iter().filter(|o| o.rubs == c.rubs).count() == 1;
+        let is_long = |c: &Case| c.holds_where().to_string().chars().count() > LONG_HEADING;
+        self.solution.detail != Detail::Brief
+            && told.cases.iter().any(is_long)
+            && told.cases.iter().all(|c| !c.rubs.is_empty() && differ(c))
     }
 
     /// Whether no earlier stage has told this equation; notes it, in place of another one for the same quantity.

@@ -3,12 +3,15 @@
 
 use super::Page;
 use crate::answer::Answer;
-use crate::expr::{Expr, Symbol, dot, minus};
+use crate::expr::{Expr, Node, Symbol, dot, minus};
 use crate::scene::{Ask, Linkage, Slide, SlideEnd, Spring, Stage, StageKind, Turn, Until};
 use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::words::{self, fill, name, say, set, vector};
 use crate::solution::{Claim, Line, Math};
 use crate::story::{StageTold, State};
+
+/// Largest equation of motion, in nodes, that is written out.
+const READABLE: usize = 90;
 
 impl Page<'_> {
     /// A motion: inertia, work and energy, from the beginning to the end.
@@ -69,7 +72,7 @@ impl Page<'_> {
         self.worked([start, end], told, named, &mut lines);
         lines.extend(self.speed(stage, told));
         if let (Some([inertia, _]), StageKind::Linkage(linkage)) = (&told.inertia, &stage.kind) {
-            let square = self.rate(linkage).powi(2);
+            let square = self.rate(linkage, "dot").powi(2);
             let energy = Expr::ratio(1, 2) * inertia * square;
             let energies = [energy.into(), words::kinetic("", "+")];
             lines.push(Line::plain(set("{} = {}", energies)));
@@ -130,6 +133,9 @@ impl Page<'_> {
                 raw
             };
             let why = format!("work of {what}: force times the way in its direction");
+            // A product that cancels is said at once.
+            let is_plain = matches!(raw.node(), Node::Product(factors) if !factors.iter().any(|f| matches!(f.node(), Node::Sum(_))));
+            let raw = if is_plain { value } else { raw };
             lines.push(self.chain(vec![letter(what)], raw, value, &why));
         }
         let after = start + &Expr::sum(told.work.iter().map(|(_, w)| w.clone()));
@@ -265,15 +271,13 @@ impl Page<'_> {
         let takes = asks(|ask| matches!(ask, Ask::Time));
         match &stage.kind {
             StageKind::Turn(turn) if whirls => self.moments(told, turn),
-            _ if whirls => self.solution.say(
-                "The balance of energy from the beginning to any place, differentiated with respect to time, gives the angular acceleration.",
-            ),
+            StageKind::Linkage(linkage) => self.of_motion(told, linkage),
             _ => {}
         }
         self.accelerated(told);
         let time = match (&stage.kind, &told.time) {
             (StageKind::Linkage(_), _) => vec![say(
-                "The acceleration is the same all the way, and the time is the change of the velocity over it.",
+                "The acceleration is constant, so the time is the change of velocity divided by it.",
             )],
             (StageKind::Slide(slide), Some(time)) if slide.spring.is_some() => {
                 let relaxed = slide.spring.iter().any(|s| s.relaxed.is_zero());
@@ -371,22 +375,55 @@ impl Page<'_> {
         }))
     }
 
-    /// The rate of the coordinate of a linkage, as a symbol.
-    fn rate(&mut self, linkage: &Linkage) -> Expr {
+    /// The rate of the coordinate of a linkage, as a symbol, or the rate of that.
+    fn rate(&mut self, linkage: &Linkage, dots: &str) -> Expr {
         let of = &linkage.coordinate;
-        let symbol = Symbol::from(format!("{of}_dot").as_str());
+        let symbol = Symbol::from(format!("{of}_{dots}").as_str());
         let latex = match self.solution.names.get(of) {
             Some(latex) => latex.clone(),
             None => crate::formula::latex_name(of),
         };
-        let latex = format!("\\dot{{{latex}}}");
+        let latex = format!("\\{dots}{{{latex}}}");
         self.solution.names.insert(symbol.clone(), latex);
         Expr::symbol(&symbol)
     }
 
+    /// The equation of motion of a linkage, where an acceleration or the time is asked of this stage.
+    fn of_motion(&mut self, told: &StageTold, linkage: &Linkage) {
+        let needs = |ask: &Ask| {
+            matches!(
+                ask,
+                Ask::AngularAcceleration { .. } | Ask::PointAcceleration { .. } | Ask::Time
+            )
+        };
+        if !self.asked(told, needs) {
+            return;
+        }
+        let [inertia, lifted] = crate::story::by_coordinate(&told.placed, linkage);
+        let inertia = tidied(self.scene, &inertia);
+        let drawn = tidied(self.scene, &-lifted);
+        let grows = tidied(self.scene, &inertia.derivative(&linkage.coordinate));
+        let [rate, second] = ["dot", "ddot"].map(|dots| self.rate(linkage, dots));
+        let left = &inertia * &second + Expr::ratio(1, 2) * &grows * rate.powi(2);
+        if left.size() + drawn.size() > READABLE {
+            return self.solution.say(
+                "The balance of energy from the beginning to any place, differentiated with respect to time, gives the accelerations.",
+            );
+        }
+        self.solution.say(
+            "The balance of energy from the beginning to any place, differentiated with respect to time, gives there",
+        );
+        let mut math = words::related(&left, "=", &drawn);
+        if grows.is_zero() {
+            let value = tidied(self.scene, &(&drawn / &inertia));
+            math.extend(set("⇒ {} = {}", [second.into(), value.into()]));
+        }
+        self.solution.display(vec![Line::plain(math)]);
+    }
+
     /// How all bodies of a linkage move by the rate of its coordinate.
     fn velocities(&mut self, told: &StageTold, linkage: &Linkage) {
-        let rate = self.rate(linkage);
+        let rate = self.rate(linkage, "dot");
         let scene = &told.placed.scene;
         let mut lines = Vec::new();
         for (b, place) in &linkage.places {
@@ -431,7 +468,9 @@ impl Page<'_> {
         let square = |e: &Expr| {
             let opposite = self.named(&-e);
             let plain = opposite.as_symbol().map(|_| opposite.clone());
-            plain.unwrap_or_else(|| self.named(e)).powi(2)
+            plain
+                .unwrap_or_else(|| self.by_names(&self.named(e), e))
+                .powi(2)
         };
         if let (Some([_, inertia]), StageKind::Turn(turn)) = (&told.inertia, &stage.kind) {
             let by_spin = &half * inertia * square(&state.spin[turn.body]);

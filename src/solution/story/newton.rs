@@ -7,7 +7,7 @@ use crate::scene::{Ask, SlideEnd, StageKind};
 use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::words::{self, name, say};
 use crate::solution::{Claim, Detail, Inline, Line, Math, Meaning};
-use crate::story::{StageTold, Step};
+use crate::story::{StageTold, State, Step};
 
 /// Smallest formula, in nodes, whose name is worth standing for it.
 const WORTH_A_NAME: usize = 6;
@@ -62,6 +62,21 @@ impl Page<'_> {
                 if !is_boxed {
                     math.push(Math::Op("⇒"));
                 }
+            } else if let Some(meets) = self.meets(told, step) {
+                math.extend(meets);
+                if !is_boxed {
+                    math.extend([
+                        Math::Op("⇒"),
+                        letter,
+                        Math::Op("="),
+                        Math::Expr(step.value.clone()),
+                    ]);
+                }
+                lines.push(Line {
+                    math,
+                    step: Some(claimed),
+                });
+                continue;
             } else if is_boxed {
                 continue;
             }
@@ -223,19 +238,12 @@ impl Page<'_> {
             // Its equation of motion stands above.
             return Vec::new();
         }
+        if self.meets(told, step).is_some() {
+            // What the time makes equal stands above.
+            return Vec::new();
+        }
         let time = told.steps.iter().find(|s| s.letter == "t");
-        let relative = ["A", "a"].map(|letter| told.steps.iter().find(|s| s.letter == letter));
-        let until = |kind: &StageKind| matches!(kind, StageKind::Slide(s) if matches!(s.until, SlideEnd::Together));
         let raw = match time.filter(|_| !step.by_time.is_empty()) {
-            // The slip at the beginning over what it loses in a time.
-            None if step.letter == "t" && until(&told.placed.kind) => {
-                let [Some(below), Some(own)] = relative else {
-                    return Vec::new();
-                };
-                let slip = tidied(self.scene, &(&step.value * (&below.value - &own.value)));
-                let loses = self.letter_of(told, below) - self.letter_of(told, own);
-                self.by_names(&slip, &step.value) / loses
-            }
             Some(time) => {
                 let time = self.letter_of(told, time);
                 let powers = step.by_time.iter().zip(0..);
@@ -263,6 +271,45 @@ impl Page<'_> {
             true => Vec::new(),
             false => vec![Math::Expr(raw), Math::Op("=")],
         }
+    }
+
+    /// What the time makes equal, v + a t = V + A t of a body and the one below it, v + a t = −r ω − r α t of one that comes to
+    /// roll; nothing for other steps.
+    fn meets(&self, told: &StageTold, step: &Step) -> Option<Vec<Math>> {
+        let StageKind::Slide(slide) = &told.placed.kind else {
+            return None;
+        };
+        let time = (step.letter == "t").then(|| self.letter_of(told, step))?;
+        let letter = |letter: &str| {
+            let mut steps = told.steps.iter().filter(|s| !s.value.is_zero());
+            let rate = steps.find(|s| s.letter == letter);
+            rate.map(|s| self.letter_of(told, s) * &time)
+        };
+        let along = |state: &State, b: usize| dot(&state.velocity[b], &slide.along);
+        let tidy = |e: &Expr| self.by_names(&self.named(&tidied(self.scene, e)), &step.value);
+        let body = slide.body;
+        let start = match self.start(told) {
+            Some((symbol, _)) => symbol,
+            None => tidy(&along(&told.before, body)),
+        };
+        let own = start + letter("a")?;
+        let other = match (&slide.until, &slide.on) {
+            (SlideEnd::Together, Some(on)) => {
+                let start = tidy(&along(&told.before, on.body));
+                start + letter("A").unwrap_or_else(Expr::zero)
+            }
+            (SlideEnd::Rolls, None) => {
+                let radius = told.placed.scene.bodies[body].shape.radius()?;
+                let rim = along(&told.after, body) + radius * &told.after.spin[body];
+                let arm = match tidied(self.scene, &rim).is_zero() {
+                    true => -radius,
+                    false => radius.clone(),
+                };
+                tidy(&(&arm * &told.before.spin[body])) + arm * letter("alpha")?
+            }
+            _ => return None,
+        };
+        Some(words::related(&own, "=", &other))
     }
 
     /// The way or the time of a motion whose velocity stays as it is, by that velocity.
@@ -319,7 +366,7 @@ impl Page<'_> {
     }
 
     /// What a value is made of, with answers that stand on the page by their names, where it holds all of one.
-    fn by_names(&self, e: &Expr, value: &Expr) -> Expr {
+    pub(super) fn by_names(&self, e: &Expr, value: &Expr) -> Expr {
         let known = |a: &&Answer| self.solution.meanings.contains_key(a.name.as_str());
         let worth = |a: &&Answer| {
             let formula = a.formula();

@@ -20,8 +20,10 @@ struct Rates {
     square: Expr,
     /// Angular acceleration, counterclockwise.
     angular: Expr,
-    /// The same as moments over the moment of inertia.
-    raw: Expr,
+    /// The moments that give it.
+    moment: Expr,
+    /// Which kinetic energy gives the square, `+` or `-`; none where no energy is told.
+    mark: Option<&'static str>,
 }
 
 impl Page<'_> {
@@ -121,7 +123,7 @@ impl Page<'_> {
         }
         let StageKind::Turn(turn) = &told.placed.kind else {
             return self.solution.say(
-                "The places, differentiated twice with respect to time, give the accelerations; how the coordinate gets faster follows from the balance of energy, differentiated once.",
+                "The positions, differentiated twice with respect to time, give the accelerations.",
             );
         };
         let about = &turn.about_name;
@@ -184,7 +186,8 @@ impl Page<'_> {
         Some(Rates {
             square: tidied(self.scene, &(Expr::from(2) * energy / inertia)),
             angular: tidied(self.scene, &(&moment / inertia)),
-            raw: neat(self.scene, &(&moment / inertia)),
+            moment: neat(self.scene, &moment),
+            mark: (!told.work.is_empty()).then_some(if at_end { "+" } else { "-" }),
         })
     }
 
@@ -199,29 +202,53 @@ impl Page<'_> {
         let Rates {
             square,
             angular,
-            raw,
+            moment,
+            mark,
         } = rates;
+        let inertia = || name("I", about, "", false);
         let acceleration = [
             -(angular * &arm[1]) - square * &arm[0],
             angular * &arm[0] - square * &arm[1],
         ];
         let acceleration = acceleration.map(|e| tidied(self.scene, &e));
-        let square_of = || name("omega", "", "2", false);
+        // A letter that stands for something else has the point as its index.
+        let index = |letter: &str| {
+            let mut parameters = self.scene.parameters.iter();
+            let is_taken = parameters.any(|p| *p.name == *letter)
+                || self
+                    .told
+                    .answers
+                    .iter()
+                    .any(|a| a.name == letter && letter == "alpha");
+            if is_taken { about } else { "" }
+        };
+        let square_of = || name("omega", index("omega"), "2", false);
         let arm_name = || vector("r", &format!("{point}/{about}"), "");
         let mut lines = Vec::new();
         if !square.is_zero() {
-            lines.push(set("{} = {}", [square_of(), square.clone().into()]));
+            let mut line = Vec::new();
+            if let Some(mark) = mark {
+                line = set(
+                    "{} {} = 2 {} ⇒",
+                    [inertia(), square_of(), words::kinetic("", mark)],
+                );
+            }
+            line.extend(set("{} = {}", [square_of(), square.clone().into()]));
+            lines.push(line);
         }
         let mut math = set("{} =", [vector("a", point, "")]);
-        if !angular.is_zero() {
-            let alpha = name("alpha", "", "", false);
-            let mut line = set("{} =", [alpha]);
-            if !alike(raw, angular) {
-                line.extend(set("{} =", [raw.clone().into()]));
-            }
-            line.push(angular.clone().into());
+        let alpha = || name("alpha", index("alpha"), "", false);
+        if angular.is_zero() {
+            lines.push(set("{} = {}", [alpha(), angular.clone().into()]));
+        } else {
+            let sides = [inertia(), alpha(), moment.clone().into()];
+            let mut line = set("{} {} = {}", sides);
+            line.extend(set("⇒ {} = {}", [alpha(), angular.clone().into()]));
             lines.push(line);
-            math.extend(set("{} × {}", [vector("alpha", "", ""), arm_name()]));
+            math.extend(set(
+                "{} × {}",
+                [vector("alpha", index("alpha"), ""), arm_name()],
+            ));
         }
         if !square.is_zero() {
             math.extend(set("− {} {}", [square_of(), arm_name()]));

@@ -14,25 +14,33 @@ impl Page<'_> {
     /// How a point of a body moves at the end of a motion: v = ω × r from the fixed point of a rotation, else with the velocity
     /// of the center of mass.
     pub(super) fn carried(&self, told: &StageTold, ask: &Ask) -> Vec<Line> {
-        let Ask::Velocity {
-            body,
-            point: Some((point, _)),
-            ..
-        } = ask
-        else {
+        let Ask::Velocity { body, point, .. } = ask else {
             return Vec::new();
         };
         let scene = &told.placed.scene;
+        let turns = matches!(told.placed.kind, StageKind::Turn(_));
+        let center = words::center(self.scene, *body);
+        let point = match point {
+            Some((point, _)) => point,
+            None if turns => &center,
+            None => return Vec::new(),
+        };
         if told.energy.is_none() || scene.bodies[*body].is_particle() {
             return Vec::new();
         }
-        let from_center = told.after.carried(self.scene, *body, point);
+        let from_center = match *point == center {
+            true => [0; 2].map(|_| Expr::zero()),
+            false => told.after.carried(self.scene, *body, point),
+        };
         let (base, from, carrier) = match &told.placed.kind {
             StageKind::Turn(turn) => (turn.about_name.clone(), turn.about.clone(), None),
             _ => {
                 let velocity = told.after.velocity[*body].each_ref().map(|v| self.named(v));
-                let center = words::center(self.scene, *body);
-                (center, told.after.center[*body].clone(), Some(velocity))
+                (
+                    center.clone(),
+                    told.after.center[*body].clone(),
+                    Some(velocity),
+                )
             }
         };
         let arm = [0, 1].map(|k| &(&told.after.center[*body][k] + &from_center[k]) - &from[k]);

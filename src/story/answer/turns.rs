@@ -180,8 +180,8 @@ impl Asked<'_> {
         if !moves.is_empty() {
             let moves = Sentence::list(&moves);
             out.push(sentence!("suppose that, as turn {} begins, {}", &n, moves));
-            let is_one = &Expr::one();
-            out.push(sentence!("worked out like the first turn, it ends with the same, {} in place of {}; the first begins with it for {} = {}, so every turn does", &n, &before, &n, is_one));
+            let next = &n + &Expr::one();
+            out.push(sentence!("the equations of the first turn then give the same at its end, with {} in place of {}, so turn {} begins as supposed; turn 1 does, and hence every turn", &n, &before, &next));
         } else {
             out.push(Sentence::words("every turn begins as the first does"));
         }

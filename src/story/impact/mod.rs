@@ -19,7 +19,7 @@ use crate::answer::calc::sign;
 use crate::derive;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, sentence};
-use crate::scene::{OneSided, Scene, Stage};
+use crate::scene::{ContactLaw, OneSided, Scene, Stage};
 use crate::verify::friction;
 
 /// Works out an impact.
@@ -185,7 +185,7 @@ fn kept(scene: &Scene, one_sided: &[OneSided], cases: &[Case]) -> Vec<Kept> {
     });
     if let [(name, _)] = outside.as_slice() {
         out.push(Kept {
-            what: format!("angular momentum about {name}"),
+            what: format!("angular momentum about `{name}`"),
             conserved: true,
             why: sentence!(
                 "the only impulse from outside acts at `{}` and has no moment about it",
@@ -197,14 +197,22 @@ fn kept(scene: &Scene, one_sided: &[OneSided], cases: &[Case]) -> Vec<Kept> {
         && let Some(closed) = &case.value(ENERGY)
         && case.after.why_open([closed]).is_none()
     {
-        let why = match sign(closed, &scene.domains).is_negative() {
-            true => sentence!("the gain comes out as {}", &-closed),
-            false => sentence!("the loss comes out as {}", closed),
-        };
+        let elastic = scene.contacts.iter().find_map(|c| match &c.law {
+            ContactLaw::Frictionless { restitution } => restitution.as_symbol(),
+            _ => None,
+        });
+        let spared = elastic.filter(|e| closed.put(e, &Expr::one()).is_zero());
         out.push(Kept {
             what: "kinetic energy".into(),
             conserved: closed.is_zero(),
-            why,
+            why: match spared {
+                _ if closed.is_zero() => "none is lost at the contacts".into(),
+                _ if sign(closed, &scene.domains).is_negative() => {
+                    sentence!("{} is gained", &-closed)
+                }
+                Some(e) => sentence!("{} is lost, nothing where {} = 1", closed, e),
+                None => sentence!("{} is lost", closed),
+            },
         });
     }
     out

@@ -94,7 +94,7 @@ pub(in crate::story) fn linkage(
 
 /// M = Σ m v² + I ω² at the rate 1, and V' = g Σ m y', both by the coordinate: with them M q̈ + ½ M' q̇² + V' = 0, the
 /// equation of Lagrange.
-fn by_coordinate(stage: &Stage, linkage: &Linkage) -> [Expr; 2] {
+pub(crate) fn by_coordinate(stage: &Stage, linkage: &Linkage) -> [Expr; 2] {
     let (mut inertia, mut lifted) = (Vec::new(), Vec::new());
     for (b, place) in &linkage.places {
         let moved = &stage.scene.bodies[*b];

@@ -15,6 +15,7 @@ mod turn;
 mod wind;
 
 pub(super) use fall::fall;
+pub(crate) use linkage::by_coordinate;
 pub(super) use linkage::{accelerations, linkage};
 pub(super) use slide::slide;
 pub(super) use turn::{arms, inertia_about, sense, turn};
