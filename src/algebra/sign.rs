@@ -336,6 +336,9 @@ impl Field {
             Kind::Root => self.radicand_sign(v),
             Kind::Abs(_) => Known::NotNegative,
             Kind::Call(Function::Exp | Function::Cosh, _) => Known::Positive,
+            Kind::Call(Function::Ln, x) if x.as_number().is_some_and(|x| x > ratio(1, 1)) => {
+                Known::Positive
+            }
             Kind::Call(Function::Cos | Function::Sin, x) => match self.as_turns(x) {
                 Some(q) if q.is_positive() && q < ratio(1, 2) => Known::Positive,
                 _ => Known::Unknown,

@@ -191,7 +191,10 @@ fn angle_of(f: &Expr, name: &Symbol, domain: &Domain, domains: &Domains) -> Opti
     if plain.symbols().contains(name) {
         return None;
     }
-    let value = solve_for(&plain, &value, domains)?;
+    // Of either sign, where a symbol that nobody declares is positive.
+    let mut domains = domains.clone();
+    domains.symbols.insert(value.clone(), Domain::real());
+    let value = solve_for(&plain, &value, &domains)?;
     let inverse = match function {
         Function::Sin => Function::Asin,
         Function::Cos => Function::Acos,

@@ -4,6 +4,7 @@ use super::super::compare::{Context, Finding};
 use super::super::{Apart, Verdict};
 use super::cells::{self, Along, Cases};
 use super::solved::{rounded, solve_for, unknowns};
+use super::undone::called;
 use super::{
     GAINED, LOST, Normal, OTHER, REALS, apart_at_points, differences, holding, link, not_zero,
     over_reals, same_solutions, says_nothing, sign_of, told, undecided,
@@ -14,7 +15,7 @@ use crate::equality::{self, Equality, How};
 use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{Relation, write_plain};
 use crate::interval::{Big, Outcome, evaluate};
-use num_traits::Zero;
+use num_traits::{Signed, Zero};
 use std::collections::BTreeMap;
 
 /// The verdict on relations in one symbol, whose solutions are found, in one case or several.
@@ -157,8 +158,12 @@ pub(super) fn compare(
     answer: &[Normal],
     domains: &Domains,
 ) -> Finding {
-    if expected.len() == answer.len()
-        && let Some(finding) = matched(ctx, expected, answer)
+    let [mine, theirs] = [expected, answer].map(|system| match expected.len() == answer.len() {
+        true => system.to_vec(),
+        false => system.iter().flat_map(without_bars).collect(),
+    });
+    if mine.len() == theirs.len()
+        && let Some(finding) = matched(ctx, &mine, &theirs)
     {
         return finding;
     }
@@ -182,6 +187,17 @@ pub(super) fn compare(
     apart_at_points(ctx, expected, answer).unwrap_or_else(|| {
         undecided("the relations could not be solved to compare their solutions")
     })
+}
+
+/// `|u| < v` as `u < v` and `−u < v`; any other relation as it is.
+fn without_bars(n: &Normal) -> Vec<Normal> {
+    let bounded = matches!(n.relation, Relation::Less | Relation::LessEqual);
+    match called(n, &[Function::Abs]) {
+        Some((_, _, inside, k, other)) if bounded && k.is_positive() => {
+            vec![n.of(&inside - &other), n.of(-&inside - &other)]
+        }
+        _ => vec![n.clone()],
+    }
 }
 
 /// Every relation of the one system with one of the other that says the same.

@@ -144,7 +144,10 @@ fn logarithms(n: &Normal, domains: &Domains) -> Option<Undone> {
 
 /// A call of one of these functions that a relation is linear in, with its argument: `k f(u) + W`, given as the call, the
 /// function, u, k and −W/k.
-fn called(n: &Normal, functions: &[Function]) -> Option<(Expr, Function, Expr, Rational, Expr)> {
+pub(super) fn called(
+    n: &Normal,
+    functions: &[Function],
+) -> Option<(Expr, Function, Expr, Rational, Expr)> {
     let call = |part: &Expr| match part.node() {
         Node::Call(function, inside) if functions.contains(function) => {
             Some((part.clone(), *function, inside.clone()))
@@ -278,7 +281,6 @@ fn powers(n: &Normal, domains: &Domains) -> Option<Undone> {
             common.denom() * k.denom(),
         );
     }
-    // Squares are one to one where nothing is negative.
     let root_of = |side: &Expr, power: &Rational| {
         let back = Expr::from(power.recip());
         Expr::product(factors(side).iter().map(|f| match f.node() {
@@ -288,14 +290,19 @@ fn powers(n: &Normal, domains: &Domains) -> Option<Undone> {
         }))
     };
     let not_negative = |side: &Expr| is_not_negative(side, domains);
+    let below_zero = |f: &Expr| f.as_number().is_some_and(Signed::is_negative);
     while common.numer().is_even()
         && !common.is_zero()
-        && !sides
-            .iter()
-            .all(|side| not_negative(&root_of(side, &common)))
+        && sides.iter().flat_map(factors).any(below_zero)
     {
         common *= ratio(1, 2);
     }
+    // The square of what may be negative is that of its size.
+    let is_even = common.numer().is_even();
+    let root_of = |side: &Expr, power: &Rational| match root_of(side, power) {
+        root if is_even && !not_negative(&root) => Expr::call(Function::Abs, root),
+        root => root,
+    };
     if common.is_zero() || common.is_one() {
         return None;
     }
