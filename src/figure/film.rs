@@ -1,8 +1,8 @@
 //! What a film shows beside the stages of a scene: how the bodies come to the first impact, and how they go on after the last.
 //!
 //! In: a scene, and what somebody takes for right. Out: places of the bodies at moments. No forces are known there, so every
-//! body keeps its velocity and spin; what turns about a resting point of a support goes on about it, and what moves as one
-//! stays together. The motion itself is that of [`crate::numeric::follow()`].
+//! body keeps its velocity and spin; what turns about a resting point of a support goes on about it, what moves as one
+//! stays together, and what hangs by a joint on another body stays on it. The motion itself is that of [`crate::numeric::follow()`].
 
 use super::motion::{stand_in, surroundings};
 use super::plane::{Pair, ahead, cross, dot, left, minus, plus, size, times, turned};
@@ -119,14 +119,14 @@ pub fn film(scene: &Scene, claim: Option<(&str, [f64; 2])>) -> Film {
         Going::new(
             &followed,
             &passed.before,
-            supports(stage, &values, &passed.before),
+            joints(stage, &values, &passed.before),
         )
     });
     let after = last.and_then(|(passed, stage)| {
         Going::new(
             &followed,
             &passed.after,
-            supports(stage, &values, &passed.after),
+            joints(stage, &values, &passed.after),
         )
     });
     let claimed = after
@@ -215,9 +215,11 @@ struct Going<'f> {
     /// Place, angle, velocity and spin, by body.
     bodies: Vec<[f64; 6]>,
     joined: Vec<[usize; 2]>,
-    /// Points where something is held by what does not move.
-    supports: Vec<Pair>,
+    joints: Vec<Joint>,
 }
+
+/// Two bodies, by index, and the place where they are joined or meet.
+type Joint = ([usize; 2], Pair);
 
 /// The values of a stage, with the bodies where they are then.
 fn placed(stage: &Stage, values: &Values, state: &State) -> Values {
@@ -226,15 +228,15 @@ fn placed(stage: &Stage, values: &Values, state: &State) -> Values {
     }
 }
 
-/// Where bodies are joined to fixed ones, as far as that has a place.
-fn supports(stage: &Stage, values: &Values, state: &State) -> Vec<Pair> {
+/// Where bodies are joined or meet, as far as that has a place.
+fn joints(stage: &Stage, values: &Values, state: &State) -> Vec<Joint> {
     let values = placed(stage, values, state);
     let scene = &stage.scene;
     let hinges = scene.hinges.iter().map(|h| (h.bodies, &h.at));
     let contacts = scene.contacts.iter().map(|c| (c.bodies, &c.at));
-    let held = hinges.chain(contacts);
-    let held = held.filter(|(bodies, _)| bodies.iter().any(|b| scene.bodies[*b].is_fixed()));
-    held.filter_map(|(_, at)| values.pair(at)).collect()
+    let all = hinges.chain(contacts);
+    all.filter_map(|(bodies, at)| Some((bodies, values.pair(at)?)))
+        .collect()
 }
 
 /// How long a part lasts, so that it stays about where the bodies are.
@@ -263,7 +265,7 @@ fn seconds(all: &[&Going], poses: &[Pose]) -> f64 {
 }
 
 impl<'f> Going<'f> {
-    fn new(followed: &'f Followed, state: &State, supports: Vec<Pair>) -> Option<Going<'f>> {
+    fn new(followed: &'f Followed, state: &State, joints: Vec<Joint>) -> Option<Going<'f>> {
         let known = |b: &follow::BodyState| {
             let mut out = [0.0; 6];
             for (out, component) in out.iter_mut().zip(b.components()) {
@@ -275,15 +277,19 @@ impl<'f> Going<'f> {
             solids: &followed.solids,
             bodies: state.bodies.iter().map(known).collect::<Option<_>>()?,
             joined: state.joined.clone(),
-            supports,
+            joints,
         })
+    }
+
+    fn is_fixed(&self, body: usize) -> bool {
+        self.solids[body].freedom == Freedom::Fixed
     }
 
     /// Largest speed and largest spin.
     fn fastest(&self) -> [f64; 2] {
-        let free = self.solids.iter().zip(&self.bodies);
-        let free = free.filter(|(solid, _)| solid.freedom != Freedom::Fixed);
-        free.fold([0.0, 0.0], |[speed, spin], (_, b)| {
+        let free = (0..self.bodies.len()).filter(|b| !self.is_fixed(*b));
+        free.fold([0.0, 0.0], |[speed, spin], b| {
+            let b = self.bodies[b];
             [
                 f64::max(speed, size([b[3], b[4]])),
                 f64::max(spin, b[5].abs()),
@@ -305,10 +311,45 @@ impl<'f> Going<'f> {
     /// The point of a support about which a body turns.
     fn pivot(&self, body: usize) -> Option<Pair> {
         let turns = self.bodies[body][5] != 0.0;
-        let mut supports = self.supports.iter().filter(|_| turns);
-        supports
-            .find(|at| self.is_nothing(self.velocity(body, **at)))
-            .copied()
+        let held = |(bodies, _): &&Joint| turns && bodies.iter().any(|b| self.is_fixed(*b));
+        let mut supports = self.joints.iter().filter(held).map(|(_, at)| *at);
+        supports.find(|at| self.is_nothing(self.velocity(body, *at)))
+    }
+
+    /// For every leader the body on which it hangs, and the place of the joint; nothing where it goes by itself. What a support
+    /// holds comes first, and where there is none the first body of a chain.
+    fn hung(&self, leaders: &[usize]) -> Vec<Option<(usize, Pair)>> {
+        let moves_as_one = |([a, b], at): &&Joint| {
+            let apart = minus(self.velocity(*a, *at), self.velocity(*b, *at));
+            let is_free = !self.is_fixed(*a) && !self.is_fixed(*b);
+            is_free && leaders[*a] != leaders[*b] && self.is_nothing(apart)
+        };
+        let joints: Vec<&Joint> = self.joints.iter().filter(moves_as_one).collect();
+        let mut out = vec![None; leaders.len()];
+        let mut placed: Vec<bool> = (0..leaders.len())
+            .map(|b| self.pivot(leaders[b]).is_some())
+            .collect();
+        loop {
+            let next = joints.iter().find_map(|([a, b], at)| {
+                let [by_a, by_b] = [*a, *b].map(|body| placed[leaders[body]]);
+                match (by_a, by_b) {
+                    (true, false) => Some((leaders[*b], Some((*a, *at)))),
+                    (false, true) => Some((leaders[*a], Some((*b, *at)))),
+                    _ => None,
+                }
+            });
+            let first = || {
+                joints
+                    .iter()
+                    .map(|([a, _], _)| leaders[*a])
+                    .find(|l| !placed[*l])
+            };
+            let Some((leader, on)) = next.or_else(|| Some((first()?, None))) else {
+                return out;
+            };
+            placed[leader] = true;
+            out[leader] = on;
+        }
     }
 
     /// For every body the one whose motion it shares; itself where it goes alone.
@@ -338,22 +379,36 @@ impl<'f> Going<'f> {
     /// The bodies in time, from a moment on.
     fn moments(&self, from: f64, long: f64) -> Vec<Moment> {
         let leaders = self.leaders();
+        let hung = self.hung(&leaders);
         let each = (0..=STEPS).map(|k| {
             let elapsed = long * f64::from(k) / f64::from(STEPS);
-            let place = |b| self.place(b, &leaders, from + elapsed);
+            let place = |b| self.place(b, (&leaders, &hung), from + elapsed);
             (elapsed, (0..self.bodies.len()).map(place).collect())
         });
         each.collect()
     }
 
     /// Where a body is after a time.
-    fn place(&self, body: usize, leaders: &[usize], time: f64) -> [f64; 3] {
+    fn place(
+        &self,
+        body: usize,
+        (leaders, hung): (&[usize], &[Option<(usize, Pair)>]),
+        time: f64,
+    ) -> [f64; 3] {
         let [x, y, angle, ..] = self.bodies[body];
-        if self.solids[body].freedom == Freedom::Fixed {
+        if self.is_fixed(body) {
             return [x, y, angle];
         }
         let leader = leaders[body];
         let by = self.bodies[leader][5] * time;
+        if let Some((other, joint)) = hung[leader] {
+            let [from_x, from_y, from, ..] = self.bodies[other];
+            let [to_x, to_y, to] = self.place(other, (leaders, hung), time);
+            let arm = turned(minus(joint, [from_x, from_y]), to - from);
+            let joint_then = plus([to_x, to_y], arm);
+            let [x, y] = plus(joint_then, turned(minus([x, y], joint), by));
+            return [x, y, angle + by];
+        }
         let (about, shift) = match self.pivot(leader) {
             Some(pivot) => (pivot, [0.0, 0.0]),
             None => {
@@ -484,6 +539,18 @@ mod tests {
         let first = apart(&film.after[0]);
         assert!(film.after.iter().all(|m| (apart(m) - first).abs() < 1e-12));
         assert!(film.after[12].1[1] != film.after[0].1[1]);
+    }
+
+    #[test]
+    fn hinged_rods_stay_on_their_hinge() {
+        let film = film(&shipped("more/toggle-hits-stop"), None);
+        let end = |[x, y, angle]: [f64; 3], to: f64| plus([x, y], turned([to, 0.0], angle));
+        // Half a rod is 0.25 m long; the rods are the second and the third body.
+        let apart = |all: &[[f64; 3]]| size(minus(end(all[1], 0.25), end(all[2], -0.25)));
+        let all = film.before.iter().chain(&film.after);
+        assert!(all.clone().count() > 20);
+        assert!(all.clone().all(|(_, places)| apart(places) < 1e-12));
+        assert!(film.before[0].1[2] != film.before[12].1[2]);
     }
 
     #[test]

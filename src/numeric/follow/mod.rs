@@ -252,18 +252,19 @@ pub fn random_point(scene: &Scene, seed: u64) -> Point<f64> {
     )))
 }
 
-/// The point that the values of the scene's own parameters make, or the names of what has no value.
+/// The point that the values of the scene's own parameters make, or the names of what has no value though it has to.
 pub fn values(scene: &Scene) -> Result<Point<f64>, Vec<Symbol>> {
     let mut point = Point::default();
-    let mut missing = Vec::new();
-    for name in symbols(scene) {
-        let given = scene.parameters.iter().find(|p| p.name == name);
-        let given = given.and_then(|p| p.value.as_ref());
-        match given.and_then(|e| e.evaluate(&Point::<f64>::default())) {
-            Some(value) => _ = point.values.insert(name, value),
-            None => missing.push(name),
+    for parameter in &scene.parameters {
+        let value = parameter.value.as_ref();
+        if let Some(value) = value.and_then(|e| e.evaluate(&Point::<f64>::default())) {
+            point.values.insert(parameter.name.clone(), value);
         }
     }
+    let missing = symbols(scene).into_iter();
+    let missing: Vec<Symbol> = missing
+        .filter(|name| !point.values.contains_key(name))
+        .collect();
     match missing.is_empty() {
         true => Ok(point),
         false => Err(missing),

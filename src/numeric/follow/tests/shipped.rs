@@ -139,3 +139,18 @@ fn extreme_values_lead_to_an_outcome_and_never_to_a_panic() {
         });
     }
 }
+
+#[test]
+fn a_question_has_the_values_that_only_it_needs() {
+    let text = std::fs::read_to_string("derivations/more/stick-let-go-overtakes-a-coin.json");
+    let mut scene = read(&text.expect("a scene"));
+    for (name, value) in [("m", "2"), ("l", "1"), ("c", "3/5"), ("g", "10")] {
+        crate::scene::set(&mut scene, name, value).expect("a value");
+    }
+    let at = values(&scene).expect("all values");
+    let followed = follow(&scene, &at).expect("a motion");
+    let asked = scene.question("a_c").expect("the question");
+    let answer = answer(&scene, &followed, asked, &at).expect("a number");
+    // a = α c with α = 3 g/(2 ℓ).
+    close(answer.component(None).expect("one number"), 9.0, 1e-12);
+}
