@@ -39,13 +39,12 @@ impl Gone {
         let ways = match kind {
             StageKind::Wind(wind) => vec![(body, wound(scene, values, wind, begin.get(body)?)?)],
             _ => {
-                let last = moved.samples.len().checked_sub(1)?;
-                let mut picked: Vec<usize> = (0..=STEPS).map(|k| k * last / STEPS).collect();
-                picked.dedup();
+                let long = moved.samples.last()?.time;
                 let way = |(i, b): (usize, &usize)| {
                     let from = begin.get(*b)?;
-                    let pose = |k: &usize| from.moved_to(moved.samples[*k].poses[i]);
-                    Some((*b, picked.iter().map(pose).collect()))
+                    let at = |k: usize| long * (k as f64 / STEPS as f64);
+                    let pose = |k: usize| from.moved_to(moved.pose(i, at(k)));
+                    Some((*b, (0..=STEPS).map(pose).collect()))
                 };
                 let all = moved.bodies.iter().enumerate();
                 all.map(way).collect::<Option<_>>()?

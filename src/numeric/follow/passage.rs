@@ -62,7 +62,7 @@ pub(super) fn passing(
     let angles: Vec<Option<f64>> = angles.collect();
     let pose = |b: usize, time: f64| -> Option<[f64; 3]> {
         if let Some(i) = moved.bodies.iter().position(|m| *m == b) {
-            return Some(interpolated(&moved.samples, i, time));
+            return Some(moved.pose(i, time));
         }
         let at = |state: &super::BodyState| -> Option<[f64; 3]> {
             let number = |c: &Component| c.as_ref().ok().copied();
@@ -121,21 +121,6 @@ fn joined(scene: &Scene, [a, b]: [usize; 2]) -> bool {
     };
     let mut stages = scene.stages.iter();
     joins(scene) || stages.any(|s| joins(&s.scene) || linked(s))
-}
-
-/// Place and angle of a moved body at a time: the cubic through the four samples around it.
-fn interpolated(samples: &[super::Sample], i: usize, time: f64) -> [f64; 3] {
-    let next = samples.partition_point(|s| s.time < time);
-    let first = next.saturating_sub(2).min(samples.len().saturating_sub(4));
-    let near = &samples[first..samples.len().min(first + 4)];
-    [0, 1, 2].map(|k| {
-        let terms = near.iter().enumerate().map(|(j, s)| {
-            let others = near.iter().enumerate().filter(|(m, _)| *m != j);
-            let weight = others.map(|(_, o)| (time - o.time) / (s.time - o.time));
-            s.poses[i][k] * weight.product::<f64>()
-        });
-        terms.sum()
-    })
 }
 
 /// Whether two bodies that are apart at the beginning are in each other later.

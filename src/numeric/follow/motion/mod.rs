@@ -52,6 +52,24 @@ pub struct Moved {
     pub samples: Vec<Sample>,
 }
 
+impl Moved {
+    /// Place and angle of the i-th moved body at a time: the cubic through the four samples around it.
+    pub fn pose(&self, i: usize, time: f64) -> [f64; 3] {
+        let samples = &self.samples;
+        let next = samples.partition_point(|s| s.time < time);
+        let first = next.saturating_sub(2).min(samples.len().saturating_sub(4));
+        let near = &samples[first..samples.len().min(first + 4)];
+        [0, 1, 2].map(|k| {
+            let terms = near.iter().enumerate().map(|(j, s)| {
+                let others = near.iter().enumerate().filter(|(m, _)| *m != j);
+                let weight = others.map(|(_, o)| (time - o.time) / (s.time - o.time));
+                s.poses[i][k] * weight.product::<f64>()
+            });
+            terms.sum()
+        })
+    }
+}
+
 /// How a body on a line is driven.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Driven {
