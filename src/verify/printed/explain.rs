@@ -85,10 +85,7 @@ impl Desk<'_> {
     pub(super) fn factor(&self, pairs: &[(Expr, Expr)]) -> Option<String> {
         let mut found: Option<Rational> = None;
         for (closed, value) in pairs.iter().filter(|(a, b)| !(a.is_zero() && b.is_zero())) {
-            let mut field = Field::new(&self.scene.domains);
-            field.prepare([closed, value]);
-            let (a, b) = (field.element(closed).ok()?, field.element(value).ok()?);
-            let k = field.expr(&field.div(&b, &a).ok()?).as_number()?.clone();
+            let k = self.factor_of(closed, value)?;
             if found.as_ref().is_some_and(|known| *known != k) {
                 return None;
             }
@@ -167,6 +164,22 @@ impl Desk<'_> {
         Some(found.replacen("comes out when", "it would hold if", 1))
     }
 
+    fn tidied(&self, e: &Expr) -> Expr {
+        let mut field = Field::new(&self.scene.domains);
+        field.prepare([e]);
+        field
+            .element(e)
+            .map_or_else(|_| e.clone(), |x| field.expr(&x))
+    }
+
+    /// The number by which one formula is too large, if it is one.
+    fn factor_of(&self, closed: &Expr, value: &Expr) -> Option<Rational> {
+        let mut field = Field::new(&self.scene.domains);
+        field.prepare([closed, value]);
+        let (a, b) = (field.element(closed).ok()?, field.element(value).ok()?);
+        field.expr(&field.div(&b, &a).ok()?).as_number().cloned()
+    }
+
     /// The cheapest check that shows a pair to be wrong.
     pub(super) fn caught(&self, pairs: &[(Expr, Expr)], finding: &mut Finding) {
         let known = |name: &str| self.dimensions.get(name).cloned();
@@ -186,17 +199,25 @@ impl Desk<'_> {
                 finding.caught_by = Some(words.into());
                 return;
             }
-            // Limits: each parameter at 0, where both sides have a value.
+            // Limits: each parameter at 0, where both sides have a value. A number too many or too few is seen there only
+            // where the right one is given or a number.
+            let is_plain =
+                |e: &Expr| e.is_constant() || e.as_symbol().is_some() || (-e).as_symbol().is_some();
+            let factor = self.factor_of(closed, value);
             for p in &self.scene.parameters {
                 let at_zero = BTreeMap::from([(p.name.clone(), Expr::zero())]);
                 let (a, b) = (closed.substitute(&at_zero), value.substitute(&at_zero));
                 let shorter =
                     a.symbols().len() + 1 < closed.symbols().len() || a.size() < closed.size() / 2;
                 if shorter
+                    && (factor.is_none() || is_plain(&a))
                     && let Equality::Different(_) =
                         equality::decide(&a, &b, &self.scene.domains).equality
                 {
-                    finding.caught_by = Some(format!("limit: let {} go to 0", p.name));
+                    let [p, a, b] =
+                        [&Expr::from(p.name.clone()), &a, &b].map(|e| self.say(&self.tidied(e)));
+                    let words = format!("limit: as {p} goes to 0 it becomes {a}, not {b}");
+                    finding.caught_by = Some(words);
                     return;
                 }
             }
