@@ -2,7 +2,7 @@
 
 use super::Page;
 use crate::answer::Answer;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Symbol, dot};
 use crate::scene::{Ask, EnergyWhen, Question, Scene, SlideEnd, StageKind};
 use crate::solution::known;
 use crate::solution::neat::tidied;
@@ -120,7 +120,11 @@ impl Page<'_> {
         let by_rolling = || self.rolled(here, &ask, formula);
         let flown = self.flown(here, &ask, answer).or_else(by_energy);
         let by_ratio = || self.tied(here, &ask, answer, formula);
-        let flown = flown.or_else(by_rolling).or_else(by_ratio);
+        let by_plank = || self.gone_below(here, &ask);
+        let flown = flown
+            .or_else(by_rolling)
+            .or_else(by_ratio)
+            .or_else(by_plank);
         let found = |s: &&Step| {
             let answering = self.answering(here, s);
             answering.is_some_and(|a| a.name == answer.name)
@@ -205,6 +209,35 @@ impl Page<'_> {
             let by = |speed: &Expr| &way * speed / radius;
             [by(&self.letter_of(told, speed)), by(&speed.value)]
         })
+    }
+
+    /// Where the body below one that slides on it has come to, x + V t + A t²/2, by letters and in full.
+    fn gone_below(&self, told: &StageTold, ask: &Ask) -> Option<[Expr; 2]> {
+        let (
+            StageKind::Slide(slide),
+            Ask::Position {
+                body,
+                along,
+                at_end: true,
+            },
+        ) = (&told.placed.kind, ask)
+        else {
+            return None;
+        };
+        let (on, along) = (slide.on.as_ref()?, along.as_ref()?);
+        let way = tidied(self.scene, &dot(along, &slide.along));
+        let is_below = on.company().contains(body) && (way.is_one() || (-&way).is_one());
+        let step = |letter: &str| told.steps.iter().find(|s| s.letter == letter);
+        let (time, rate) = (step("t")?, step("A")?);
+        let [from, speed] = [&told.before.center[*body], &told.before.velocity[*body]]
+            .map(|v| tidied(self.scene, &dot(v, along)));
+        let speed = self.named(&speed);
+        let after = |rate: &Expr, time: &Expr| {
+            let gained = Expr::ratio(1, 2) * &way * rate * time.powi(2);
+            &from + &speed * time + gained
+        };
+        let [t, a] = [time, rate].map(|s| self.letter_of(told, s));
+        is_below.then(|| [after(&a, &t), after(&rate.value, &time.value)])
     }
 
     /// What strings tie to the body that moves along a line, in a fixed ratio to what stands above: half as fast, or turning
