@@ -248,6 +248,7 @@ fn on_what_gives() -> impl Strategy<Value = String> {
         r#""for": "t""#,
         r#""until": "stops""#,
         r#""until": "together""#,
+        r#""until": "rolls""#,
     ]);
     let begin = select(vec![
         ("v", "0"),
@@ -260,9 +261,14 @@ fn on_what_gives() -> impl Strategy<Value = String> {
         let rides_below = other.contains(r#""on": {"body": "C", "with""#);
         let third = if rides_below { w } else { v };
         let turn = if x.starts_with('-') { "" } else { "-" };
-        let body = match other.contains("rolling") {
-            true => format!(r#""shape": "disk", "radius": "R", "spin": "{turn}({v})/R""#),
-            false => String::from(r#""shape": "particle""#),
+        let body = match () {
+            () if other.contains("rolling") => {
+                format!(r#""shape": "disk", "radius": "R", "spin": "{turn}({v})/R""#)
+            }
+            () if end.contains("rolls") => {
+                String::from(r#""shape": "ring", "radius": "R", "spin": "w/R""#)
+            }
+            () => String::from(r#""shape": "particle""#),
         };
         format!(
             r#"{{

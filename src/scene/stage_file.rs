@@ -144,7 +144,7 @@ record! {
         /// Coefficient of sliding friction of the surface below the body; a disk, ring or sphere turns on it.
         friction: Option<Formula>,
         /// The body whose surface that is, such as a plank or a cart, where it moves too; the direction is then that in which the
-        /// body slides along it.
+        /// body slides along it; a disk, ring or sphere slips on it until it rolls.
         on: Option<CarrierFile>,
         /// A light spring along the line, which the body presses or stretches.
         spring: Option<SpringFile>,

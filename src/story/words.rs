@@ -264,7 +264,11 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
     let lead = names.join(" and ");
     if let Some(on) = &slide.on {
         let below: Vec<String> = on.company().iter().map(name).collect();
-        let verb = if one { "slides" } else { "slide" };
+        let verb = match one {
+            true if is_round => "slips",
+            true => "slides",
+            false => "slide",
+        };
         let floor = if on.friction.is_some() {
             "rough"
         } else {
@@ -277,6 +281,7 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
                 sentence!("{} over the distance {} along it", lead, measured(s, "m"))
             }
             SlideEnd::Time(t) => sentence!("{} for {}", lead, measured(t, "s")),
+            SlideEnd::Rolls => sentence!("{} until it rolls", lead),
             _ => sentence!("{} until both move together", lead),
         };
     }

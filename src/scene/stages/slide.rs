@@ -125,31 +125,30 @@ fn unfit(scene: &Scene, slide: &Slide) -> Option<(String, &'static str)> {
             String::from("what it comes to move together with is not said"),
             "name the body below it, such as \"on\": {\"body\": \"plank\"}",
         ),
-        () if slide.on.is_some() => return not_carried(slide, is_round || !goes_alone),
-        () if slide.spring.is_some()
-            && (!slide.strings.is_empty()
-                || is_round && is_rough
-                || matches!(slide.until, SlideEnd::Time(_))) =>
-        {
-            (
-                String::from(
-                    "a spring acts on a body without strings that slides without turning or rolls, through a distance or until it stops",
-                ),
-                "end the stage with `distance` or with \"until\": \"stops\"",
-            )
-        }
+        () if slide.on.is_some() => return not_carried(slide, is_round),
+        () if slide.spring.is_some() && (!slide.strings.is_empty() || is_round && is_rough) => (
+            String::from(
+                "a spring acts on a body without strings that slides without turning or rolls",
+            ),
+            "leave out `strings`; a round body by a spring is \"rolling\": true",
+        ),
         () => return None,
     })
 }
 
 /// What does not go together where the body below moves too.
-fn not_carried(slide: &Slide, rolls: bool) -> Option<(String, &'static str)> {
+fn not_carried(slide: &Slide, is_round: bool) -> Option<(String, &'static str)> {
+    let hangs = !slide.strings.is_empty() || slide.spring.is_some();
     Some(match () {
-        () if rolls || slide.level || slide.spring.is_some() => (
+        () if hangs || slide.rolling || slide.level => (
             String::from(
-                "what slides on a body that moves too neither rolls, nor hangs on strings or a spring, and is seen from the side",
+                "what slides on a body that moves too neither hangs on strings or a spring, nor goes on rolling, and is seen from the side",
             ),
-            "a block does; a ball on a body that moves is not supported",
+            "a block slides on it until both move \"together\", a ball until it \"rolls\"",
+        ),
+        () if is_round && !matches!(slide.until, SlideEnd::Rolls | SlideEnd::Time(_)) => (
+            String::from("a round body on a body that moves too slips until it rolls"),
+            "write \"until\": \"rolls\", or a time `for`",
         ),
         () if slide.friction.is_none() => (
             String::from("without friction the body below does not feel what slides on it"),
@@ -165,6 +164,14 @@ fn not_carried(slide: &Slide, rolls: bool) -> Option<(String, &'static str)> {
 
 /// The body below, where it moves too.
 fn carrier(r: &mut Resolver<'_>, on: &CarrierFile) -> Option<Carrier> {
+    if r.is_fixed(r.find_body(&on.body.text)?) {
+        let message = format!(
+            "`{}` is moved as it is said to be, whatever slides on it",
+            on.body.text
+        );
+        let hint = "leave out `on`; for a belt that runs steadily, tell the scene as it is seen from the belt";
+        return r.refuse(on.body.span, message, hint);
+    }
     let all = company(r, &on.body, on.with.as_deref());
     let friction = coefficient(r, on.friction.as_ref())?;
     let force = optional(r, on.force.as_ref(), FORCE)?;

@@ -202,13 +202,21 @@ impl Page<'_> {
             return is_rim.then(|| [by(&Expr::symbol(&distance.name)), by(way)]);
         }
         let rolls = matches!(slide.until, SlideEnd::Rolls);
-        let speed = told.steps.iter().find(|s| s.letter == "v")?;
-        let way = tidied(self.scene, &(value * radius / &speed.value));
+        let find = |letter: &str| told.steps.iter().find(|s| s.letter == letter);
+        let (speed, below) = (find("v")?, find("V"));
+        // On a body that moves too it is the speed over that one.
+        let over = |of: &dyn Fn(&Step) -> Expr| match below {
+            Some(below) => of(speed) - of(below),
+            None => of(speed),
+        };
+        let [by_letter, by_value] = [
+            over(&|s| self.letter_of(told, s)),
+            over(&|s| s.value.clone()),
+        ];
+        let way = tidied(self.scene, &(value * radius / &by_value));
         let is_rim = way == Expr::one() || way == -Expr::one();
-        (rolls && is_rim && matches!(ask, Ask::Spin { .. })).then(|| {
-            let by = |speed: &Expr| &way * speed / radius;
-            [by(&self.letter_of(told, speed)), by(&speed.value)]
-        })
+        (rolls && is_rim && matches!(ask, Ask::Spin { .. }))
+            .then(|| [by_letter, by_value].map(|speed| &way * &speed / radius))
     }
 
     /// Where the body below one that slides on it has come to, x + V t + A t²/2, by letters and in full.

@@ -274,7 +274,7 @@ impl Page<'_> {
     }
 
     /// What the time makes equal, v + a t = V + A t of a body and the one below it, v + a t = −r ω − r α t of one that comes to
-    /// roll; nothing for other steps.
+    /// roll, with V + A t beside these where the surface moves too; nothing for other steps.
     fn meets(&self, told: &StageTold, step: &Step) -> Option<Vec<Math>> {
         let StageKind::Slide(slide) = &told.placed.kind else {
             return None;
@@ -293,19 +293,25 @@ impl Page<'_> {
             None => tidy(&along(&told.before, body)),
         };
         let own = start + letter("a")?;
+        let below =
+            |b: usize| tidy(&along(&told.before, b)) + letter("A").unwrap_or_else(Expr::zero);
         let other = match (&slide.until, &slide.on) {
-            (SlideEnd::Together, Some(on)) => {
-                let start = tidy(&along(&told.before, on.body));
-                start + letter("A").unwrap_or_else(Expr::zero)
-            }
-            (SlideEnd::Rolls, None) => {
+            (SlideEnd::Together, Some(on)) => below(on.body),
+            (SlideEnd::Rolls, on) => {
                 let radius = told.placed.scene.bodies[body].shape.radius()?;
-                let rim = along(&told.after, body) + radius * &told.after.spin[body];
+                let mut rim = along(&told.after, body) + radius * &told.after.spin[body];
+                if let Some(on) = on {
+                    rim = rim - along(&told.after, on.body);
+                }
                 let arm = match tidied(self.scene, &rim).is_zero() {
                     true => -radius,
                     false => radius.clone(),
                 };
-                tidy(&(&arm * &told.before.spin[body])) + arm * letter("alpha")?
+                let turns = tidy(&(&arm * &told.before.spin[body])) + arm * letter("alpha")?;
+                match on {
+                    Some(on) => below(on.body) + turns,
+                    None => turns,
+                }
             }
             _ => return None,
         };

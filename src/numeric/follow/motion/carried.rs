@@ -23,6 +23,8 @@ struct Pair<'a> {
     forces: [f64; 2],
     /// How many bodies move with the upper one, itself among them: the place of the lower one in the list.
     company: usize,
+    /// From the center to the point of contact of a round body above \[m\].
+    contact: Option<[f64; 2]>,
 }
 
 impl Pair<'_> {
@@ -34,9 +36,11 @@ impl Pair<'_> {
         let mut held = vec![
             Constraint::Sum(pressed),
             across(self.company, self.along),
-            fixed(2),
             fixed(first + 2),
         ];
+        if self.contact.is_none() {
+            held.push(fixed(2));
+        }
         held.extend(movers.welds(0, 0..self.company, units));
         held.extend(movers.welds(self.company, self.company..movers.bodies.len(), units));
         let mut out = movers.mechanism(units, [0.0, -self.gravity], held, |_| false);
@@ -52,9 +56,15 @@ impl Pair<'_> {
         [0, self.company].map(|i| dot(&[y[n + 3 * i], y[n + 3 * i + 1]], &self.along))
     }
 
-    fn slip(&self, y: &[f64]) -> f64 {
+    fn slip(&self, units: &Units, y: &[f64]) -> f64 {
         let [upper, lower] = self.speeds(y);
-        upper - lower
+        let [x, z] = self.arm(units);
+        upper - lower + dot(&[-z, x], &self.along) * y[y.len() / 2 + 2]
+    }
+
+    /// From the center of the upper body to where it touches, in the units.
+    fn arm(&self, units: &Units) -> [f64; 2] {
+        self.contact.unwrap_or([0.0; 2]).map(|c| c / units.length)
     }
 
     /// The same with friction, and the way in which the lower body moves over its floor.
@@ -64,7 +74,7 @@ impl Pair<'_> {
         let broken = || unsolved(course);
         let (_, held) = mechanism.accelerations(&start).ok_or_else(broken)?;
         let rubs = self.rough[0] * held[0].abs();
-        rub(&mut mechanism, 0, self.along, [0.0; 2], -rubs);
+        rub(&mut mechanism, 0, self.along, self.arm(units), -rubs);
         rub(&mut mechanism, self.company, self.along, [0.0; 2], rubs);
         let (rates, held) = mechanism.accelerations(&start).ok_or_else(broken)?;
         let [upper, lower] = self.speeds(&start);
@@ -108,7 +118,7 @@ impl Pair<'_> {
         time: f64,
     ) -> Result<Result<Run, Stop>, Lost> {
         let start = self.movers.start(units);
-        let slips = |y: &[f64]| self.slip(y);
+        let slips = |y: &[f64]| self.slip(units, y);
         Ok(match &slide.until {
             SlideEnd::Time(_) => mechanism.lasting(&start, time / units.time),
             SlideEnd::Distance(s) => {
@@ -149,9 +159,19 @@ pub(super) fn carried(
         None => Ok(0.0),
     };
     let force = |f: &Option<_>| course.optional(f.as_ref(), "force");
+    let along = course.pair(&slide.along, "direction")?;
+    let contact = match course.scene.bodies[slide.body].shape.radius() {
+        Some(radius) if slide.with.is_empty() => {
+            let radius = course.number(radius, "radius")?;
+            // The body below is below.
+            Some([along[1], -along[0]].map(|d| d * radius * along[0].signum()))
+        }
+        _ => None,
+    };
     let pair = Pair {
         movers,
-        along: course.pair(&slide.along, "direction")?,
+        along,
+        contact,
         gravity: course.optional(slide.gravity.as_ref(), "gravity")?,
         rough: [rough(&slide.friction)?, rough(&below.friction)?],
         forces: [force(&slide.force)?, force(&below.force)?],
@@ -168,10 +188,11 @@ pub(super) fn carried(
     };
     let (mechanism, way) = pair.rough(course, &plain)?;
     let start = movers.start(&plain);
-    let slip = pair.slip(&start);
+    let slip = pair.slip(&plain, &start);
     let (rates, _) = (mechanism.accelerations(&start)).ok_or_else(|| unsolved(course))?;
     let grows = |i: usize| dot(&[rates[3 * i], rates[3 * i + 1]], &pair.along);
-    let rate = grows(0) - grows(pair.company);
+    let [x, y] = pair.arm(&plain);
+    let rate = grows(0) - grows(pair.company) + dot(&[-y, x], &along) * rates[2];
     let fastest = pair.speeds(&start).map(f64::abs).into_iter().sum::<f64>();
     if slip < -ROUNDING * fastest || slip <= ROUNDING * fastest && rate <= 0.0 {
         return Err(course.contradiction("it does not slide along the line over the body below"));
@@ -199,7 +220,7 @@ pub(super) fn carried(
     let run = pair.to_the_end(course, slide, &mechanism, &units, time)?;
     let run = run.map_err(|stop| stopped(course, stop, never))?;
     let tiny = ROUNDING * (fastest + largest * time) / units.speed();
-    if pair.slip(&run.end) < -tiny {
+    if pair.slip(&units, &run.end) < -tiny {
         return Err(course.never(never));
     }
     if pair.rough[1] > 0.0 && way * pair.speeds(&run.end)[1] < -tiny {
@@ -230,7 +251,8 @@ fn fits(course: &Course<'_>, pair: &Pair<'_>) -> Result<(), Lost> {
         let lead = states[if i < pair.company { 0 } else { pair.company }];
         let off = cross(&pair.along, &[*u, *v]).abs();
         let apart = (u - lead[3]).abs().max((v - lead[4]).abs());
-        let turns = pair.movers.inertias[i][1] > 0.0 && spin.abs() > REST;
+        let held = i > 0 || pair.contact.is_none();
+        let turns = held && pair.movers.inertias[i][1] > 0.0 && spin.abs() > REST;
         if off.max(apart) > ROUNDING * fastest || turns {
             return Err(
                 course.contradiction("it does not begin to move along the line without turning")

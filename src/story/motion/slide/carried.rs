@@ -1,7 +1,7 @@
 //! A body that slides on another, which moves on a floor: friction between the two drives one and holds the other back.
 //!
-//! In: a slide with a body below. Out: the motion at its end. Both accelerations are constant, so that the slip, the velocity of
-//! the upper body less that of the lower one, changes uniformly as well.
+//! In: a slide with a body below. Out: the motion at its end. All accelerations are constant, so that the slip, the velocity of
+//! the upper body where it touches less that of the lower one, changes uniformly as well.
 
 use super::super::supposed::Supposed;
 use super::super::{half, kept, meanwhile, tidied};
@@ -10,7 +10,7 @@ use super::line::proved;
 use crate::answer::calc::is_zero;
 use crate::expr::{Expr, dot};
 use crate::formula::write_plain;
-use crate::scene::{Carrier, Slide, SlideEnd, Stage};
+use crate::scene::{Body, Carrier, Slide, SlideEnd, Stage};
 use crate::story::{Refused, StageTold, State, Step};
 
 /// The upper body and the lower one, each with what moves along with it; velocities and forces along the line.
@@ -26,7 +26,20 @@ struct Pair<'a> {
     /// Force of the rough floor on the lower body \[N\].
     floor: Expr,
     accelerations: [Expr; 2],
+    /// Of a round body above.
+    round: Option<Turning<'a>>,
     supposed: Supposed<'a>,
+}
+
+/// How a round body turns on the one below.
+struct Turning<'a> {
+    body: &'a Body,
+    /// Radius, negative where the line leads to the left: the lowest point moves along the line at v + arm × ω \[m\].
+    arm: Expr,
+    /// Angular velocity at the beginning \[rad/s\].
+    spin: Expr,
+    /// Angular acceleration \[rad/s²\].
+    rate: Expr,
 }
 
 pub(super) fn carried(
@@ -36,8 +49,7 @@ pub(super) fn carried(
     below: &Carrier,
 ) -> Result<StageTold, Refused> {
     let mut pair = Pair::of(stage, &before, slide, below)?;
-    let rate = pair.tidied(&(&pair.accelerations[0] - &pair.accelerations[1]))?;
-    let slip = pair.tidied(&(&pair.speeds[0] - &pair.speeds[1]))?;
+    let [slip, rate] = pair.slip()?;
     pair.slips(&slip, &rate)?;
     let mut steps = pair.steps();
     let (time, way) = pair.course(&slip, &rate, &mut steps)?;
@@ -57,13 +69,25 @@ pub(super) fn carried(
         works.push(gone);
     }
     pair.goes_on(&ends[1])?;
-    pair.told(&ends, &mut steps);
-    let energy = |speeds: &[Expr]| {
+    let mut spins = [Expr::zero(), Expr::zero()];
+    if let Some(round) = &pair.round {
+        let spin = pair.tidied(&(&round.spin + &(&round.rate * &time)))?;
+        let turned = half(&(&(&round.spin + &spin) * &time));
+        let b = slide.body;
+        after.angle[b] = pair.tidied(&(&before.angle[b] + &turned))?;
+        after.spin[b] = spin.clone();
+        spins = [round.spin.clone(), spin];
+    }
+    pair.told(&ends, &spins[1], &mut steps);
+    let energy = |speeds: &[Expr], spin: &Expr| {
         let all = pair.masses.iter().zip(speeds);
-        pair.tidied(&half(&Expr::sum(all.map(|(m, v)| m * &v.powi(2)))))
+        let turns = pair.round.iter().map(|r| &r.body.inertia * &spin.powi(2));
+        let twice = all.map(|(m, v)| m * &v.powi(2)).chain(turns);
+        pair.tidied(&half(&Expr::sum(twice)))
     };
-    let energies = [energy(&pair.speeds)?, energy(&ends)?];
-    let work = pair.work(&works, &way);
+    let energies = [energy(&pair.speeds, &spins[0])?, energy(&ends, &spins[1])?];
+    let slipped = &(&slip * &time) + &half(&(&rate * &time.powi(2)));
+    let work = pair.work(&works, &slipped);
     let momentum = pair.keeps_momentum();
     let Pair {
         mut supposed,
@@ -137,8 +161,19 @@ impl<'a> Pair<'a> {
             friction: sum(friction)?,
             floor: Expr::zero(),
             accelerations: [Expr::zero(), Expr::zero()],
+            round: None,
             supposed: Supposed::of(stage),
         };
+        let body = &scene.bodies[slide.body];
+        if let Some(radius) = body.shape.radius().filter(|_| slide.with.is_empty()) {
+            let arm = &right * radius;
+            out.round = Some(Turning {
+                body,
+                rate: sum(-(&(&arm * &out.friction) / &body.inertia))?,
+                arm,
+                spin: before.spin[slide.body].clone(),
+            });
+        }
         let drive = sum(&out.friction + &pulls[1])?;
         if below.friction.is_some() {
             out.floor = sum(&Expr::from(-out.way(&drive, &limit)?) * &limit)?;
@@ -191,11 +226,32 @@ impl<'a> Pair<'a> {
         Ok(way)
     }
 
+    /// The upper body's velocity less that of the lower one, and how fast that changes.
+    fn apart(&self) -> [Expr; 2] {
+        [&self.speeds, &self.accelerations].map(|[upper, lower]| upper - lower)
+    }
+
+    /// The same where they touch.
+    fn slip(&self) -> Result<[Expr; 2], Refused> {
+        let mut out = self.apart();
+        if let Some(round) = &self.round {
+            out[0] = &out[0] + &(&round.arm * &round.spin);
+            out[1] = &out[1] + &(&round.arm * &round.rate);
+        }
+        let [slip, rate] = out;
+        Ok([self.tidied(&slip)?, self.tidied(&rate)?])
+    }
+
     /// The slip has the direction of the line, or begins to have it.
     fn slips(&mut self, slip: &Expr, rate: &Expr) -> Result<(), Refused> {
         let domains = &self.stage.scene.domains;
         let (upper, below) = (self.slide.body, self.name(self.below.body));
         let begins = is_zero(slip, domains) == Some(true);
+        if begins && self.round.is_some() {
+            let why = "it rolls on the body below already";
+            let hint = "a ball on a body that moves is followed while it slips";
+            return Err(self.refused(upper, why, hint));
+        }
         if begins && self.is_undriven() {
             let why = "it moves with the body below already, and no force makes it slide";
             return Err(self.refused(upper, why, ""));
@@ -226,16 +282,17 @@ impl<'a> Pair<'a> {
     ) -> Result<(Expr, Expr), Refused> {
         let domains = &self.stage.scene.domains;
         let upper = self.slide.body;
-        let far = |t: &Expr| &(slip * t) + &half(&(rate * &t.powi(2)));
+        let [apart, parts] = self.apart();
+        let far = |t: &Expr| &(&apart * t) + &half(&(&parts * &t.powi(2)));
+        let rolls = matches!(self.slide.until, SlideEnd::Rolls);
+        let early = match self.round {
+            Some(_) => "it begins to roll before",
+            None => "it comes to move together with the body below before",
+        };
         let (raw, way) = match &self.slide.until {
             SlideEnd::Time(t) => {
                 let end = self.tidied(&(slip + &(rate * t)))?;
-                self.needs(
-                    &end,
-                    "it comes to move together with the body below before",
-                    "slides to the end of the stage",
-                    upper,
-                )?;
+                self.needs(&end, early, "slides to the end of the stage", upper)?;
                 let step = Step::new("s", &far(t), &self.tidied(&far(t))?, WAY);
                 let way = step.value.clone();
                 steps.push(step);
@@ -244,12 +301,7 @@ impl<'a> Pair<'a> {
             SlideEnd::Distance(s) => {
                 let square = &slip.powi(2) + &(&(&Expr::from(2) * rate) * s);
                 let square = self.tidied(&square)?;
-                self.needs(
-                    &square,
-                    "it comes to move together with the body below before",
-                    "slides so far",
-                    upper,
-                )?;
+                self.needs(&square, early, "slides so far", upper)?;
                 let end = self.tidied(&square.sqrt())?;
                 let time = match is_zero(rate, domains) {
                     Some(true) => s / slip,
@@ -259,14 +311,18 @@ impl<'a> Pair<'a> {
             }
             _ => {
                 let slows = -rate;
-                let why = "it never comes to move together with the body below";
-                let hint =
-                    "end the stage after a `distance` along that body, or after a time `for`";
-                let never = self.refused(upper, why, hint);
-                let comes = format!(
-                    "`{}` comes to move together with the body below",
-                    self.name(upper)
-                );
+                let comes = match rolls {
+                    true => "to roll",
+                    false => "to move together with the body below",
+                };
+                let hint = match rolls {
+                    true => "end the stage after a time `for`",
+                    false => {
+                        "end the stage after a `distance` along that body, or after a time `for`"
+                    }
+                };
+                let never = self.refused(upper, &format!("it never comes {comes}"), hint);
+                let comes = format!("`{}` comes {comes}", self.name(upper));
                 self.supposed.positive(&slows, comes, || never)?;
                 (slip / &slows, None)
             }
@@ -274,6 +330,7 @@ impl<'a> Pair<'a> {
         let time = self.tidied(&raw)?;
         let why = match &way {
             Some(_) => "the time it takes",
+            None if rolls => "the time until it rolls",
             None => "the time until both move together",
         };
         steps.push(Step::new("t", &raw, &time, why));
@@ -281,8 +338,12 @@ impl<'a> Pair<'a> {
             return Ok((time, way));
         }
         // Together, the slip has gone down to nothing.
-        let mut step = Step::new("s", &half(&(slip * &time)), &self.tidied(&far(&time))?, WAY);
-        step.by_time = vec![Expr::zero(), half(slip)];
+        let (raw, by_time) = match rolls {
+            true => (far(&time), vec![Expr::zero(), apart.clone(), half(&parts)]),
+            false => (half(&(slip * &time)), vec![Expr::zero(), half(slip)]),
+        };
+        let mut step = Step::new("s", &raw, &self.tidied(&far(&time))?, WAY);
+        step.by_time = by_time;
         let way = step.value.clone();
         steps.push(step);
         Ok((time, way))
@@ -321,7 +382,7 @@ impl<'a> Pair<'a> {
         let rest = lower - &(friction + &self.floor);
         let rest = self.tidied(&rest).unwrap_or(rest);
         let driven = &(friction + &rest) + &self.floor;
-        vec![
+        let mut out = vec![
             Step::new("F", friction, friction, "the friction between the two"),
             Step::by_newton(
                 "a",
@@ -330,11 +391,22 @@ impl<'a> Pair<'a> {
                 "the acceleration along the line",
             ),
             Step::by_newton("A", [&driven, below], b, "that of the body below"),
-        ]
+        ];
+        if let Some(round) = &self.round {
+            let moment = -(&round.arm * friction);
+            let why = "the angular acceleration, by the moment of friction about the center";
+            out.push(Step::by_newton(
+                "alpha",
+                [&moment, &round.body.inertia],
+                &round.rate,
+                why,
+            ));
+        }
+        out
     }
 
-    /// The velocities at the end.
-    fn told(&self, ends: &[Expr], steps: &mut Vec<Step>) {
+    /// The velocities and the spin at the end.
+    fn told(&self, ends: &[Expr], spin: &Expr, steps: &mut Vec<Step>) {
         let together = matches!(self.slide.until, SlideEnd::Together);
         let of = [
             ("v", "the velocity along the line at the end"),
@@ -350,10 +422,16 @@ impl<'a> Pair<'a> {
             }
             steps.push(step);
         }
+        if let Some(round) = &self.round {
+            let why = "the angular velocity at the end, counterclockwise";
+            let mut step = Step::new("omega", spin, spin, why);
+            step.by_time = vec![round.spin.clone(), round.rate.clone()];
+            steps.push(step);
+        }
     }
 
-    /// Work of each force, along the way of the body on which it acts.
-    fn work(&self, gone: &[Expr], way: &Expr) -> Vec<(&'static str, Expr)> {
+    /// Work of each force, along the way of the body on which it acts, and of friction along the slip.
+    fn work(&self, gone: &[Expr], slipped: &Expr) -> Vec<(&'static str, Expr)> {
         let mut out = Vec::new();
         if let Some(g) = &self.slide.gravity {
             let lost = self.masses.iter().zip(gone);
@@ -366,7 +444,7 @@ impl<'a> Pair<'a> {
             Expr::sum(forces.filter_map(|(f, s)| Some(f.as_ref()? * s))),
         ));
         out.retain(|(_, w)| !w.is_zero());
-        let rubbed = &(&self.floor * &gone[1]) - &(&self.friction * way);
+        let rubbed = &(&self.floor * &gone[1]) - &(&self.friction * slipped);
         out.push(("friction", rubbed));
         out
     }

@@ -6,7 +6,7 @@ use super::line::{Line, proved, spring_work};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, above_zero, is_zero, sign};
 use crate::expr::{Expr, Function};
-use crate::scene::SlideEnd;
+use crate::scene::{SlideEnd, Spring};
 use crate::story::{Refused, Step};
 
 /// The course from the beginning to the end.
@@ -56,6 +56,10 @@ impl Line<'_> {
             SlideEnd::Distance(s) => {
                 let (time, speed) = self.over(s, supposed)?;
                 (time, s.clone(), speed)
+            }
+            SlideEnd::Time(t) if self.slide.spring.is_some() => {
+                let [distance, speed] = self.swung(t, steps, supposed)?;
+                (Some(t.clone()), distance, speed)
             }
             SlideEnd::Time(t) => {
                 let speed = self.tidied(&self.speed_after(t))?;
@@ -158,9 +162,8 @@ impl Line<'_> {
             return Err(self.refused("no spring stops it", ""));
         };
         let k = &spring.stiffness;
-        let [net, mass] = self.driven();
+        let [force, mass] = self.sprung(spring)?;
         // m v₀²/2 + f s − k s²/2 = 0, f the force at the beginning; the other root lies behind.
-        let force = self.tidied(&(&net + &(k * &spring.relaxed)))?;
         let from_rest = is_zero(&self.speed, self.domains()) == Some(true);
         if from_rest {
             let begins = format!("`{}` begins to move", self.name());
@@ -192,6 +195,52 @@ impl Line<'_> {
         let why = "the time until it stops, of a harmonic oscillation about the place where the forces balance";
         steps.push(Step::new("t", &raw, &time, why));
         Ok([time, self.tidied(&distance)?])
+    }
+
+    /// The force at the beginning, that of a spring included \[N\], and the mass that it moves.
+    fn sprung(&self, spring: &Spring) -> Result<[Expr; 2], Refused> {
+        let [net, mass] = self.driven();
+        let force = self.tidied(&(&net + &(&spring.stiffness * &spring.relaxed)))?;
+        Ok([force, mass])
+    }
+
+    /// Distance and velocity after a time on a spring that has not stopped it yet.
+    fn swung(
+        &self,
+        t: &Expr,
+        steps: &mut Vec<Step>,
+        supposed: &mut Supposed<'_>,
+    ) -> Result<[Expr; 2], Refused> {
+        let Some(spring) = &self.slide.spring else {
+            return Err(self.refused("no spring acts on it", ""));
+        };
+        let [stops, _] = self.to_greatest(&mut Vec::new(), supposed)?;
+        let left = self.tidied(&(&stops - t))?;
+        supposed.not_negative(
+            &left,
+            format!("`{}` does not stop before", self.name()),
+            || {
+                self.refused(
+                    "it stops before the stage ends",
+                    "end the stage with \"until\": \"stops\", and let it come back in the next one",
+                )
+            },
+        )?;
+        // x = (1 − cos ωt) f/k + (v₀/ω) sin ωt with ω² = k/m.
+        let [force, mass] = self.sprung(spring)?;
+        let k = &spring.stiffness;
+        let rate = self.tidied(&(k / &mass).sqrt())?;
+        let phase = &rate * t;
+        let (swing, place) = (&self.speed / &rate, &force / k);
+        let way = &(&place * &(Expr::one() - phase.cos())) + &(&swing * &phase.sin());
+        let distance = self.tidied(&way)?;
+        let why = "the distance covered in a harmonic oscillation about the place where the forces balance";
+        steps.push(Step::new("s", &way, &distance, why));
+        let raw = &(&(&place * &rate) * &phase.sin()) + &(&self.speed * &phase.cos());
+        let speed = self.tidied(&raw)?;
+        let why = "the velocity along the line at the end, the rate at which that grows";
+        steps.push(Step::new("v", &raw, &speed, why));
+        Ok([distance, speed])
     }
 
     /// The time until it rolls.

@@ -39,12 +39,17 @@ pub(in crate::story) fn slide(
     if let SlideEnd::Distance(distance) = &slide.until {
         begins::not_negative(stage, slide, "distance", distance, &mut supposed)?;
     }
-    let mut steps = line.steps();
+    // On a spring neither the force nor the acceleration stays as it is.
+    let swings = slide.spring.is_some() && matches!(slide.until, SlideEnd::Time(_));
+    let mut steps = match swings {
+        true => Vec::new(),
+        false => line.steps(),
+    };
     let course = line.course(&mut steps, &mut supposed, &mut limits)?;
     let by_newton = !matches!(slide.until, SlideEnd::Distance(_)) && slide.spring.is_none();
-    if by_newton || line.round.is_some() && slide.spring.is_none() || is_driven {
+    if by_newton || line.round.is_some() && slide.spring.is_none() || is_driven && !swings {
         line.told(&course, &mut steps);
-    } else {
+    } else if !swings {
         steps.clear();
     }
     line.held(&limits, &mut supposed)?;
