@@ -382,7 +382,7 @@ impl<'f> Going<'f> {
         let hung = self.hung(&leaders);
         let each = (0..=STEPS).map(|k| {
             let elapsed = long * f64::from(k) / f64::from(STEPS);
-            let place = |b| self.place(b, (&leaders, &hung), from + elapsed);
+            let place = |b| self.place(b, &leaders, &hung, from + elapsed);
             (elapsed, (0..self.bodies.len()).map(place).collect())
         });
         each.collect()
@@ -392,7 +392,8 @@ impl<'f> Going<'f> {
     fn place(
         &self,
         body: usize,
-        (leaders, hung): (&[usize], &[Option<(usize, Pair)>]),
+        leaders: &[usize],
+        hung: &[Option<(usize, Pair)>],
         time: f64,
     ) -> [f64; 3] {
         let [x, y, angle, ..] = self.bodies[body];
@@ -403,7 +404,7 @@ impl<'f> Going<'f> {
         let by = self.bodies[leader][5] * time;
         if let Some((other, joint)) = hung[leader] {
             let [from_x, from_y, from, ..] = self.bodies[other];
-            let [to_x, to_y, to] = self.place(other, (leaders, hung), time);
+            let [to_x, to_y, to] = self.place(other, leaders, hung, time);
             let arm = turned(minus(joint, [from_x, from_y]), to - from);
             let joint_then = plus([to_x, to_y], arm);
             let [x, y] = plus(joint_then, turned(minus([x, y], joint), by));
