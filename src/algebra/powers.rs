@@ -1,10 +1,14 @@
 //! Where an element vanishes, as polynomials in one symbol: what solving an equation for that symbol needs.
 
+use std::collections::BTreeSet;
+
 use super::Stop;
 use super::element::Element;
 use super::factor::factor;
-use super::field::{Field, Kind};
+use super::field::{AngleOf, Field, Kind};
+use super::mono::mono_variables;
 use super::poly::Poly;
+use crate::expr::Symbol;
 
 /// The numerator of an element as a product of polynomials in one symbol.
 #[derive(Clone, Debug)]
@@ -25,7 +29,7 @@ impl Field {
         let mut p = x.num.clone();
         let mut squared = false;
         for g in (0..self.gens.len()).rev() {
-            if !p.has(g) || g == v || !self.hangs_on(g, v) {
+            if !p.has(g) || g == v || !self.hangs_on(g, symbol) {
                 continue;
             }
             let (Kind::Root, Some((2, value))) = (&self.gens[g].kind, &self.gens[g].relation)
@@ -54,38 +58,48 @@ impl Field {
     /// Coefficients of the numerator by ascending powers of a symbol; `None` where it stands inside a root or function.
     pub fn numerator(&mut self, x: &Element, symbol: &str) -> Result<Option<Vec<Element>>, Stop> {
         let v = self.symbol(&symbol.into());
-        if (0..self.gens.len()).any(|g| g != v && x.num.has(g) && self.hangs_on(g, v)) {
+        let mut others = x.num.variables().into_iter().filter(|g| *g != v);
+        if others.any(|g| self.hangs_on(g, symbol)) {
             return Ok(None);
         }
         let parts = x.num.by_power(v).into_iter();
         Ok(Some(parts.map(Element::from_poly).collect()))
     }
 
-    /// Whether a generator's value depends on a variable.
-    fn hangs_on(&self, g: usize, v: usize) -> bool {
-        let inside = |p: &Poly| {
-            let mut all = p.variables().into_iter();
-            all.any(|w| w == v || w < g && self.hangs_on(w, v))
+    /// Whether a generator's value depends on a symbol.
+    fn hangs_on(&self, g: usize, symbol: &str) -> bool {
+        let inside = self.symbols(&Element::from_poly(Poly::var(g)));
+        inside.contains(symbol)
+    }
+
+    /// The symbols on which an element's value depends.
+    pub fn symbols(&self, x: &Element) -> BTreeSet<Symbol> {
+        let of_element = |x: &Element| {
+            let mut all = x.num.variables();
+            all.extend(mono_variables(&x.den.mono));
+            all.extend(x.den.factors.iter().flat_map(|(f, _)| f.variables()));
+            all
         };
-        let relation = self.gens[g].relation.as_ref();
-        let related = relation.is_some_and(|(_, value)| inside(value));
-        let deep = |x: &Element| {
-            inside(&x.num)
-                || inside(&Poly::term(&x.den.mono, 1.into()))
-                || x.den.factors.iter().any(|(f, _)| inside(f))
-        };
-        related
-            || match &self.gens[g].kind {
-                Kind::Abs(p) => inside(p),
-                Kind::Call(_, x) => deep(x),
-                Kind::Power(a, b) => deep(a) || deep(b),
-                Kind::Cos(i) | Kind::Sin(i) => match &self.bases[*i].of {
-                    super::field::AngleOf::Symbol(name) => {
-                        matches!(&self.gens[v].kind, Kind::Symbol(s) if s == name)
-                    }
-                    super::field::AngleOf::Term(x) => deep(x),
-                },
-                Kind::Symbol(_) | Kind::Root => false,
+        let (mut out, mut seen) = (BTreeSet::new(), BTreeSet::new());
+        let mut left = of_element(x);
+        while let Some(v) = left.pop() {
+            if !seen.insert(v) {
+                continue;
             }
+            let value = self.gens[v].relation.as_ref();
+            left.extend(value.into_iter().flat_map(|(_, value)| value.variables()));
+            match &self.gens[v].kind {
+                Kind::Symbol(name) => _ = out.insert(name.clone()),
+                Kind::Abs(p) => left.extend(p.variables()),
+                Kind::Call(_, x) => left.extend(of_element(x)),
+                Kind::Power(a, b) => left.extend([a, b].into_iter().flat_map(of_element)),
+                Kind::Cos(i) | Kind::Sin(i) => match &self.bases[*i].of {
+                    AngleOf::Symbol(name) => _ = out.insert(name.clone()),
+                    AngleOf::Term(x) => left.extend(of_element(x)),
+                },
+                Kind::Root => {}
+            }
+        }
+        out
     }
 }

@@ -223,7 +223,7 @@ impl Field {
                 let inside = self.written(&Element::from_poly(p.clone()));
                 (Expr::call(Function::Abs, inside), one)
             }
-            Kind::Call(function, x) => (Expr::call(*function, self.written(x)), one),
+            Kind::Call(function, x) => (Expr::call(*function, self.kept(x)), one),
             Kind::Power(base, exponent) => (self.written(base).power(self.written(exponent)), one),
         }
     }
@@ -232,7 +232,7 @@ impl Field {
         let base = &self.bases[base];
         let whole = match &base.of {
             AngleOf::Symbol(name) => Expr::from(name.clone()),
-            AngleOf::Term(term) => self.written(term),
+            AngleOf::Term(term) => self.kept(term),
         };
         whole * Expr::from(base.part.clone())
     }

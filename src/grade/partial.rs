@@ -9,7 +9,7 @@ use num_traits::Signed;
 
 use super::compare::{Context, is_short, same_number};
 use super::{Diagnosis, fraction, number};
-use crate::algebra::tidy;
+use crate::algebra::Field;
 use crate::dimension::{self, Clash, Dimension};
 use crate::equality::identical as proved;
 use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
@@ -232,7 +232,11 @@ fn lacking(missing: &Dimension) -> String {
 fn symbols(ctx: &Context, expected: &Expr, answer: &Expr) -> Vec<Diagnosis> {
     let (mut mine, mut theirs) = (answer.symbols(), expected.symbols());
     if mine != theirs {
-        let kept = |e: &Expr| tidy(e, &ctx.key.question.domains).map(|tidied| tidied.symbols());
+        // How it would be written does not matter for that.
+        let kept = |e: &Expr| {
+            let (field, x) = Field::of(&ctx.key.question.domains, e).ok()?;
+            Some(field.symbols(&x))
+        };
         mine = kept(answer).unwrap_or(mine);
         theirs = kept(expected).unwrap_or(theirs);
     }
