@@ -68,10 +68,17 @@ impl fmt::Display for Stop {
 
 impl std::error::Error for Stop {}
 
-/// The expression as a person would write it.
+/// Most terms of a normal form beside the size of the expression: nobody writes `cos(sin(cos(2 + x)))` as its 50 625 products.
+const MOST_WRITTEN: [usize; 2] = [500, 20];
+
+/// The expression as a person would write it; as it stands where its normal form has very many more terms.
 pub fn tidy(e: &Expr, domains: &Domains) -> Result<Expr, Stop> {
     let (field, x) = Field::of(domains, e)?;
-    Ok(field.expr(&x))
+    let [most, times] = MOST_WRITTEN;
+    Ok(match x.num.len() > most.max(times * e.size()) {
+        true => e.clone(),
+        false => field.expr(&x),
+    })
 }
 
 /// The sign of an expression, where it has one on the whole domain.

@@ -324,6 +324,13 @@ fn writing_and_reading_gives_the_same_element() {
 }
 
 #[test]
+fn what_would_be_written_as_thousands_of_products_stays_as_it_stands() {
+    let inner = call(Function::Cos, n(2) + s("x"));
+    let e = call(Function::Cos, call(Function::Sin, inner));
+    assert_eq!(tidy(&e, &Domains::default()), Ok(e));
+}
+
+#[test]
 fn results_are_written_as_a_person_would() {
     let (v, t, u, l, m, e) = (s("v"), s("theta"), s("phi"), s("l"), s("m"), s("e"));
     let (m1, m2, v1, v2) = (s("m1"), s("m2"), s("v1"), s("v2"));
