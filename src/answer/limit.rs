@@ -138,12 +138,11 @@ pub(super) fn approximate(
         return;
     }
     let wanted = order.map_or(LEADING, |order| order as usize);
-    // Two powers more tell what is left out.
-    let last = wanted + 3;
-    let series = Series::of(of, parameter, to, last, domains).or_else(|| {
+    let powers = [wanted, wanted + 3];
+    let series = Series::of(of, parameter, to, powers, domains).or_else(|| {
         let side = side(parameter, to, domains);
-        let (of, given) = rooted(of, (parameter, to, side), last, domains);
-        let mut series = Series::of(&of, parameter, to, last, domains)?;
+        let (of, given) = rooted(of, (parameter, to, side), powers[1], domains);
+        let mut series = Series::of(&of, parameter, to, powers, domains)?;
         series.given.extend(given);
         Some(series)
     });
@@ -295,8 +294,14 @@ struct Series {
 }
 
 impl Series {
-    /// Coefficients up to the power `last`.
-    fn of(of: &Expr, p: &Symbol, to: &Expr, last: usize, domains: &Domains) -> Option<Series> {
+    /// Coefficients up to the power `wanted`, and up to the first that is left out where there is one up to the power `last`.
+    fn of(
+        of: &Expr,
+        p: &Symbol,
+        to: &Expr,
+        [wanted, last]: [usize; 2],
+        domains: &Domains,
+    ) -> Option<Series> {
         let (above, below) = common(of, domains)?;
         if is_zero(&above, domains) == Some(true) {
             return Some(Series {
@@ -329,6 +334,9 @@ impl Series {
                 rest = &rest - &(q * &below.coefficient(m + j - i)?);
             }
             out.push(tidy(&(&rest / &lead), domains).ok()?);
+            if m > wanted && out.last().is_some_and(|next| !next.is_zero()) {
+                break;
+            }
         }
         Some(Series {
             lowest: (k - j) as i64,
@@ -339,7 +347,7 @@ impl Series {
 }
 
 fn by_taylor(of: &Expr, p: &Symbol, to: &Expr, domains: &Domains) -> Option<Found> {
-    let series = Series::of(of, p, to, 0, domains)?;
+    let series = Series::of(of, p, to, [0, 0], domains)?;
     let lead = series.coefficients.first()?;
     let side = side(p, to, domains);
     let tends = if series.lowest >= 0 {
