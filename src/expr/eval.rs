@@ -24,6 +24,22 @@ pub trait Scalar: Clone {
     fn recip(&self) -> Option<Self>;
     /// Non-negative square root.
     fn sqrt(&self) -> Option<Self>;
+    /// Power with a whole exponent, by repeated squaring.
+    fn to_the(&self, exponent: u64) -> Self {
+        let mut result = None;
+        let mut square = self.clone();
+        let mut left = exponent;
+        while left > 0 {
+            if left & 1 == 1 {
+                result = Some(result.map_or_else(|| square.clone(), |r: Self| r.times(&square)));
+            }
+            left >>= 1;
+            if left > 0 {
+                square = square.times(&square);
+            }
+        }
+        result.unwrap_or_else(|| Self::from_rational(&Rational::one()))
+    }
     /// Power with an exponent that is neither an integer nor a half-integer.
     fn pow(&self, exponent: &Self) -> Option<Self>;
     /// Whether the value is below zero for certain.
@@ -89,7 +105,7 @@ fn power<T: Scalar>(base: &T, exponent: &Expr, at: &Point<T>) -> Option<T> {
         if half || k.is_integer() {
             let times = k.numer().as_i64()?;
             let root = if half { base.sqrt()? } else { base.clone() };
-            let raised = integer_power(&root, times.unsigned_abs());
+            let raised = root.to_the(times.unsigned_abs());
             return match times < 0 {
                 true => raised.recip(),
                 false => Some(raised),
@@ -104,23 +120,6 @@ fn power<T: Scalar>(base: &T, exponent: &Expr, at: &Point<T>) -> Option<T> {
         }
     }
     base.pow(&exponent.evaluate(at)?)
-}
-
-/// Power by repeated squaring.
-fn integer_power<T: Scalar>(base: &T, exponent: u64) -> T {
-    let mut result = None;
-    let mut square = base.clone();
-    let mut left = exponent;
-    while left > 0 {
-        if left & 1 == 1 {
-            result = Some(result.map_or_else(|| square.clone(), |r: T| r.times(&square)));
-        }
-        left >>= 1;
-        if left > 0 {
-            square = square.times(&square);
-        }
-    }
-    result.unwrap_or_else(|| T::from_rational(&Rational::one()))
 }
 
 fn call<T: Scalar>(function: Function, argument: &Expr, at: &Point<T>) -> Option<T> {
@@ -272,6 +271,11 @@ impl Scalar for Rational {
     }
     fn sqrt(&self) -> Option<Rational> {
         number::sqrt_exact(self)
+    }
+    /// Powers of what has nothing in common have nothing in common.
+    fn to_the(&self, exponent: u64) -> Rational {
+        let power = |n: &Int| num_traits::pow(n.clone(), exponent as usize);
+        Rational::new_raw(power(self.numer()), power(self.denom()))
     }
     fn pow(&self, exponent: &Rational) -> Option<Rational> {
         (self.is_zero() && exponent.is_positive()).then(Rational::zero)
