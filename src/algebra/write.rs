@@ -291,7 +291,7 @@ impl Field {
     fn bracketed(&self, mut terms: Vec<Term>, mut first_group: Option<Vec<usize>>) -> Vec<Placed> {
         let mut out: Vec<Placed> = Vec::new();
         let mut totals: Vec<Poly> = Vec::new();
-        let mut at = 0;
+        let (mut at, whole) = (0, terms.len());
         while terms.len() > usize::from(out.is_empty()) + 1 && terms.len() <= MOST_GROUPED {
             let group = first_group
                 .take()
@@ -307,11 +307,10 @@ impl Field {
                 total = total.add(&Poly::term(&term.mono, term.coeff));
             }
             let group = self.written(&Element::from_poly(total.clone()));
-            match out
-                .iter_mut()
-                .zip(&mut totals)
-                .find(|((_, had), _)| share_bracket(had, &group))
-            {
+            match out.iter_mut().zip(&mut totals).find(|((_, had), other)| {
+                // All terms together are what is being written.
+                other.len() + total.len() < whole && share_bracket(had, &group)
+            }) {
                 Some(((_, had), other)) => {
                     *other = other.add(&total);
                     *had = self.written(&Element::from_poly(other.clone()));
