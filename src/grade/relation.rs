@@ -426,6 +426,7 @@ fn poles(f: &Expr, g: &Expr, domains: &Domains) -> Vec<String> {
     poles.map(|pole| not_zero(&pole)).collect()
 }
 
+/// Two equations by their solutions, wherever both have values.
 fn solutions(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     let domains = &ctx.key.question.domains;
     let (f, g) = (&expected.difference, &answer.difference);

@@ -278,8 +278,11 @@ impl Scene {
         match self.has_stages() {
             true => Cow::Borrowed(&self.stages),
             false => {
-                // What is printed, drawn or told of parameters is no part of the impact.
+                // What is printed or told of the scene is no part of the impact; where it is drawn, what stands round it is.
                 let impact = Scene {
+                    points: self.points.clone(),
+                    forces: self.forces.clone(),
+                    figure: self.figure.clone(),
                     bodies: self.bodies.clone(),
                     hinges: self.hinges.clone(),
                     contacts: self.contacts.clone(),

@@ -193,12 +193,8 @@ fn along(first: &Cases, second: &Cases, name: &Symbol, domains: &Domains) -> Opt
         })?;
         cell.signs.drain(..signs * all.len());
         for (sign, divisors) in cell.signs.iter_mut().zip(&divisors) {
-            let below = below.by_ref().take(divisors.len());
-            if below
-                .filter(|below| below.is_none_or(Ordering::is_eq))
-                .count()
-                > 0
-            {
+            let own: Vec<_> = below.by_ref().take(divisors.len()).collect();
+            if own.iter().any(|below| below.is_none_or(Ordering::is_eq)) {
                 *sign = None;
             }
         }

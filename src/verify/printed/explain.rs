@@ -6,7 +6,7 @@ use num_traits::Signed;
 
 use super::number::{last_place, number_of};
 use super::{Desk, Finding};
-use crate::algebra::Field;
+use crate::algebra;
 use crate::dimension;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Point, Rational, Symbol, ratio};
@@ -165,19 +165,13 @@ impl Desk<'_> {
     }
 
     fn tidied(&self, e: &Expr) -> Expr {
-        let mut field = Field::new(&self.scene.domains);
-        field.prepare([e]);
-        field
-            .element(e)
-            .map_or_else(|_| e.clone(), |x| field.expr(&x))
+        algebra::tidy(e, &self.scene.domains).unwrap_or_else(|_| e.clone())
     }
 
     /// The number by which one formula is too large, if it is one.
     fn factor_of(&self, closed: &Expr, value: &Expr) -> Option<Rational> {
-        let mut field = Field::new(&self.scene.domains);
-        field.prepare([closed, value]);
-        let (a, b) = (field.element(closed).ok()?, field.element(value).ok()?);
-        field.expr(&field.div(&b, &a).ok()?).as_number().cloned()
+        let factor = algebra::quotient(value, closed, &self.scene.domains).ok()?;
+        factor.as_number().cloned()
     }
 
     /// The cheapest check that shows a pair to be wrong.
