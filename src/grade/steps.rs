@@ -19,7 +19,7 @@ use super::{Diagnosis, Options, Verdict};
 use crate::answer::Form;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Function, Node, Symbol};
-use crate::formula::{self, Fault, Reading, Symbols};
+use crate::formula::{self, Content, Fault, Reading, Symbols};
 use crate::laws;
 use crate::scene::{Ask, ContactLaw, Question, Scene};
 use link::{Link, Sought, Weighed};
@@ -444,6 +444,25 @@ impl<'a> Desk<'a> {
             .all(|part| formula::read(part, &symbols).is_ok())
     }
 
+    /// The line with `0.2 m` as a number of meters, where m is also a mass of the scene.
+    fn measured(&self, text: &str, reading: &Reading) -> Option<Reading> {
+        let mut other = reading.clone();
+        let Content::Relations(sides, _) = &mut other.content else {
+            return None;
+        };
+        let texts: Vec<&str> = text.split(['=', '≈']).collect();
+        let mut found = false;
+        for (side, text) in sides.iter_mut().zip(&texts).skip(1) {
+            let read = formula::read(text, &Symbols::strict()).ok();
+            let read =
+                read.filter(|read| read.literal.is_some() && matches!(side, Content::Scalar(_)));
+            if let Some(content @ Content::Quantity(_)) = read.map(|read| read.content) {
+                (*side, found) = (content, true);
+            }
+        }
+        (found && texts.len() == sides.len()).then_some(other)
+    }
+
     fn judged(
         &mut self,
         number: usize,
@@ -473,7 +492,8 @@ impl<'a> Desk<'a> {
             let others = formula::other_readings(text, &symbols, true);
             let apart = formula::letters_apart(text, &symbols);
             let apart = apart.and_then(|text| formula::read(&text, &symbols).ok());
-            for other in others.into_iter().take(4).chain(apart) {
+            let measured = self.measured(text, reading);
+            for other in others.into_iter().take(4).chain(apart).chain(measured) {
                 let Some(links) = self.links(&other) else {
                     continue;
                 };

@@ -177,6 +177,9 @@ impl Desk<'_> {
 
     /// Judges links one by one.
     pub(super) fn weigh(&self, text: &str, links: &[Link]) -> Weighed {
+        if let Some(at) = self.in_another_unit(links) {
+            return Weighed::Slip(at);
+        }
         let none = BTreeMap::new();
         let (mut rounded, mut open, mut carried) = (false, false, None);
         for (at, link) in links.iter().enumerate() {
@@ -197,6 +200,16 @@ impl Desk<'_> {
             (_, _, true) => Weighed::Rounded,
             _ => Weighed::Holds,
         }
+    }
+
+    /// The link of `lost = … = 6 kg` in which an answer of the scene gets a unit of another quantity.
+    fn in_another_unit(&self, links: &[Link]) -> Option<usize> {
+        let name = links.first()?.sides[0].expr()?.as_symbol()?;
+        let asked = self.sheet.entry(name).ok()?.key.question.dimension?;
+        links.iter().position(|link| match &link.sides[1] {
+            Content::Quantity(q) => q.unit.dimension != asked && !q.value.is_zero(),
+            _ => false,
+        })
     }
 
     /// Whether something is said about a name: the scene answers it, or the solution solves for it where a condition holds.
@@ -423,7 +436,13 @@ impl Desk<'_> {
 
     /// Keeps what a line says of a quantity that is asked for, where it ends in what is given.
     pub(super) fn note_final(&mut self, number: usize, text: &str, reading: &Reading) {
-        let Content::Relations(sides, signs) = &reading.content else {
+        // What is a number in the unit that is asked for is one.
+        let fits = |measured: &Reading| {
+            let links = self.links(measured);
+            links.is_some_and(|links| self.in_another_unit(&links).is_none())
+        };
+        let measured = self.measured(text, reading).filter(fits);
+        let Content::Relations(sides, signs) = &measured.as_ref().unwrap_or(reading).content else {
             return;
         };
         let ([first, .., last], true) = (sides.as_slice(), signs.iter().all(|s| equal(*s))) else {
@@ -463,7 +482,9 @@ impl Desk<'_> {
         }
         let none = BTreeMap::new();
         let end = &text[text.rfind(['=', '≈']).unwrap_or(0)..];
+        let in_another_unit = self.in_another_unit(std::slice::from_ref(&ends)).is_some();
         let verdict = match self.all_zero(&ends.differences, &none) {
+            _ if in_another_unit => Verdict::Different,
             Some(true) => Verdict::Equivalent,
             _ if self.is_rounded(end, &ends, &none) => Verdict::Equivalent,
             // What it was worked out from may be rounded more coarsely.
