@@ -457,7 +457,12 @@ fn tried(
             ));
         }
     }
-    (seen > 0).then(|| Check::new("numbers", format!(
-            "at {seen} points: where the parameter is {closer} times closer, the error is at least {power} times smaller"
-        ), Some(true)))
+    let nearer = match to {
+        Ok(_) => format!("{closer} times closer"),
+        Err(()) => format!("{} times as large", closer * closer),
+    };
+    let words = format!(
+        "at {seen} points: where the parameter is {nearer}, the error is at least {power} times smaller"
+    );
+    (seen > 0).then(|| Check::new("numbers", words, Some(true)))
 }
