@@ -173,6 +173,35 @@ fn the_numeric_side_never_sees_the_symbolic_one() {
 }
 
 #[test]
+fn no_function_is_longer_than_a_hundred_lines() {
+    let mut long = Vec::new();
+    for (file, text) in all_sources() {
+        if file.to_string_lossy().contains("tests") {
+            continue;
+        }
+        let lines: Vec<&str> = text.lines().collect();
+        for (first, line) in lines.iter().enumerate() {
+            let head = line.trim_start();
+            let indent = &line[..line.len() - head.len()];
+            let head = head.strip_prefix("pub").map_or(head, |rest| {
+                rest.trim_start_matches(|c: char| c != ')' && c != ' ')
+                    .trim_start_matches([')', ' '])
+            });
+            if !(head.starts_with("fn ") || head.starts_with("const fn ")) {
+                continue;
+            }
+            let end = lines[first..]
+                .iter()
+                .position(|l| l.strip_prefix(indent).is_some_and(|l| l.starts_with('}')));
+            if end.is_some_and(|end| end >= 100) {
+                long.push(format!("{}:{}", file.display(), first + 1));
+            }
+        }
+    }
+    assert!(long.is_empty(), "more than 100 lines: {long:#?}");
+}
+
+#[test]
 fn every_file_opens_by_saying_what_it_is_for() {
     let mute: Vec<_> = all_sources()
         .into_iter()

@@ -85,16 +85,13 @@ impl Parser<'_> {
             Tok::Raised(_) => exponent = Some(raised_number(&self.next()?)),
             _ => {}
         }
-        let name = function.name();
         let minus_one = exponent
             .as_ref()
             .and_then(Written::literal)
             .is_some_and(|k| k.value == ratio(-1, 1));
         let inverses = matches!(function, Function::Asin | Function::Acos | Function::Atan);
         let is_inverse = inverses || minus_one;
-        let in_bars = self.bars > 0;
-        let first = self.peek()?;
-        let argument = match first.tok {
+        let argument = match self.peek()?.tok {
             Tok::Open('(') if function == Function::Ln => {
                 // log(u, b) has its base behind a comma.
                 let list = std::mem::replace(&mut self.lexer.list, true);
@@ -110,36 +107,7 @@ impl Parser<'_> {
                     shape => Written::new(shape, inner.start, inner.end),
                 }
             }
-            Tok::Open(_) | Tok::Bar | Tok::OpenBar if first.tok != Tok::Bar || !in_bars => {
-                self.primary()?
-            }
-            Tok::Minus | Tok::Plus => {
-                let (at, sign) = (first.start, self.sign()?);
-                let inner = self.bare_argument(is_inverse)?;
-                let stop = inner.end;
-                Written::new(
-                    Shape::Sum(vec![(sign.unwrap_or(Sign::Plus), inner)]),
-                    at,
-                    stop,
-                )
-            }
-            Tok::Number(_)
-            | Tok::Name(_)
-            | Tok::Vulgar(..)
-            | Tok::Fraction
-            | Tok::Root(_)
-            | Tok::Call(_)
-            | Tok::Reciprocal(_)
-            | Tok::Exponential
-            | Tok::Logarithm(_) => self.bare_argument(is_inverse)?,
-            _ => {
-                let token = self.next()?;
-                return Err(Fault::new(
-                    format!("{name} needs an argument"),
-                    start,
-                    end.max(token.start),
-                ));
-            }
+            _ => self.taken_of(function, is_inverse, start, end)?,
         };
         let trigonometric = matches!(function, Function::Sin | Function::Cos | Function::Tan);
         if trigonometric && plain_number(&argument) {
@@ -170,6 +138,44 @@ impl Parser<'_> {
             Some(exponent) => called.power(exponent).at(start, stop),
             None => called,
         })
+    }
+
+    /// What a function is taken of: in brackets or bars, or what stands behind it without them.
+    fn taken_of(
+        &mut self,
+        function: Function,
+        is_inverse: bool,
+        start: usize,
+        end: usize,
+    ) -> Faulty<Written> {
+        let in_bars = self.bars > 0;
+        let first = self.peek()?;
+        match first.tok {
+            Tok::Open(_) | Tok::Bar | Tok::OpenBar if first.tok != Tok::Bar || !in_bars => {
+                self.primary()
+            }
+            Tok::Minus | Tok::Plus => {
+                let (at, sign) = (first.start, self.sign()?);
+                let inner = self.bare_argument(is_inverse)?;
+                let stop = inner.end;
+                let signed = Shape::Sum(vec![(sign.unwrap_or(Sign::Plus), inner)]);
+                Ok(Written::new(signed, at, stop))
+            }
+            Tok::Number(_)
+            | Tok::Name(_)
+            | Tok::Vulgar(..)
+            | Tok::Fraction
+            | Tok::Root(_)
+            | Tok::Call(_)
+            | Tok::Reciprocal(_)
+            | Tok::Exponential
+            | Tok::Logarithm(_) => self.bare_argument(is_inverse),
+            _ => {
+                let token = self.next()?;
+                let message = format!("{} needs an argument", function.name());
+                Err(Fault::new(message, start, end.max(token.start)))
+            }
+        }
     }
 
     /// e as the base of the natural logarithm: exp of the exponent behind it, or of 1.

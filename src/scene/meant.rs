@@ -3,33 +3,48 @@
 /// What there is for a word of mechanics that is no word of scene files.
 /// `here` are the words that could stand in its place.
 pub(super) fn meant(word: &str, here: &[&str]) -> Option<&'static str> {
-    Some(match word.to_lowercase().as_str() {
-        "left" | "right" | "up" | "down" | "horizontal" | "vertical" if here.contains(&"-x") => {
+    let word = word.to_lowercase();
+    match among(&word, here) {
+        Some(meant) => meant,
+        None => anywhere(&word),
+    }
+}
+
+/// What a word means among these; `Some(None)` where nothing is to be said of it.
+fn among(word: &str, here: &[&str]) -> Option<Option<&'static str>> {
+    let has = |word| here.contains(&word);
+    Some(Some(match word {
+        "left" | "right" | "up" | "down" | "horizontal" | "vertical" if has("-x") => {
             "\"x\" is to the right, \"-x\" to the left, \"y\" up and \"-y\" down"
         }
         _ if here == ["start", "end"] => {
             "`when` is the beginning or the end of a stage; a parameter `tends` `to` a value"
         }
-        "rest" | "stop" | "stopped" | "over" | "end" if here.contains(&"stops") => {
+        "rest" | "stop" | "stopped" | "over" | "end" if has("stops") => {
             "a motion that ends at rest has \"until\": \"stops\""
         }
-        "point" | "position" | "place" | "location" if !here.contains(&"center") => {
-            return here.contains(&"at").then_some("its place is `at`");
+        "point" | "position" | "place" | "location" if !has("center") => {
+            return Some(has("at").then_some("its place is `at`"));
         }
-        "to" | "angle" if here.contains(&"by") && here.contains(&"until") => {
+        "to" | "angle" if has("by") && has("until") => {
             "it turns `by` an angle, or `until` its center is above or below the point, or it stops"
         }
-        "height" | "rise" if here.contains(&"position") => {
+        "height" | "rise" if has("position") => {
             "how high a body is at the end of a stage is its `position` along y; how high it will rise is a `value`, such as \"v^2/(2*g)\""
         }
+        "between" | "of" | "body" | "on" if has("bodies") => "those that meet are `bodies`, a list",
+        "restitution" if has("frictionless") => {
+            "a contact with a coefficient of restitution has \"law\": \"frictionless\" and \"restitution\": \"e\""
+        }
+        _ => return None,
+    }))
+}
+
+/// What a word means wherever it stands.
+fn anywhere(word: &str) -> Option<&'static str> {
+    Some(match word {
         "points" => {
             "the points of a scene stand at its top, as \"points\": {\"A\": [\"x\", \"y\"]}"
-        }
-        "between" | "of" | "body" | "on" if here.contains(&"bodies") => {
-            "those that meet are `bodies`, a list"
-        }
-        "restitution" if here.contains(&"frictionless") => {
-            "a contact with a coefficient of restitution has \"law\": \"frictionless\" and \"restitution\": \"e\""
         }
         "elastic" => {
             "an elastic collision is \"law\": \"frictionless\" with \"restitution\": \"1\""

@@ -62,20 +62,7 @@ pub(super) fn resolve(
             symbols.mark_used(&parameter.name);
         }
     }
-    let points: HashMap<&str, usize> = names(file.points.as_ref());
-    let bodies: HashMap<&str, usize> = names(Some(&file.bodies));
-    let mut resolver = Resolver {
-        file,
-        symbols,
-        faults,
-        claims,
-        point_places: vec![Place::Untouched; points.len()],
-        body_places: vec![Place::Untouched; bodies.len()],
-        points,
-        bodies,
-        composites: HashMap::new(),
-        chain: Vec::new(),
-    };
+    let mut resolver = Resolver::new(file, symbols, faults, claims);
     resolver.sizes();
     if resolver.faults.len() <= TOLD {
         resolver.fill(&mut scene);
@@ -126,6 +113,29 @@ pub(super) fn entries<T>(map: Option<&Map<T>>) -> impl Iterator<Item = (&Text, &
 }
 
 impl<'f> Resolver<'f> {
+    /// Nothing of the file placed yet.
+    pub fn new(
+        file: &'f SceneFile,
+        symbols: Symbols,
+        faults: Vec<Fault>,
+        claims: Vec<Claimed>,
+    ) -> Resolver<'f> {
+        let points = names(file.points.as_ref());
+        let bodies = names(Some(&file.bodies));
+        Resolver {
+            file,
+            symbols,
+            faults,
+            claims,
+            point_places: vec![Place::Untouched; points.len()],
+            body_places: vec![Place::Untouched; bodies.len()],
+            points,
+            bodies,
+            composites: HashMap::new(),
+            chain: Vec::new(),
+        }
+    }
+
     /// Reports absurd sizes and unusable names.
     fn sizes(&mut self) {
         let file = self.file;

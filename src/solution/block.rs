@@ -214,31 +214,15 @@ impl Writer<'_> {
 
     /// The values of a block's unknowns, and how they follow; `lead` stands before those of several equations.
     pub(super) fn solved(&mut self, blocks: &[&Block], lead: &str) {
-        let before: Vec<Claim> = blocks
-            .iter()
-            .flat_map(|b| &b.equations)
-            .map(|e| {
-                let (left, right) = self.sides(e);
-                Claim::new(left, right)
-            })
-            .collect();
-        let pairs: Vec<(Unknown, Expr)> = blocks
-            .iter()
+        let equations = blocks.iter().flat_map(|b| &b.equations);
+        let sides = equations.map(|e| self.sides(e));
+        let before: Vec<Claim> = sides.map(|(left, right)| Claim::new(left, right)).collect();
+        let unknowns = blocks.iter();
+        let pairs: Vec<(Unknown, Expr)> = unknowns
             .flat_map(|b| b.unknowns.iter().copied().zip(self.d.solution(b)))
             .collect();
-        // A single equation that already reads `unknown = value` needs no further line.
-        if let ([claim], [(u, value)]) = (before.as_slice(), pairs.as_slice()) {
-            let name = self.d.names.plain(*u);
-            if claim.left == Expr::symbol(name) && claim.right == *value {
-                let is_asked = self.d.answers.iter().any(|a| a.name == name);
-                self.told.insert(Symbol::from(name));
-                let is_left_out = value.is_zero() && (is_asked || !self.makes_an_answer(*u));
-                self.zero.extend(is_left_out.then_some(*u));
-                if is_asked && let Some(line) = self.take_last_line() {
-                    self.push(Part::Result(vec![line]));
-                }
-                return;
-            }
+        if self.reads_solved(&before, &pairs) {
+            return;
         }
         let shown: Vec<Expr> = pairs.iter().map(|(u, v)| self.short(*u, v)).collect();
         self.abbreviations(&shown);
@@ -282,34 +266,12 @@ impl Writer<'_> {
         if too_long {
             self.say("The solution of these equations is long; it stands below.");
         } else {
-            let lines: Vec<(Unknown, Line)> = pairs
-                .iter()
-                .zip(lines)
-                .map(|((u, _), math)| {
-                    let step = Some(id.clone());
-                    (*u, Line { math, step })
-                })
-                .collect();
-            let asked = |u: &Unknown| {
-                let name = self.d.names.plain(*u);
-                self.d.answers.iter().any(|a| a.name == name)
-            };
-            let (answers, others): (Vec<_>, Vec<_>) =
-                lines.into_iter().partition(|(u, _)| asked(u));
-            for (i, (_, line)) in others.into_iter().enumerate() {
-                let mut math = line.math;
-                if i == 0 && matches!(self.last_part(), Some(Part::Display(_))) {
-                    math.insert(0, Math::Op("⇒"));
-                }
-                self.show(math, line.step);
-            }
-            if !answers.is_empty() {
-                for (u, _) in &answers {
-                    let name = Symbol::from(self.d.names.plain(*u));
-                    self.told.insert(name);
-                }
-                self.push(Part::Result(answers.into_iter().map(|(_, l)| l).collect()));
-            }
+            let lines = lines.into_iter().map(|math| Line {
+                math,
+                step: Some(id.clone()),
+            });
+            let unknowns = pairs.iter().map(|(u, _)| *u);
+            self.found(unknowns.zip(lines).collect());
             self.comes_later(blocks, &shown);
         }
         let zero = pairs.iter().filter(|(_, value)| value.is_zero());
@@ -318,6 +280,50 @@ impl Writer<'_> {
             let divisor = [words::formula(divisor)];
             self.text(fill("This divides by {}, which must not be zero.", divisor));
         }
+    }
+
+    /// Whether a single equation already reads `unknown = value`, and so needs no further line.
+    fn reads_solved(&mut self, before: &[Claim], pairs: &[(Unknown, Expr)]) -> bool {
+        let ([claim], [(u, value)]) = (before, pairs) else {
+            return false;
+        };
+        let name = self.d.names.plain(*u);
+        if claim.left != Expr::symbol(name) || claim.right != *value {
+            return false;
+        }
+        let is_asked = self.d.answers.iter().any(|a| a.name == name);
+        self.told.insert(Symbol::from(name));
+        let is_left_out = value.is_zero() && (is_asked || !self.makes_an_answer(*u));
+        self.zero.extend(is_left_out.then_some(*u));
+        if is_asked && let Some(line) = self.take_last_line() {
+            self.push(Part::Result(vec![line]));
+        }
+        true
+    }
+
+    /// Shows the values of unknowns, those that are asked for boxed and last.
+    fn found(&mut self, lines: Vec<(Unknown, Line)>) {
+        let is_asked = |u: &Unknown| {
+            let name = self.d.names.plain(*u);
+            self.d.answers.iter().any(|a| a.name == name)
+        };
+        let (answers, others): (Vec<_>, Vec<_>) = lines.into_iter().partition(|(u, _)| is_asked(u));
+        for (i, (_, mut line)) in others.into_iter().enumerate() {
+            if i == 0 && matches!(self.last_part(), Some(Part::Display(_))) {
+                line.math.insert(0, Math::Op("⇒"));
+            }
+            self.show(line.math, line.step);
+        }
+        if answers.is_empty() {
+            return;
+        }
+        let names = answers
+            .iter()
+            .map(|(u, _)| Symbol::from(self.d.names.plain(*u)));
+        self.told.extend(names);
+        self.push(Part::Result(
+            answers.into_iter().map(|(_, line)| line).collect(),
+        ));
     }
 
     /// Says of impulses that results are written with, and that are not found yet, what they are and that they come.

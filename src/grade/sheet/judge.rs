@@ -113,25 +113,8 @@ impl Sheet {
         let Ok(reading) = read::answer(&entry.key, answer) else {
             return grade;
         };
-        if let (Content::Matrix(expected), Content::Matrix(rows)) =
-            (&entry.key.reading.content, &reading.content)
-            && let Some(ordered) = rows::as_answered(expected, rows, &self.scene.domains)
-            && ordered != *expected
-        {
-            let key = key_of(Content::Matrix(ordered), &entry.key.question);
-            let mut grade = judge_against(&key, answer, options);
-            let words = "an equation may stand in any row, and be multiplied";
-            grade.assumed.push(words.into());
+        if let Some(grade) = self.of_other_shape(entry, &reading, answer, options) {
             return grade;
-        }
-        if let Some(bound) = self.bounds().find(|b| b.name == entry.name)
-            && let Content::Relations(_, signs) = &reading.content
-            && signs.iter().any(|s| *s != Relation::Equal)
-        {
-            let sides = [Expr::symbol(&bound.parameter), bound.value.clone()];
-            let sides = sides.map(Content::Scalar).to_vec();
-            let content = Content::Relations(sides, vec![bound.relation]);
-            return judge_against(&key_of(content, &self.question()), answer, options);
         }
         let numeric = self.numeric(entry, &reading, answer, options);
         let rounding = numeric.as_ref().and_then(|(_, room)| *room);
@@ -141,12 +124,7 @@ impl Sheet {
         if grade.verdict != Verdict::Different || options.strength == Strength::Fast {
             return grade;
         }
-        let given = |s: &Symbol| {
-            let answered = self.derivation.answers.iter().any(|a| *a.name == **s);
-            answered || self.scene.parameters.iter().any(|p| p.name == *s)
-        };
-        let finite = |s: &&Symbol| matches!(&***s, "g" | "t" | "dt") && !given(s);
-        if reading.symbols().iter().any(|s| finite(&s)) {
+        if self.has_finite_force(&reading) {
             grade.note = "DIFF_BELIEF";
             let message = "a finite force, or the time the collision takes, enters: in a collision neither has an impulse";
             let hint = "which forces are large enough to matter in so short a time?";
@@ -200,6 +178,49 @@ impl Sheet {
         all.append(&mut grade.diagnosis);
         grade.diagnosis = all;
         grade
+    }
+
+    /// A matrix whose rows stand in another order, or a relation for the bound that is asked.
+    fn of_other_shape(
+        &self,
+        entry: &Entry,
+        reading: &Reading,
+        answer: &str,
+        options: &Options,
+    ) -> Option<Grade> {
+        match (&entry.key.reading.content, &reading.content) {
+            (Content::Matrix(expected), Content::Matrix(rows)) => {
+                let ordered = rows::as_answered(expected, rows, &self.scene.domains)?;
+                if ordered == *expected {
+                    return None;
+                }
+                let key = key_of(Content::Matrix(ordered), &entry.key.question);
+                let mut grade = judge_against(&key, answer, options);
+                let words = "an equation may stand in any row, and be multiplied";
+                grade.assumed.push(words.into());
+                Some(grade)
+            }
+            (_, Content::Relations(_, signs)) if signs.iter().any(|s| *s != Relation::Equal) => {
+                let bound = self.bounds().find(|b| b.name == entry.name)?;
+                let sides = [Expr::symbol(&bound.parameter), bound.value.clone()];
+                let sides = sides.map(Content::Scalar).to_vec();
+                let content = Content::Relations(sides, vec![bound.relation]);
+                let key = key_of(content, &self.question());
+                Some(judge_against(&key, answer, options))
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether gravity or a time enters that neither the scene nor an answer names.
+    fn has_finite_force(&self, reading: &Reading) -> bool {
+        let given = |s: &Symbol| {
+            let answered = self.derivation.answers.iter().any(|a| *a.name == **s);
+            answered || self.scene.parameters.iter().any(|p| p.name == *s)
+        };
+        let symbols = reading.symbols();
+        let mut finite = (symbols.iter()).filter(|s| matches!(&***s, "g" | "t" | "dt"));
+        finite.any(|s| !given(s))
     }
 
     /// The answer to another question that this is, of any stage.

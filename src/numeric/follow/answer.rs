@@ -7,14 +7,14 @@ use std::fmt;
 
 use super::impact::velocity_at;
 use super::{
-    BodyState, Component, Course, Followed, Impact, Impulse, Lost, Moved, Open, Passed, Solid,
-    What, kinetic, turns,
+    BodyState, Component, Course, Driven, Followed, Impact, Impulse, Lost, Moved, Open, Passed,
+    Solid, State, What, kinetic, turns,
 };
 use crate::expr::{Point, Symbol, Vector};
 use crate::numeric::Answer;
 use crate::numeric::given::{Freedom, Undefined, vector};
 use crate::numeric::number::{cross, dot};
-use crate::scene::{Ask, EnergyWhen, ImpulseAt, Question, Scene, StageKind};
+use crate::scene::{Ask, EnergyWhen, ImpulseAt, Question, Scene, Stage, StageKind};
 
 /// Why a question has no number.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,18 +82,8 @@ pub fn answer(
     question: &Question,
     values: &Point<f64>,
 ) -> Result<Answer<f64>, Unanswered> {
-    if let Ask::Turn {
-        number,
-        turns,
-        of,
-        total,
-    } = &question.ask
-    {
-        // Nothing that is followed depends on it, so the values may be without it.
-        let given = scene.parameters.iter().find(|p| p.name == *number);
-        let given = given.and_then(|p| p.value.as_ref()?.evaluate(values));
-        let number = values.values.get(number).copied().or(given);
-        return turns::answer(scene, followed, turns, (of, *total), number, values);
+    if let Ask::Turn { .. } = &question.ask {
+        return of_a_turn(scene, followed, &question.ask, values);
     }
     let course = scene.course();
     let alone = (!scene.has_stages()).then_some(0);
@@ -101,109 +91,181 @@ pub fn answer(
     let stage = course.get(index).ok_or(Unanswered::NotANumber)?;
     let passed = followed.stages[index].as_ref();
     let passed = passed.map_err(|lost| Unanswered::Lost(lost.clone()))?;
-    let motion = match &passed.what {
-        What::Motion(moved) => Ok(moved),
-        What::Impact(_) => Err(Unanswered::NotANumber),
-    };
-    let state = |at_end: &bool| match at_end {
-        true => &passed.after,
-        false => &passed.before,
-    };
-    let before = &passed.before;
     let values = super::with_earlier(scene, followed, stage, &super::with_angles(values));
-    let values = super::at_places(stage, before, &values);
+    let values = super::at_places(stage, &passed.before, &values);
     let course = Course {
         name: &stage.name,
         scene: &stage.scene,
         solids: &followed.solids,
         values: &values,
     };
-    match &question.ask {
-        Ask::Reaction { along, at_end } => {
-            let reaction = motion?.reaction.as_ref().ok_or(Unanswered::NotANumber)?;
-            component(&course, reaction[usize::from(*at_end)].clone(), Some(along))
+    let numbers = InStage {
+        scene,
+        course,
+        stage,
+        passed,
+    };
+    numbers.asked(&question.ask)
+}
+
+/// A turn among several, by its number.
+fn of_a_turn(
+    scene: &Scene,
+    followed: &Followed,
+    ask: &Ask,
+    values: &Point<f64>,
+) -> Result<Answer<f64>, Unanswered> {
+    let Ask::Turn {
+        number,
+        turns,
+        of,
+        total,
+    } = ask
+    else {
+        return Err(Unanswered::NotANumber);
+    };
+    // Nothing that is followed depends on it, so the values may be without it.
+    let given = scene.parameters.iter().find(|p| p.name == *number);
+    let given = given.and_then(|p| p.value.as_ref()?.evaluate(values));
+    let number = values.values.get(number).copied().or(given);
+    turns::answer(scene, followed, turns, (of, *total), number, values)
+}
+
+/// A stage that was followed, and the values with which its questions are read.
+struct InStage<'a> {
+    scene: &'a Scene,
+    course: Course<'a>,
+    stage: &'a Stage,
+    passed: &'a Passed,
+}
+
+impl InStage<'_> {
+    fn asked(&self, ask: &Ask) -> Result<Answer<f64>, Unanswered> {
+        let course = &self.course;
+        match ask {
+            Ask::Reaction { along, at_end } => {
+                let reaction = self.moved()?.reaction.as_ref();
+                let reaction = reaction.ok_or(Unanswered::NotANumber)?;
+                component(course, reaction[usize::from(*at_end)].clone(), Some(along))
+            }
+            Ask::AngularAcceleration {
+                body,
+                clockwise,
+                at_end,
+            } => {
+                let [.., value] = accelerations(self.moved()?, *body, *at_end)?;
+                Ok(Answer::Scalar(if *clockwise { -value } else { value }))
+            }
+            Ask::PointAcceleration {
+                body,
+                point,
+                along,
+                at_end,
+            } => {
+                let there = self.point_acceleration(*body, point.as_deref(), *at_end)?;
+                component(course, there.map(Ok), Some(along))
+            }
+            Ask::Time => Ok(Answer::Scalar(self.passed.time.clone()?)),
+            Ask::Acceleration { body } => Ok(Answer::Scalar(self.driven(*body)?.acceleration)),
+            Ask::Tension { body } => {
+                let tension = self.driven(*body)?.tension;
+                tension.map(Answer::Scalar).ok_or(Unanswered::NotANumber)
+            }
+            Ask::Distance => self.distance().map(Answer::Scalar),
+            Ask::Angle { body, clockwise } => {
+                let by = self.turned(*body)?;
+                Ok(Answer::Scalar(if *clockwise { -by } else { by }))
+            }
+            Ask::Position {
+                body,
+                along,
+                at_end,
+            } => {
+                let center = self.state(*at_end).bodies[*body].center.clone();
+                component(course, center, along.as_ref())
+            }
+            Ask::AngularMomentum {
+                body,
+                about,
+                at_end,
+            } => {
+                let about = pair(course, about)?;
+                let state = &self.state(*at_end).bodies[*body];
+                let moment = angular_momentum(&course.solids[*body], state, about);
+                Ok(Answer::Scalar(moment?))
+            }
+            Ask::Velocity {
+                body,
+                point: Some((name, _)),
+                along,
+            } if matches!(self.passed.what, What::Motion(_)) => {
+                let state = &self.passed.after.bodies[*body];
+                let velocity = carried(course, self.scene, state, *body, name)?;
+                component(course, velocity, along.as_ref())
+            }
+            ask => about_end(course, self.passed, ask),
         }
-        Ask::AngularAcceleration {
-            body,
-            clockwise,
-            at_end,
-        } => {
-            let [.., value] = accelerations(motion?, *body, *at_end)?;
-            Ok(Answer::Scalar(if *clockwise { -value } else { value }))
+    }
+
+    fn moved(&self) -> Result<&Moved, Unanswered> {
+        match &self.passed.what {
+            What::Motion(moved) => Ok(moved),
+            What::Impact(_) => Err(Unanswered::NotANumber),
         }
-        Ask::PointAcceleration {
-            body,
-            point,
-            along,
-            at_end,
-        } => {
-            let [x, y, angular] = accelerations(motion?, *body, *at_end)?;
-            let state = &state(at_end).bodies[*body];
-            let [p, q] = match point {
-                Some(name) => arm(&course, scene, state, *body, name)?,
-                None => [0.0; 2],
-            };
-            // A particle has no point but its center.
-            let square = state.spin.clone().map_or(0.0, |w| w * w);
-            let there = [x - angular * q - square * p, y + angular * p - square * q];
-            component(&course, there.map(Ok), Some(along))
+    }
+
+    fn state(&self, at_end: bool) -> &State {
+        match at_end {
+            true => &self.passed.after,
+            false => &self.passed.before,
         }
-        Ask::Time => Ok(Answer::Scalar(passed.time.clone()?)),
-        Ask::Acceleration { body } | Ask::Tension { body } => {
-            let driven = motion?.driven.iter().find(|d| d.body == *body);
-            let driven = driven.ok_or(Unanswered::NotANumber)?;
-            let value = match &question.ask {
-                Ask::Tension { .. } => driven.tension,
-                _ => Some(driven.acceleration),
-            };
-            value.map(Answer::Scalar).ok_or(Unanswered::NotANumber)
+    }
+
+    /// Acceleration of a named point of a body \[m/s²\], of its center where none is named.
+    fn point_acceleration(
+        &self,
+        body: usize,
+        point: Option<&str>,
+        at_end: bool,
+    ) -> Result<[f64; 2], Unanswered> {
+        let [x, y, angular] = accelerations(self.moved()?, body, at_end)?;
+        let state = &self.state(at_end).bodies[body];
+        let [p, q] = match point {
+            Some(name) => arm(&self.course, self.scene, state, body, name)?,
+            None => [0.0; 2],
+        };
+        // A particle has no point but its center.
+        let square = state.spin.clone().map_or(0.0, |w| w * w);
+        Ok([x - angular * q - square * p, y + angular * p - square * q])
+    }
+
+    /// What is known of a body that is driven along a line, or hangs on a string.
+    fn driven(&self, body: usize) -> Result<&Driven, Unanswered> {
+        let driven = self.moved()?.driven.iter().find(|d| d.body == body);
+        driven.ok_or(Unanswered::NotANumber)
+    }
+
+    /// How far a body slid \[m\], on a moving one as seen from there.
+    fn distance(&self) -> Result<f64, Unanswered> {
+        let StageKind::Slide(slide) = &self.stage.kind else {
+            return Err(Unanswered::NotANumber);
+        };
+        let along = pair(&self.course, &slide.along)?;
+        let far = gone(self.passed, slide.body, along)?;
+        let below = slide.on.as_ref();
+        let below = below.map_or(Ok(0.0), |on| gone(self.passed, on.body, along))?;
+        Ok(far - below)
+    }
+
+    /// The angle by which a body turned \[rad\], counterclockwise.
+    fn turned(&self, body: usize) -> Result<f64, Unanswered> {
+        let turning = self.moved().ok().filter(|m| m.bodies.contains(&body));
+        if let Some(by) = turning.and_then(|moved| moved.turned) {
+            return Ok(by);
         }
-        Ask::Distance => {
-            let StageKind::Slide(slide) = &stage.kind else {
-                return Err(Unanswered::NotANumber);
-            };
-            let along = pair(&course, &slide.along)?;
-            let far = gone(passed, slide.body, along)?;
-            let below = slide.on.as_ref();
-            let below = below.map_or(Ok(0.0), |on| gone(passed, on.body, along))?;
-            Ok(Answer::Scalar(far - below))
-        }
-        Ask::Angle { body, clockwise } => {
-            let turning = motion.ok().filter(|moved| moved.bodies.contains(body));
-            let [from, to] = [before, &passed.after].map(|s| s.bodies[*body].angle.clone());
-            let by = match turning.and_then(|moved| moved.turned) {
-                Some(by) => by,
-                None => to? - from?,
-            };
-            Ok(Answer::Scalar(if *clockwise { -by } else { by }))
-        }
-        Ask::Position {
-            body,
-            along,
-            at_end,
-        } => {
-            let center = state(at_end).bodies[*body].center.clone();
-            component(&course, center, along.as_ref())
-        }
-        Ask::AngularMomentum {
-            body,
-            about,
-            at_end,
-        } => {
-            let about = pair(&course, about)?;
-            let moment =
-                angular_momentum(&followed.solids[*body], &state(at_end).bodies[*body], about);
-            Ok(Answer::Scalar(moment?))
-        }
-        Ask::Velocity {
-            body,
-            point: Some((name, _)),
-            along,
-        } if matches!(passed.what, What::Motion(_)) => {
-            let velocity = carried(&course, scene, &passed.after.bodies[*body], *body, name)?;
-            component(&course, velocity, along.as_ref())
-        }
-        ask => about_end(&course, passed, ask),
+        let ends = [&self.passed.before, &self.passed.after];
+        let [from, to] = ends.map(|s| s.bodies[body].angle.clone());
+        Ok(to? - from?)
     }
 }
 

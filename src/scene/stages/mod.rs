@@ -16,7 +16,7 @@ use std::collections::{BTreeMap, HashMap};
 use crate::expr::{Expr, Symbol, Vector, minus};
 use crate::formula::near::nearest;
 use crate::scene::body_file::VelocityFile;
-use crate::scene::check::{Claim, check};
+use crate::scene::check::{Claim, Claimed, check};
 use crate::scene::contact_file::ContactFile;
 use crate::scene::fault::Fault;
 use crate::scene::file::SceneFile;
@@ -25,7 +25,7 @@ use crate::scene::place::Place;
 use crate::scene::questions::About;
 use crate::scene::record::{Map, Text};
 use crate::scene::resolve::{Resolver, entries};
-use crate::scene::stage::{Stage, StageKind};
+use crate::scene::stage::{OneSided, Stage, StageKind};
 use crate::scene::stage_file::{EndName, StageFile, StartFile};
 use crate::scene::{Body, Scene, Shape, geometry, questions};
 
@@ -367,18 +367,7 @@ fn one(
     whole: &Scene,
     symbols: Symbols,
 ) -> (Option<Stage>, Symbols, Vec<Fault>) {
-    let mut r = Resolver {
-        file,
-        symbols,
-        faults: Vec::new(),
-        claims: Vec::new(),
-        points: crate::scene::resolve::names(file.points.as_ref()),
-        bodies: crate::scene::resolve::names(Some(&file.bodies)),
-        point_places: vec![Place::Untouched; file.points.as_ref().map_or(0, |m| m.0.len())],
-        body_places: vec![Place::Untouched; file.bodies.0.len()],
-        composites: HashMap::new(),
-        chain: Vec::new(),
-    };
+    let mut r = Resolver::new(file, symbols, Vec::new(), Vec::new());
     let mut scene = Scene {
         title: whole.title.clone(),
         source: whole.source.clone(),
@@ -404,16 +393,7 @@ fn one(
     }
     r.fill(&mut scene);
     scene.figure = whole.figure.clone();
-    let file_places: Vec<[Expr; 3]> = scene
-        .bodies
-        .iter()
-        .enumerate()
-        .map(|(b, body)| {
-            let given = from_file.get(b).cloned().flatten();
-            let [x, y] = given.unwrap_or_else(|| body.center.clone());
-            [x, y, body.angle.clone()]
-        })
-        .collect();
+    let file_places = in_file(&scene, &from_file);
     for (b, (body, [_, _, angle])) in scene.bodies.iter_mut().zip(&places).enumerate() {
         let turned = Expr::symbol(angle);
         if let (Shape::Composite { parts }, Some(center)) = (&mut body.shape, &from_file[b]) {
@@ -425,20 +405,8 @@ fn one(
     let starts = starts(&mut r, &scene, stage, from);
     let kind = kind::kind(&mut r, &mut scene, stage, &file_places);
     if let Some(StageKind::Impact { one_sided, .. }) = &kind {
-        for string in one_sided.iter().filter(|o| o.is_string) {
-            if scene.figure.string(&string.name).is_none() {
-                scene.figure.strings.push((string.name.clone(), None));
-            }
-        }
-    }
-    if let Some(StageKind::Impact { one_sided, .. }) = &kind {
-        for claimed in &mut r.claims {
-            if let Claim::AtParticle { offset, at, body } = &mut claimed.claim
-                && let Some(string) = one_sided.iter().find(|o| o.is_string && o.name == *at)
-            {
-                *offset = string.gap(&scene.bodies[*body].center);
-            }
-        }
+        let strings: Vec<&OneSided> = one_sided.iter().filter(|o| o.is_string).collect();
+        tie(&mut scene, &strings, &mut r.claims);
     }
     // Motion before an impact, and places after another stage, are known only when the stages before it are worked out;
     // they are checked then.
@@ -466,6 +434,34 @@ fn one(
         scene,
     });
     (read, symbols, faults)
+}
+
+/// Where the file puts the bodies: centers, as far as they were found from the file alone, and angles.
+fn in_file(scene: &Scene, centers: &[Option<Vector>]) -> Vec<[Expr; 3]> {
+    let bodies = scene.bodies.iter().enumerate();
+    bodies
+        .map(|(b, body)| {
+            let given = centers.get(b).cloned().flatten();
+            let [x, y] = given.unwrap_or_else(|| body.center.clone());
+            [x, y, body.angle.clone()]
+        })
+        .collect()
+}
+
+/// Strings are drawn, and a particle hangs on one at the distance that the string spans.
+fn tie(scene: &mut Scene, strings: &[&OneSided], claims: &mut [Claimed]) {
+    for string in strings {
+        if scene.figure.string(&string.name).is_none() {
+            scene.figure.strings.push((string.name.clone(), None));
+        }
+    }
+    for claimed in claims {
+        if let Claim::AtParticle { offset, at, body } = &mut claimed.claim
+            && let Some(string) = strings.iter().find(|o| o.name == *at)
+        {
+            *offset = string.gap(&scene.bodies[*body].center);
+        }
+    }
 }
 
 /// The values at which linkages on the way to a stage have left their coordinates: an impact finds the points that the file

@@ -321,28 +321,7 @@ impl Page<'_> {
             writer.case();
         }
         writer.given_after();
-        let earlier = cases::in_earlier(self.told, [i, k]);
-        let again = cases::again(self.scene, &told.cases, k);
-        match (earlier, again) {
-            (Some([j, c]), _) => {
-                let there = &self.told.stages[j];
-                let stage = sentence::called(self.scene, &words::stage(&there.name));
-                let which = match there.cases.len() {
-                    1 => String::new(),
-                    _ => format!("case {} of ", c + 1),
-                };
-                writer.in_earlier(&format!(
-                    "The equations are those of {which}{stage}, and so is the motion just after:"
-                ));
-            }
-            (None, Some(again)) => writer.again(&case.rubs, &again),
-            (None, None) => {
-                writer.blocks();
-                if !derivation.definitions.is_empty() {
-                    writer.results();
-                }
-            }
-        }
+        self.just_after(&mut writer, case, [i, k]);
         // That everything was checked is told once, at the end.
         if self.solution.detail == Detail::Full || !case.proof.holds() {
             writer.checked();
@@ -360,18 +339,6 @@ impl Page<'_> {
         for step in &mut self.solution.steps[first..] {
             step.scope = Some(id.clone());
         }
-        let before = scene
-            .bodies
-            .iter()
-            .filter(|b| !b.is_fixed())
-            .map(|b| Before {
-                body: b.name.clone(),
-                center: b.center.clone(),
-                angle: b.angle.clone(),
-                velocity: b.velocity.clone(),
-                spin: b.spin.clone(),
-            })
-            .collect();
         let line = line(&self.told.stages, (i, k));
         let earlier = line.flat_map(|(j, _)| &self.told.stages[j].needs);
         let given = told.given.iter().map(|(_, e)| e);
@@ -385,10 +352,36 @@ impl Page<'_> {
             handed: case.handed.clone(),
             earlier: told.earlier.clone(),
             open: told.before.open.keys().cloned().collect(),
-            before,
+            before: befores(&scene),
             needs,
             meanings: writer.solution.meanings,
         });
+    }
+
+    /// The motion just after an impact: its equations, or the stage or case in which they were written already.
+    fn just_after(&self, writer: &mut Writer<'_>, case: &Case, [i, k]: [usize; 2]) {
+        let earlier = cases::in_earlier(self.told, [i, k]);
+        let again = cases::again(self.scene, &self.told.stages[i].cases, k);
+        match (earlier, again) {
+            (Some([j, c]), _) => {
+                let there = &self.told.stages[j];
+                let stage = sentence::called(self.scene, &words::stage(&there.name));
+                let which = match there.cases.len() {
+                    1 => String::new(),
+                    _ => format!("case {} of ", c + 1),
+                };
+                writer.in_earlier(&format!(
+                    "The equations are those of {which}{stage}, and so is the motion just after:"
+                ));
+            }
+            (None, Some(again)) => writer.again(&case.rubs, &again),
+            (None, None) => {
+                writer.blocks();
+                if !writer.d.definitions.is_empty() {
+                    writer.results();
+                }
+            }
+        }
     }
 
     /// Whether cases are called by what a rough contact does: their conditions are long, and stand before them.
@@ -512,4 +505,18 @@ impl Page<'_> {
             .filter(|a| !said.contains(&a) && !in_a_case(a))
             .collect()
     }
+}
+
+/// The bodies that move, just before an impact.
+fn befores(scene: &Scene) -> Vec<Before> {
+    let moving = scene.bodies.iter().filter(|b| !b.is_fixed());
+    moving
+        .map(|b| Before {
+            body: b.name.clone(),
+            center: b.center.clone(),
+            angle: b.angle.clone(),
+            velocity: b.velocity.clone(),
+            spin: b.spin.clone(),
+        })
+        .collect()
 }

@@ -81,25 +81,7 @@ pub(super) fn tell(
         cases.retain(|case| !is_refuted(&base, case, &handed) && fits(case, given, &base.domains));
     }
     if cases.is_empty() {
-        let is_contradiction = contradiction.is_some();
-        let reason = match contradiction {
-            Some(laws) => format!(
-                "the laws contradict each other, with the motion that comes in: {laws} cannot hold together"
-            ),
-            None => String::from(
-                "no set of supports and strings fits: one of those that act would have to pull or push the wrong way",
-            ),
-        };
-        let hint = match base.friction() {
-            None => "look at the directions `normal`, and at the motion handed on",
-            Some(_) => {
-                "look at the directions `normal`, and at the motion handed on; with friction a support may let go and come back while the impact lasts, which is not followed"
-            }
-        };
-        return Err(Refused {
-            contradicts: is_contradiction,
-            ..Refused::new(&stage.name, reason, hint)
-        });
+        return Err(no_case(stage, &base, contradiction));
     }
     let mut places = Vec::new();
     for case in &mut cases {
@@ -124,6 +106,29 @@ pub(super) fn tell(
         checks,
         ..StageTold::new(stage, before, after)
     })
+}
+
+/// That nothing can come out of an impact, and why.
+fn no_case(stage: &Stage, base: &Scene, contradiction: Option<String>) -> Refused {
+    let contradicts = contradiction.is_some();
+    let reason = match contradiction {
+        Some(laws) => format!(
+            "the laws contradict each other, with the motion that comes in: {laws} cannot hold together"
+        ),
+        None => String::from(
+            "no set of supports and strings fits: one of those that act would have to pull or push the wrong way",
+        ),
+    };
+    let hint = match base.friction() {
+        None => "look at the directions `normal`, and at the motion handed on",
+        Some(_) => {
+            "look at the directions `normal`, and at the motion handed on; with friction a support may let go and come back while the impact lasts, which is not followed"
+        }
+    };
+    Refused {
+        contradicts,
+        ..Refused::new(&stage.name, reason, hint)
+    }
 }
 
 /// Sets of those that act, the largest first.

@@ -60,43 +60,15 @@ impl Desk<'_> {
                 }
                 row_space::Row::Masked(mend) | row_space::Row::Wrong(mend) => {
                     finding.holds = Some(false);
-                    let masked = matches!(verdict, row_space::Row::Masked(_));
+                    let is_masked = matches!(verdict, row_space::Row::Masked(_));
                     let mut words = format!("row {} is no law", i + 1);
-                    if masked {
-                        words.push_str(", though this solution fulfils it: the mistake is masked");
-                    } else {
-                        words.push_str(", and the solution does not fulfil it");
-                    }
+                    words.push_str(match is_masked {
+                        true => ", though this solution fulfils it: the mistake is masked",
+                        false => ", and the solution does not fulfil it",
+                    });
                     if let Some(mend) = mend {
-                        let better = self.say(&mend.value);
-                        let (place, printed) = match mend.column {
-                            Some(column) => {
-                                finding.carom =
-                                    format!("entry ({}, {}) is {better}", i + 1, column + 1);
-                                let place =
-                                    format!("in column {} (of {})", column + 1, unknowns[column]);
-                                (place, &rows[i].0[column])
-                            }
-                            None => {
-                                finding.carom = format!("right side {} is {better}", i + 1);
-                                ("on the right".to_string(), &rows[i].1)
-                            }
-                        };
-                        let turned = self.same(printed, &-&mend.value);
-                        let slip = match turned {
-                            true => "the sign of one entry is turned",
-                            false => "one entry is misprinted",
-                        };
-                        let felt = if masked {
-                            ", and nothing here feels it"
-                        } else {
-                            ""
-                        };
-                        finding.explained = Some(format!("{slip}{felt}: a misprint of its own"));
-                        let printed = self.say(printed);
-                        words.push_str(&format!(
-                            "; with {better} {place} in place of {printed} it would be"
-                        ));
+                        let row = (i, &rows[i].0[..], &rows[i].1);
+                        words.push_str(&self.mended(mend, row, unknowns, is_masked, finding));
                     }
                     wrong.push(words);
                 }
@@ -110,6 +82,40 @@ impl Desk<'_> {
             finding.caught_by = Some("holding each row against the equation it comes from".into());
         }
         Ok(())
+    }
+
+    /// What one entry would have to be for its row to be a law, in words; and what that says of the slip.
+    fn mended(
+        &self,
+        mend: &row_space::Mend,
+        (i, row, right): (usize, &[Expr], &Expr),
+        unknowns: &[String],
+        is_masked: bool,
+        finding: &mut Finding,
+    ) -> String {
+        let better = self.say(&mend.value);
+        let (place, printed) = match mend.column {
+            Some(column) => {
+                finding.carom = format!("entry ({}, {}) is {better}", i + 1, column + 1);
+                let place = format!("in column {} (of {})", column + 1, unknowns[column]);
+                (place, &row[column])
+            }
+            None => {
+                finding.carom = format!("right side {} is {better}", i + 1);
+                ("on the right".to_string(), right)
+            }
+        };
+        let slip = match self.same(printed, &-&mend.value) {
+            true => "the sign of one entry is turned",
+            false => "one entry is misprinted",
+        };
+        let felt = match is_masked {
+            true => ", and nothing here feels it",
+            false => "",
+        };
+        finding.explained = Some(format!("{slip}{felt}: a misprint of its own"));
+        let printed = self.say(printed);
+        format!("; with {better} {place} in place of {printed} it would be")
     }
 
     pub(super) fn known_only(&self) -> BTreeMap<Symbol, Expr> {

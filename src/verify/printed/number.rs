@@ -3,10 +3,10 @@
 use num_traits::Signed;
 
 use super::{Desk, Finding, remainder};
-use crate::dimension;
+use crate::dimension::{self, Dimension};
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Point, Rational, ratio};
-use crate::formula::{self, Content, Symbols, write_plain};
+use crate::formula::{self, Content, Quantity, Symbols, write_plain};
 use crate::scene::Printed;
 use crate::verify::rounding::{bounds, fraction, magnitude_or_zero, ten_to};
 
@@ -25,10 +25,9 @@ impl Desk<'_> {
             .ok_or_else(|| format!("{of} is no single expression"))?;
         let (value, unit) = match &reading.content {
             Content::Quantity(q) => {
-                let known = |name: &str| self.dimensions.get(name).cloned();
-                if let Ok(Some(is)) = dimension::of(of_expr, &known)
-                    && is != q.unit.dimension
-                {
+                if let Some(is) = self.other_dimension(of_expr, q) {
+                    let place = reading.literal.as_ref();
+                    let place = place.map_or_else(|| last_place(text), |l| l.place);
                     finding.holds = Some(false);
                     finding.carom = is.si();
                     finding.because = format!(
@@ -36,18 +35,14 @@ impl Desk<'_> {
                         q.unit_text, q.unit.dimension
                     );
                     finding.caught_by = Some("dimensions".into());
-                    let place = reading.literal.as_ref();
-                    let place = place.map_or_else(|| last_place(text), |l| l.place);
-                    let right = self.value(&self.put_in(of_expr, printed)?);
-                    let near = |v: &Rational| {
-                        let written = fraction(&q.written)?;
-                        Some((written - v).abs() <= ten_to(place) * ratio(1, 2))
-                    };
-                    finding.explained = match right.ok().and_then(|[low, _]| near(&low)) {
-                        Some(true) => Some(format!("the number is right for {}", is.spoken())),
-                        Some(false) => Some("the number is wrong too".into()),
-                        None => None,
-                    };
+                    let right = self.value(&self.put_in(of_expr, printed)?).ok();
+                    finding.explained = right.and_then(|[right, _]| {
+                        let off = (fraction(&q.written)? - right).abs();
+                        Some(match off <= ten_to(place) * ratio(1, 2) {
+                            true => format!("the number is right for {}", is.spoken()),
+                            false => "the number is wrong too".into(),
+                        })
+                    });
                     return Ok(());
                 }
                 (q.written.clone(), q.unit.value())
@@ -90,28 +85,21 @@ impl Desk<'_> {
             finding.carom
         );
         finding.caught_by = Some("putting the numbers into the printed formula".into());
-        let power = (-6..=6).filter(|k| *k != 0).find(|k| {
-            let off = (&written / ten_to(*k) - &low).abs();
-            off <= &half / ten_to(*k)
-        });
-        finding.explained = if off < ten_to(place) {
-            Some("the last digit was cut off or rounded the wrong way".into())
-        } else if (&written + &low).abs() <= half {
-            Some("the sign is wrong".into())
-        } else if let Some(k) = power {
-            let size = to_f64(&ten_to(k.abs()));
-            Some(match k > 0 {
-                true => format!("it is {size} times too large: a power of ten, or the unit"),
-                false => format!("it is {size} times too small: a power of ten, or the unit"),
-            })
-        } else {
-            let unit = unit.evaluate(&Point::<f64>::default());
-            let unit = unit.ok_or("the unit has no size")?;
+        let unit = unit.evaluate(&Point::<f64>::default());
+        let unit = unit.ok_or("the unit has no size")?;
+        finding.explained = slip_of_digits(&written, &low, place).or_else(|| {
             let [wanted, room] = [&written, &half].map(|v| to_f64(v) * unit);
             self.slips(of_expr, wanted, room * 1.000_001)
                 .or_else(|| remainder::digits(&written, &low, place))
-        };
+        });
         Ok(())
+    }
+
+    /// The dimension of an answer, where a printed quantity has another one.
+    fn other_dimension(&self, of: &Expr, printed: &Quantity) -> Option<Dimension> {
+        let known = |name: &str| self.dimensions.get(name).cloned();
+        let is = dimension::of(of, &known).ok()??;
+        (is != printed.unit.dimension).then_some(is)
     }
 
     /// Bounds of an expression at the scene's values.
@@ -122,6 +110,26 @@ impl Desk<'_> {
         }
         bounds(&put_in).ok_or_else(|| format!("{} has no value", write_plain(e)))
     }
+}
+
+/// How a number was miscopied from the right one: its last digit, its sign, or a power of ten.
+fn slip_of_digits(written: &Rational, right: &Rational, place: i32) -> Option<String> {
+    let half = ten_to(place) * ratio(1, 2);
+    if (written - right).abs() < ten_to(place) {
+        return Some("the last digit was cut off or rounded the wrong way".into());
+    }
+    if (written + right).abs() <= half {
+        return Some("the sign is wrong".into());
+    }
+    let power = (-6..=6).filter(|k| *k != 0).find(|k| {
+        let off = (written / ten_to(*k) - right).abs();
+        off <= &half / ten_to(*k)
+    })?;
+    let size = to_f64(&ten_to(power.abs()));
+    let way = if power > 0 { "large" } else { "small" };
+    Some(format!(
+        "it is {size} times too {way}: a power of ten, or the unit"
+    ))
 }
 
 /// The number at the head of a text such as `-2.08 m/s`, in the unit written.

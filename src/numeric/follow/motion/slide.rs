@@ -10,6 +10,7 @@ use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism, Mobile, Run
 use crate::numeric::follow::{Course, Lost, Passed, State, Why};
 use crate::numeric::number::{cross, dot};
 use crate::scene::{Slide, SlideEnd};
+
 /// What acts along the line, in numbers.
 struct Acting {
     along: [f64; 2],
@@ -142,34 +143,16 @@ pub(in crate::numeric::follow) fn slide(
     let (rates, pulls) = mechanism
         .accelerations(&start)
         .ok_or_else(|| unsolved(course))?;
-    let forces = mechanism.forces.iter().flatten();
-    let largest = forces.fold(0.0, |a: f64, f| a.max(f.abs()));
     let tensions = &pulls[pulls.len() - ropes.parts(&units).count()..];
-    if tensions.iter().any(|t| *t < -ROUNDING * largest) {
-        return Err(course.contradiction("a string goes slack"));
-    }
+    pull_only(course, &mechanism, tensions)?;
     let way = if slip < 0.0 { -1.0 } else { 1.0 };
-    let push = pushed(&mechanism, &start, acting.along).ok_or_else(|| unsolved(course))?;
-    let sprung = acting.spring.map(|[stiffness, relaxed]| Sprung {
-        smooth: &mechanism,
-        along: acting.along,
-        stiffness: stiffness / mass * units.time * units.time,
-        push,
-        relaxed: relaxed / units.length,
-    });
+    let sprung = sprung(course, &mechanism, &start, &acting, &units)?;
     let mobile: &dyn Mobile = match &sprung {
         Some(sprung) => sprung,
         None => &mechanism,
     };
-    let run = to_the_end(
-        course,
-        slide,
-        &acting,
-        &units,
-        mobile,
-        &start,
-        (way, rubs > 0.0),
-    )?;
+    let rubbed = (way, rubs > 0.0);
+    let run = to_the_end(course, slide, &acting, &units, mobile, &start, rubbed)?;
     let still = |y: &[f64]| way * slipping(&acting, &units, y) < -ROUNDING * size.speed;
     if turns && slips && still(&run.end) {
         return Err(course.never("it rolls before"));
@@ -179,23 +162,50 @@ pub(in crate::numeric::follow) fn slide(
     if ropes.room.iter().any(|room| way > room * (1.0 + ROUNDING)) {
         return Err(course.never("a body gets to the pulley of its string before"));
     }
-    let time = Ok(run.time * units.time);
-    let acceleration = units.length / (units.time * units.time);
-    let driven = directions.iter().enumerate();
-    let driven = driven.filter(|(_, (along, _))| *along != [0.0; 2]);
-    let driven = driven.map(|(i, (along, _))| Driven {
-        body: bodies[i],
-        acceleration: dot(&[rates[3 * i], rates[3 * i + 1]], along) * acceleration,
-        tension: ropes.pull(i, company, tensions).map(|t| t * units.force()),
-    });
-    let driven = driven.collect();
     let moved = Moved {
         bodies: bodies.to_vec(),
-        driven,
+        driven: driven(
+            &bodies,
+            &directions,
+            &rates,
+            (&ropes, company, tensions),
+            &units,
+        ),
         samples,
         ..Moved::default()
     };
+    let time = Ok(run.time * units.time);
     Ok(course.moved([before, after], time, has_forces, moved))
+}
+
+/// Strings push nothing.
+fn pull_only(course: &Course<'_>, mechanism: &Mechanism, tensions: &[f64]) -> Result<(), Lost> {
+    let forces = mechanism.forces.iter().flatten();
+    let largest = forces.fold(0.0, |a: f64, f| a.max(f.abs()));
+    match tensions.iter().any(|t| *t < -ROUNDING * largest) {
+        true => Err(course.contradiction("a string goes slack")),
+        false => Ok(()),
+    }
+}
+
+/// How each body on a line is driven at the beginning, from the rates and tensions in the units.
+fn driven(
+    bodies: &[usize],
+    directions: &[([f64; 2], f64)],
+    rates: &[f64],
+    (ropes, company, tensions): (&Ropes, usize, &[f64]),
+    units: &Units,
+) -> Vec<Driven> {
+    let acceleration = units.length / (units.time * units.time);
+    let lines = directions.iter().map(|(along, _)| along).enumerate();
+    lines
+        .filter(|(_, along)| **along != [0.0; 2])
+        .map(|(i, along)| Driven {
+            body: bodies[i],
+            acceleration: dot(&[rates[3 * i], rates[3 * i + 1]], along) * acceleration,
+            tension: (ropes.pull(i, company, tensions)).map(|t| t * units.force()),
+        })
+        .collect()
 }
 
 /// The state behind a bend: what came along as one turns into the line.
@@ -225,6 +235,27 @@ fn begun(course: &Course<'_>, slide: &Slide, before: &State) -> State {
         *spin = spin.clone().or(Ok(0.0));
     }
     begin
+}
+
+/// The motion with the spring that the first body meets; nothing without one.
+fn sprung<'m>(
+    course: &Course<'_>,
+    mechanism: &'m Mechanism,
+    start: &[f64],
+    acting: &Acting,
+    units: &Units,
+) -> Result<Option<Sprung<'m>>, Lost> {
+    let Some([stiffness, relaxed]) = acting.spring else {
+        return Ok(None);
+    };
+    let push = pushed(mechanism, start, acting.along).ok_or_else(|| unsolved(course))?;
+    Ok(Some(Sprung {
+        smooth: mechanism,
+        along: acting.along,
+        stiffness: stiffness / units.mass * units.time * units.time,
+        push,
+        relaxed: relaxed / units.length,
+    }))
 }
 
 /// How the rates of all bodies change by one unit of force on the first one along a line.
