@@ -206,11 +206,16 @@ pub(super) fn hand_on(scene: &mut Scene, named: &[(Symbol, Expr)]) -> BTreeMap<S
         if !has_root(e) {
             return;
         }
-        // What may vanish divides nothing.
+        // What may vanish and stays below the line divides nothing.
+        let has_pole = |ratio: &Expr| {
+            ratio.parts().any(|part| match part.node() {
+                Node::Power(base, k) => k.is_negative() && !is_definite(sign(base, &original)),
+                _ => false,
+            })
+        };
         let ratio = |e: &Expr, value: &Expr| {
             let ratio = tidy(&(e / value), &original).ok()?;
-            let divides = ratio.as_number().is_some() || is_definite(sign(value, &original));
-            (!has_root(&ratio) && !ratio.is_zero() && divides).then_some(ratio)
+            (!has_root(&ratio) && !ratio.is_zero() && !has_pole(&ratio)).then_some(ratio)
         };
         for (name, value) in &handed {
             if let Some(ratio) = ratio(e, value) {
