@@ -171,6 +171,9 @@ impl Field {
         function: Function,
         x: &Element,
     ) -> Result<Option<Element>, Stop> {
+        if let Some(own) = self.own_angle(function, x)? {
+            return Ok(Some(own));
+        }
         let below = mono_variables(&x.den.mono);
         let mut all = x.num.variables().into_iter().chain(below);
         let constant = all.all(|v| matches!(self.gens[v].kind, Kind::Root));
@@ -197,6 +200,35 @@ impl Field {
             }
         }
         Ok(None)
+    }
+
+    /// The arc sine of the sine or cosine of a base angle that stays where the sine or cosine takes each value once.
+    fn own_angle(&mut self, function: Function, x: &Element) -> Result<Option<Element>, Stop> {
+        let Some(v) = self.as_generator(x).filter(|_| function == Function::Asin) else {
+            return Ok(None);
+        };
+        let (base, low) = match self.gens[v].kind {
+            Kind::Sin(base) => (base, ratio(-1, 2)),
+            Kind::Cos(base) => (base, ratio(0, 1)),
+            _ => return Ok(None),
+        };
+        let stays = self
+            .in_turns(base)
+            .is_some_and(|i| i.is_within(&low, &(&low + ratio(1, 1))));
+        let AngleOf::Symbol(name) = self.bases[base].of.clone() else {
+            return Ok(None);
+        };
+        if !stays {
+            return Ok(None);
+        }
+        let part = self.bases[base].part.clone();
+        let [own, pi] = [name, Symbol::from("pi")].map(|s| Element::var(self.symbol(&s)));
+        let own = self.mul(&own, &self.number(&part))?;
+        if low.is_zero() {
+            let right = self.mul(&pi, &self.number(&ratio(1, 2)))?;
+            return self.sub(&right, &own).map(Some);
+        }
+        Ok(Some(own))
     }
 
     /// The number q, when the element is q·π.

@@ -33,6 +33,12 @@ impl Interval {
         Interval { low, high }
     }
 
+    /// Whether it lies between two fractions.
+    pub fn is_within(&self, low: &Rational, high: &Rational) -> bool {
+        let is_low = self.low.as_ref().is_some_and(|(end, _)| end >= low);
+        is_low && self.high.as_ref().is_some_and(|(end, _)| end <= high)
+    }
+
     /// Everything above zero.
     pub fn above_zero(open: bool) -> Interval {
         let low = Some((ratio(0, 1), open));
@@ -94,6 +100,16 @@ impl Field {
         self.sign_of_factors(p, 3)
     }
 
+    /// The sign of a logarithm: on which side of 1 its argument lies.
+    fn by_logarithm(&self, p: &Poly) -> Option<Sign> {
+        let v = self.as_generator(&Element::from_poly(p.clone()))?;
+        let Kind::Call(Function::Ln, x) = &self.gens[v].kind else {
+            return None;
+        };
+        let beyond = self.sub(x, &self.integer(1)).ok()?;
+        self.sign_of(&beyond)
+    }
+
     /// The sign of a polynomial by those of its factors.
     fn sign_of_factors(&self, p: &Poly, depth: u32) -> Option<Sign> {
         let parts = factor(p, &self.fuel);
@@ -111,6 +127,7 @@ impl Field {
     fn sign_irreducible(&self, p: &Poly, depth: u32) -> Option<Sign> {
         let told = self
             .by_coefficients(p, &[])
+            .or_else(|| self.by_logarithm(p))
             .or_else(|| self.by_relations(p))
             .or_else(|| self.by_ends(p, depth));
         if told.is_some() {
@@ -454,7 +471,7 @@ fn within(i: &Interval, low: Rational, high: Rational) -> Known {
     let (Some((a, open_a)), Some((b, open_b))) = (&i.low, &i.high) else {
         return Known::Unknown;
     };
-    if *a < low || *b > high {
+    if !i.is_within(&low, &high) {
         return Known::Unknown;
     }
     let touches = (*a == low && !open_a) || (*b == high && !open_b);

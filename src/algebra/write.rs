@@ -336,7 +336,8 @@ impl Field {
         out
     }
 
-    /// Terms a X − a X c² joined to a X s², and cos α cos β ± sin α sin β and the like to one function of α ± β.
+    /// Terms a X − a X c² joined to a X s², logarithms and arcs joined, and cos α cos β ± sin α sin β and the like to one
+    /// function of α ± β.
     fn shortened(&self, p: &Poly) -> Vec<Term> {
         let mut terms: Vec<Term> = p
             .terms()
@@ -359,6 +360,8 @@ impl Field {
                 });
             }
         }
+        self.join_logarithms(p, &mut terms);
+        self.join_arcs(p, &mut terms);
         let present: Vec<usize> = (0..self.bases.len())
             .filter(|i| p.has(self.bases[*i].cos) || p.has(self.bases[*i].sin))
             .collect();
@@ -382,6 +385,61 @@ impl Field {
             }
         }
         terms
+    }
+
+    /// ln 2 + ln 5 joined to ln 10.
+    fn join_logarithms(&self, p: &Poly, terms: &mut Vec<Term>) {
+        let logarithms: Vec<(usize, Rational)> = self
+            .calls(p, Function::Ln)
+            .filter_map(|(v, x)| Some((v, x.as_number()?)))
+            .collect();
+        for (k, (u, x)) in logarithms.iter().enumerate() {
+            for (v, y) in &logarithms[k + 1..] {
+                join(terms, &mono_of(*u, 1), &mono_of(*v, 1), |same| {
+                    let whole = if same { x * y } else { x / y };
+                    let ln = Expr::call(Function::Ln, Expr::from(whole));
+                    Some((Mono::new(), Some(ln)))
+                });
+            }
+        }
+    }
+
+    /// π − 2 asin x joined to 2 acos x.
+    fn join_arcs(&self, p: &Poly, terms: &mut Vec<Term>) {
+        let is_pi = |v: &usize| matches!(&self.gens[*v].kind, Kind::Symbol(s) if &**s == "pi");
+        let Some(pi) = (0..self.gens.len()).find(is_pi).filter(|v| p.has(*v)) else {
+            return;
+        };
+        for (v, x) in self.calls(p, Function::Asin) {
+            let found = terms.iter().enumerate().find_map(|(i, term)| {
+                let rest = mono_divides(&mono_of(pi, 1), &term.mono)
+                    .then(|| mono_div(&term.mono, &mono_of(pi, 1)))?;
+                let other = mono_add(&rest, &mono_of(v, 1)).ok()?;
+                let coeff = -(term.coeff.clone() * Int::from(2));
+                let is_other = |t: &Term| {
+                    t.gathered.is_none() && t.coeff == coeff && trimmed(&t.mono) == trimmed(&other)
+                };
+                let j = terms.iter().position(is_other)?;
+                Some((i, j, rest))
+            });
+            if let Some((i, j, rest)) = found {
+                terms[j] = Term {
+                    mono: rest,
+                    coeff: -terms[j].coeff.clone(),
+                    gathered: Some(Expr::call(Function::Acos, self.kept(&x))),
+                };
+                terms.remove(i);
+            }
+        }
+    }
+
+    /// The variables of a polynomial that stand for a function, each with its argument.
+    fn calls(&self, p: &Poly, function: Function) -> impl Iterator<Item = (usize, Element)> {
+        let present = (0..self.gens.len()).filter(|v| p.has(*v));
+        present.filter_map(move |v| match &self.gens[v].kind {
+            Kind::Call(f, x) if *f == function => Some((v, x.clone())),
+            _ => None,
+        })
     }
 }
 

@@ -14,6 +14,7 @@ mod powers;
 mod roots;
 mod taylor;
 mod threshold;
+mod undo;
 mod zeros;
 
 use std::collections::BTreeMap;

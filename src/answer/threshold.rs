@@ -5,15 +5,13 @@
 
 use std::collections::BTreeSet;
 
-use num_traits::Signed;
-
 use super::Check;
 use super::calc::{Roots, Seen, Unsolved, by_signs, end_of, essential, is_zero, sign, solve, tidy};
 use super::inequality::{everywhere, sign_words};
-use super::{Answer, Form, intervals, limit};
+use super::{Answer, Form, intervals, limit, undo};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, Limit};
-use crate::expr::{Expr, Function, Node, Symbol, ratio};
+use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Relation, write_plain};
 use crate::formula::{Sentence, sentence};
 use crate::interval::enclosure::decimal;
@@ -34,7 +32,13 @@ pub(super) fn fill(
     let domains = &scene.domains;
     let gap = left - right;
     let gap = tidy(&gap, domains).unwrap_or(gap);
-    let gap = argument(&gap, parameter, domains).unwrap_or(gap);
+    let (gap, domains) = match undo::outermost(&gap, parameter, domains) {
+        Some(inner) => {
+            out.assumptions.extend(inner.given);
+            (inner.gap, &inner.domains.clone())
+        }
+        None => (gap, domains),
+    };
     let upward = matches!(relation, Relation::Greater | Relation::GreaterEqual);
     let under = radicand(&gap, domains).filter(|_| upward);
     let (gap, rooted) = (under.clone().unwrap_or(gap), under.is_some());
@@ -121,41 +125,6 @@ fn radicand(gap: &Expr, domains: &Domains) -> Option<Expr> {
         Node::Power(base, half) if *half == Expr::ratio(1, 2) => Some(base.clone()),
         _ => None,
     }
-}
-
-/// What has the sign of `k·asin(X) + c` without the arc: `± (X − sin(−c/k))`, where −c/k is a value that the arc takes;
-/// likewise for the other arcs.
-fn argument(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Expr> {
-    use Function::{Acos, Asin, Atan};
-    let arc = gap.parts().find_map(|part| match part.node() {
-        Node::Call(f @ (Asin | Acos | Atan), inside) if inside.mentions(parameter) => {
-            Some((part, *f, inside))
-        }
-        _ => None,
-    });
-    let (arc, function, inside) = arc?;
-    let at = |value: i64| tidy(&gap.replace(arc, &Expr::from(value)), domains).ok();
-    let [rest, one, two] = [at(0)?, at(1)?, at(2)?];
-    let step = tidy(&(&one - &rest), domains).ok()?;
-    let linear = is_zero(&(two - &one - &step), domains) == Some(true);
-    let is_fit = linear && !rest.mentions(parameter);
-    let factor = step.as_number().filter(|_| is_fit)?;
-    let target = tidy(&-(&rest / &step), domains).ok()?;
-    // The value as a share of half a turn tells whether the arc takes it.
-    let share = tidy(&(&target / &Expr::pi()), domains).ok()?;
-    let share = share.as_number()?.clone();
-    let half = ratio(1, 2);
-    let (value, taken) = match function {
-        Acos => (target.cos(), (ratio(0, 1)..=ratio(1, 1)).contains(&share)),
-        Asin => (target.sin(), (-&half..=half).contains(&share)),
-        _ => {
-            let taken = share > -&half && share < half;
-            (target.sin() / target.cos(), taken)
-        }
-    };
-    let difference = inside - &value;
-    let upward = (function != Acos) == factor.is_positive();
-    taken.then(|| if upward { difference } else { -difference })
 }
 
 /// On which side of the root the inequality holds.

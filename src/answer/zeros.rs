@@ -70,6 +70,9 @@ pub(super) fn angle(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Root
     let own = own.unwrap_or_else(Domain::first_quadrant);
     let ends = [(&own.low, true), (&own.high, false)]
         .map(|(end, is_low)| end.as_ref().and_then(|end| to_right_angle(end, is_low)));
+    if swap(e, symbol, &Expr::one(), &Expr::one()).is_none() {
+        return Err(Unsolved::Inside);
+    }
     let [Some(low), Some(high)] = ends else {
         return Err(Unsolved::Limit(format!(
             "an angle is solved for between bounds within -pi and pi: give {symbol} a domain, such as {{\"min\": 0, \"max\": \"pi/2\"}}"

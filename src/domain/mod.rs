@@ -142,6 +142,14 @@ impl Domain {
         Domain::default()
     }
 
+    /// Leaves out a number that is one of its ends; tells whether it was in.
+    pub fn leave_out(&mut self, number: i64) -> bool {
+        let number = Limit::number(ratio(number, 1), false);
+        let ends = self.low.iter_mut().chain(&mut self.high);
+        let own = ends.filter(|end| **end == number);
+        own.map(|end| end.open = true).count() > 0
+    }
+
     /// The closed interval from `low` to `high`.
     pub fn between(low: Rational, high: Rational) -> Domain {
         let [low, high] = [low, high].map(|end| Some(Limit::number(end, false)));

@@ -5,6 +5,8 @@
 //! guessed for n − 1: where that turn ends with the state guessed for n, and the first turn ends with the one for 1, every
 //! turn does. What is asked is then read off that turn.
 
+use std::collections::BTreeSet;
+
 use super::{put, rests_on, supposed, unanswered, ways};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, is_zero, sign, tidy};
@@ -37,6 +39,7 @@ pub(super) fn answer(
     question: &Question,
     (number, turns, of, total): (&Symbol, &Turns, &[Expr], bool),
 ) -> Result<Answer, Refused> {
+    let (scene, given) = &without_zero(scene);
     let asked = Asked {
         scene,
         number,
@@ -45,9 +48,33 @@ pub(super) fn answer(
         total,
     };
     match asked.found(stages, question)? {
-        Ok(answer) => Ok(answer),
+        Ok(mut answer) => {
+            let stands = |symbol: &&Symbol| answer.formula().is_some_and(|f| f.mentions(symbol));
+            let needed = given.iter().filter(stands);
+            let needed: Vec<Sentence> = needed.map(|s| sentence!("{} > 0", s)).collect();
+            answer.assumptions.extend(needed);
+            Ok(answer)
+        }
         Err(why) => Ok(unanswered(question, &why)),
     }
+}
+
+/// The scene where what may be zero or more is more, and what that was: powers are taken of it. With a restitution of zero there
+/// is no second bounce.
+fn without_zero(scene: &Scene) -> (Scene, BTreeSet<Symbol>) {
+    let (mut scene, mut changed) = (scene.clone(), BTreeSet::new());
+    let stages = scene
+        .stages
+        .iter_mut()
+        .map(|stage| &mut stage.scene.domains);
+    for domains in stages.chain([&mut scene.domains]) {
+        for (symbol, domain) in &mut domains.symbols {
+            if domain.leave_out(0) {
+                changed.insert(symbol.clone());
+            }
+        }
+    }
+    (scene, changed)
 }
 
 impl Asked<'_> {

@@ -6,7 +6,7 @@ mod top;
 use super::bearing::bearing;
 use super::{arrival, balance, half, kept, meanwhile, pushed, tidied};
 use crate::answer::calc::{Seen, at_least_zero, is_zero, sign, tidy};
-use crate::expr::{Expr, Vector, cross, dot, minus};
+use crate::expr::{Expr, Function, Vector, cross, dot, minus};
 use crate::formula::Sentence;
 use crate::scene::{Lump, Stage, Turn, Until, direction};
 use crate::story::{Refused, StageTold, State};
@@ -50,7 +50,8 @@ pub(in crate::story) fn turn(
     let start = tidied(stage, &half(&(&inertia * &spin.powi(2))))?;
     let kept_below = stops(stage, turn, &spin, &start, &r)?;
     let turned = turned(stage, turn, &spin, &r);
-    let through = through(stage, turn, turned.as_ref(), way)?;
+    let through = through(stage, turn, turned.as_ref(), &r, way)?;
+    let turned = through.as_ref().map(|by| Expr::from(way) * by).or(turned);
     let parts = work(stage, turn, &lump, arms, through.as_ref())?;
     let (work, end, reaches) = balance(stage, turn.body, &start, &parts)?;
     let (mut needs, mut assumptions) = (Vec::new(), Vec::new());
@@ -186,22 +187,37 @@ fn through(
     stage: &Stage,
     turn: &Turn,
     turned: Option<&Expr>,
+    r: &Vector,
     way: i64,
 ) -> Result<Option<Expr>, Refused> {
-    let Some(forward) = turned.map(|by| Expr::from(way) * by) else {
-        return Ok(None);
-    };
+    let forward = turned.map(|by| Expr::from(way) * by);
     let forward = match turn.until {
         // The arc cosine of a swing reads best as it is.
-        Until::Stops if turn.gravity.is_some() => return Ok(Some(forward)),
+        Until::Stops if turn.gravity.is_some() => return Ok(forward),
         Until::Stops | Until::By(_) | Until::For(_) => forward,
         // A place is reached up to whole turns, and the sense of the rotation says which.
-        Until::Above | Until::Below => match within_a_turn(stage, forward) {
-            Some(forward) => forward,
-            None => return Ok(None),
-        },
+        Until::Above | Until::Below => forward
+            .and_then(|forward| within_a_turn(stage, forward))
+            .or_else(|| arc(stage, turn, r, way)),
     };
-    tidied(stage, &forward).map(Some)
+    forward.map(|by| tidied(stage, &by)).transpose()
+}
+
+/// The angle in the sense of the rotation from an arm to the vertical through the fixed point, by its cosine; `None` where the side
+/// of the vertical on which the arm begins is not decided.
+fn arc(stage: &Stage, turn: &Turn, r: &Vector, way: i64) -> Option<Expr> {
+    let end = if matches!(turn.until, Until::Above) {
+        1
+    } else {
+        -1
+    };
+    let length = dot(r, r).sqrt();
+    let least = Expr::call(Function::Acos, &(Expr::from(end) * &r[1]) / &length);
+    let ahead = Expr::from(end * way) * &r[0];
+    match sign(&ahead, &stage.scene.domains).side()? {
+        true => Some(least),
+        false => Some(Expr::from(2) * Expr::pi() - least),
+    }
 }
 
 /// An angle less whole turns, so that it is positive and no more than one; `None` where its sign is not decided.
