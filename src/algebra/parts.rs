@@ -61,12 +61,7 @@ impl Parts {
             let (f, k) = self.factors[i].clone();
             let partner = (i + 1..self.factors.len()).find_map(|j| {
                 let (g, l) = &self.factors[j];
-                let product = if f.len() == 2 && g.len() == 2 && k == *l {
-                    f.mul(g).ok()?
-                } else {
-                    return None;
-                };
-                (product.len() == 2).then_some((j, product))
+                Some((j, conjugates(&f, g).filter(|_| k == *l)?))
             });
             match partner {
                 Some((j, product)) => {
@@ -77,6 +72,12 @@ impl Parts {
             }
         }
     }
+}
+
+/// The product x² − y² of x − y and x + y, which is shorter.
+pub(super) fn conjugates(f: &Poly, g: &Poly) -> Option<Poly> {
+    let product = (f.len() == 2 && g.len() == 2).then(|| f.mul(g).ok())??;
+    (product.len() == 2).then_some(product)
 }
 
 impl Field {

@@ -3,8 +3,9 @@
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
+use super::element::Element;
 use super::field::Field;
-use super::parts::Parts;
+use super::parts::{Parts, conjugates};
 use super::poly::Poly;
 use crate::expr::{Expr, Int, Node, Rational, ratio};
 
@@ -149,6 +150,7 @@ impl Field {
         let (rooted, mut rest): (Vec<Factor>, Vec<Factor>) = factors
             .into_iter()
             .partition(|f| half(f) && !(apart && unsure(f)));
+        let rooted = self.with_joined_conjugates(rooted);
         // 1/√2 is written √2/2, and numbers stand in front.
         let numeric = rooted.iter().all(|f| f.rank == Rank::Number);
         let all_below = !numeric && rooted.iter().all(|f| f.power.is_negative());
@@ -183,6 +185,27 @@ impl Field {
             out.extend(root);
         }
         Expr::product(out)
+    }
+
+    /// √(x − y) √(x + y) is √(x² − y²).
+    fn with_joined_conjugates(&self, mut rooted: Vec<Factor>) -> Vec<Factor> {
+        let under = |f: &Factor| Some(&self.gens[f.root?].relation.as_ref()?.1);
+        let joined = |f: &Factor, g: &Factor| match f.power == g.power {
+            true => conjugates(under(f)?, under(g)?),
+            false => None,
+        };
+        let mut i = 0;
+        while i < rooted.len() {
+            let partner =
+                (i + 1..rooted.len()).find_map(|j| Some((j, joined(&rooted[i], &rooted[j])?)));
+            if let Some((j, product)) = partner {
+                rooted.remove(j);
+                rooted[i].base = self.kept(&Element::from_poly(product));
+                rooted[i].root = None;
+            }
+            i += 1;
+        }
+        rooted
     }
 }
 

@@ -45,7 +45,7 @@ impl Field {
     }
 
     /// The same within an operation, remembered for a while: a root stands in many terms.
-    fn kept(&self, x: &Element) -> Expr {
+    pub(super) fn kept(&self, x: &Element) -> Expr {
         if let Some(known) = self.remembered(x) {
             return known;
         }
