@@ -172,7 +172,7 @@ fn by_function(
         };
         let value = by_heart(&range, same);
         Root {
-            value: value.unwrap_or_else(|| Expr::call(inverse, root.value.clone())),
+            value: value.unwrap_or_else(|| arc(inverse, &root.value, domains)),
             proved: root.proved,
             given: put_back(&root.given),
         }
@@ -333,6 +333,20 @@ fn swap(e: &Expr, symbol: &Symbol, t: &Expr, below: &Expr) -> Option<Expr> {
         },
         Node::Symbol(_) | Node::Number(_) | Node::Call(..) => None,
         _ => e.try_map_parts(|part| swap(part, symbol, t, below)),
+    }
+}
+
+/// The angle with this sine or cosine, by its tangent where that is shorter: cosθ = √5/5 is tanθ = 2.
+fn arc(inverse: Function, value: &Expr, domains: &Domains) -> Expr {
+    let rest = Expr::one() - value.powi(2);
+    let tangent = match inverse {
+        Function::Acos if sign(value, domains).is_positive() => rest.sqrt() / value.clone(),
+        Function::Asin if sign(&rest, domains).is_positive() => value.clone() / rest.sqrt(),
+        _ => return Expr::call(inverse, value.clone()),
+    };
+    match tidy(&tangent, domains) {
+        Ok(tangent) if tangent.size() < value.size() => Expr::call(Function::Atan, tangent),
+        _ => Expr::call(inverse, value.clone()),
     }
 }
 
