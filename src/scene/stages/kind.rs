@@ -3,8 +3,6 @@
 //! In: the record of a stage and the scene it begins with. Out: a [`StageKind`].
 
 use super::slide::slide;
-use crate::algebra::{self, Sign};
-use crate::domain::Domains;
 use crate::expr::Expr;
 use crate::scene::Scene;
 use crate::scene::check::Claim;
@@ -263,19 +261,6 @@ fn linkage_of(
     })
 }
 
-/// The angle turned through, which is counted in the sense of the rotation.
-fn turned_by(r: &mut Resolver<'_>, formula: &Formula) -> Option<Expr> {
-    let by = r.read(formula, Quantity::ANGLE)?;
-    match by.is_constant() && algebra::sign(&by, &Domains::default()) == Some(Sign::Negative) {
-        true => {
-            let message = "the angle turned through is negative";
-            let hint = "it counts in the sense of the rotation: \"clockwise\": true, and the angle without its minus sign";
-            r.refuse(formula.span, message, hint)
-        }
-        false => Some(by),
-    }
-}
-
 fn turn_of(r: &mut Resolver<'_>, turn: &TurnFile, span: Span) -> Option<Turn> {
     let ends = usize::from(turn.by.is_some())
         + usize::from(turn.until.is_some())
@@ -298,7 +283,7 @@ fn turn_of(r: &mut Resolver<'_>, turn: &TurnFile, span: Span) -> Option<Turn> {
         _ => String::new(),
     };
     let until = match (&turn.by, turn.until, &turn.time) {
-        (Some(by), ..) => Until::By(turned_by(r, by)?),
+        (Some(by), ..) => Until::By(r.read(by, Quantity::ANGLE)?),
         (_, Some(UntilName::Above), _) => Until::Above,
         (_, Some(UntilName::Below), _) => Until::Below,
         (_, Some(UntilName::Stops), _) => Until::Stops,

@@ -27,6 +27,7 @@ pub(in crate::story) fn turn(
     let domains = &stage.scene.domains;
     let body = &stage.scene.bodies[turn.body];
     let lump = turn.lump(&stage.scene);
+    let forward = counts_forward(stage, turn)?;
     whirl(stage, &mut before, turn)?;
     let spin = before.spin[turn.body].clone();
     fits(stage, &before, turn, &spin)?;
@@ -67,7 +68,7 @@ pub(in crate::story) fn turn(
     if is_balanced(stage, turn, &spin, &r) {
         assumptions.push(pushed(&body.name));
     }
-    assumptions.extend(counts_forward(stage, turn)?);
+    assumptions.extend(forward);
     let spin_end = if work.is_zero() {
         spin.clone()
     } else {
