@@ -40,7 +40,7 @@ pub(super) fn fill(
         None => (gap, domains),
     };
     let upward = matches!(relation, Relation::Greater | Relation::GreaterEqual);
-    let under = radicand(&gap, domains).filter(|_| upward);
+    let under = radicand(&gap, parameter, domains).filter(|_| upward);
     let (gap, rooted) = (under.clone().unwrap_or(gap), under.is_some());
     let roots = match solve(&gap, parameter, domains) {
         Ok(roots) => roots,
@@ -119,10 +119,22 @@ pub(super) fn fill(
 }
 
 /// What stands under the root where a difference is a root, but for positive factors: it is there, and not negative, just
-/// where that is not negative.
-fn radicand(gap: &Expr, domains: &Domains) -> Option<Expr> {
-    match essential(gap, domains).node() {
-        Node::Power(base, half) if *half == Expr::ratio(1, 2) => Some(base.clone()),
+/// where that is not negative. Factors that may vanish whatever the parameter is stay beside it.
+fn radicand(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Expr> {
+    let core = essential(gap, domains);
+    let factors = match core.node() {
+        Node::Product(factors) => factors.as_slice(),
+        _ => std::slice::from_ref(&core),
+    };
+    let is_idle = |f: &&Expr| !f.mentions(parameter) && sign(f, domains).side() == Some(true);
+    let (idle, rest): (Vec<&Expr>, Vec<&Expr>) = factors.iter().partition(is_idle);
+    let [root] = rest.as_slice() else {
+        return None;
+    };
+    match root.node() {
+        Node::Power(base, half) if *half == Expr::ratio(1, 2) => {
+            Some(Expr::product(idle.into_iter().chain([base]).cloned()))
+        }
         _ => None,
     }
 }
