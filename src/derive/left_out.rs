@@ -6,7 +6,7 @@ use super::Work;
 use super::count::Counting;
 use crate::expr::{Expr, Symbol};
 use crate::laws::{self, Law, Unknown};
-use crate::scene::{Ask, ContactLaw, ImpulseAt, Scene};
+use crate::scene::{Ask, Contact, ContactLaw, ImpulseAt, Scene};
 
 /// Something that was neither built nor printed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -54,6 +54,15 @@ pub(super) fn list(work: &Work<'_>, counting: &Counting, asked: usize) -> Vec<Le
         }
     }
     for contact in &scene.contacts {
+        if is_pin(scene, contact) {
+            let [a, b] = contact.bodies.map(|b| &scene.bodies[b].name);
+            add(
+                format!("couple at {}", contact.name),
+                format!(
+                    "{a} and {b} stick at a point, about which each may turn as on a pin; what is one body afterwards sticks at two points"
+                ),
+            );
+        }
         if let ContactLaw::Frictionless { .. } = contact.law {
             add(
                 format!("tangential impulse at {}", contact.name),
@@ -128,6 +137,16 @@ fn joined(scene: &Scene, unknowns: &[Unknown]) -> Vec<usize> {
         Some(Unknown::Blow(b)) => vec![scene.blows[*b].body],
         _ => Vec::new(),
     }
+}
+
+/// Whether two bodies that can turn stick at this contact alone.
+fn is_pin(scene: &Scene, contact: &Contact) -> bool {
+    let turns = |b: &usize| !scene.bodies[*b].is_fixed() && !scene.bodies[*b].is_particle();
+    let joins = |bodies: &[usize; 2]| contact.bodies.iter().all(|b| bodies.contains(b));
+    let sticks = |c: &&Contact| c.law == ContactLaw::Sticking && joins(&c.bodies);
+    sticks(&contact)
+        && contact.bodies.iter().all(turns)
+        && scene.contacts.iter().filter(sticks).count() == 1
 }
 
 /// The unknown impulses by the place that transmits them.

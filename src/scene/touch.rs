@@ -33,6 +33,16 @@ pub fn may_lie_inside(contact: &Contact) -> bool {
     contact.law == ContactLaw::Sticking
 }
 
+/// Whether two bodies stick at another contact before this one too: they are one body afterwards, and the second point only says so.
+/// It may lie beside them: disks that are glued together touch in one point.
+pub fn is_second_latch(scene: &Scene, contact: &Contact) -> bool {
+    let same = |other: &Contact| {
+        may_lie_inside(other) && other.bodies.iter().all(|b| contact.bodies.contains(b))
+    };
+    let mut first = scene.contacts.iter().take_while(|c| c.name != contact.name);
+    may_lie_inside(contact) && first.any(same)
+}
+
 /// The contacts that lie off their bodies.
 pub fn misplaced(scene: &Scene) -> Vec<Misplaced> {
     let all = 0..scene.contacts.len();
@@ -42,6 +52,9 @@ pub fn misplaced(scene: &Scene) -> Vec<Misplaced> {
 /// The same for one contact.
 pub fn misplaced_contact(scene: &Scene, i: usize) -> Option<Misplaced> {
     let contact = scene.contacts.get(i)?;
+    if is_second_latch(scene, contact) {
+        return None;
+    }
     contact.bodies.iter().find_map(|&b| {
         let body = scene.bodies.get(b)?;
         let words = off(scene, contact, body)?;

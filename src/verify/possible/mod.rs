@@ -365,7 +365,7 @@ impl Judge<'_> {
 
     /// Whether the contact lies on the body.
     fn place(&mut self, contact: &Contact, body: &Body) {
-        if body.is_particle() {
+        if body.is_particle() || touch::is_second_latch(self.scene, contact) {
             return;
         }
         let spots = touch::spots(body, &contact.at, touch::may_lie_inside(contact));
