@@ -213,8 +213,7 @@ fn places<'f>(r: &Resolver<'f>) -> Vec<&'f str> {
         .flatten()
         .filter_map(|s| s.impact.as_ref())
     {
-        out.extend(keys(&impact.contacts).chain(keys(&impact.hinges)));
-        out.extend(keys(&impact.supports).chain(keys(&impact.strings)));
+        out.extend(impact.places().into_iter().map(|name| name.text.as_str()));
     }
     out
 }

@@ -56,7 +56,7 @@ record! {
         /// Names of the questions whose answers are the unknowns of the matrix, one per column.
         unknowns: Option<Vec<Text>>,
         /// Name of the stage at whose end a velocity, speed, spin, impulse or energy is asked, or which a reaction or angular momentum
-        /// belongs to. Missing: the last stage.
+        /// belongs to. Missing: the last stage; for an impulse the one impact that has its place.
         at: Option<Text>,
         /// Beginning or end of the stage, for a reaction or an angular momentum; in a scene without stages also just before or
         /// just after the impact, for a velocity, a speed or a spin. Missing: the end, or just after.

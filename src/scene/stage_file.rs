@@ -4,6 +4,7 @@ use super::body_file::VelocityFile;
 use super::contact_file::{BlowFile, ContactFile, ForceFile, HingeFile, KnownFile};
 use super::place_file::{DirectionFile, PositionFile};
 use super::record::{Formula, Map, Pair, Text, choice, record};
+use super::resolve::keys;
 
 record! {
     /// A stage: exactly one of impact, turn, slide, fall, wind and linkage. Its formulas may hold the names of answers to
@@ -268,5 +269,14 @@ choice! {
         Start = "start",
         /// At the end.
         End = "end",
+    }
+}
+
+impl ImpactFile {
+    /// Names of everything that holds or touches.
+    pub fn places(&self) -> Vec<&Text> {
+        let joints = [keys(self.contacts.as_ref()), keys(self.hinges.as_ref())];
+        let one_sided = [keys(self.supports.as_ref()), keys(self.strings.as_ref())];
+        joints.into_iter().chain(one_sided).flatten().collect()
     }
 }

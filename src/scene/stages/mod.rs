@@ -24,7 +24,7 @@ use crate::scene::formulas::{Quantity, Symbols};
 use crate::scene::place::Place;
 use crate::scene::questions::About;
 use crate::scene::record::{Map, Text};
-use crate::scene::resolve::{Resolver, entries};
+use crate::scene::resolve::{Resolver, entries, keys};
 use crate::scene::stage::{OneSided, Stage, StageKind};
 use crate::scene::stage_file::{EndName, StageFile, StartFile};
 use crate::scene::{Body, Scene, Shape, geometry, questions};
@@ -226,13 +226,31 @@ fn homes(base: &mut Resolver<'_>, stages: &[StageFile]) -> HashMap<usize, usize>
             base.report(place, message, hint);
             continue;
         }
+        let only = q.impulse.as_ref().filter(|_| q.at.is_none());
+        let only = only.and_then(|place| only_impact_at(stages, &place.text));
         if questions::asks(q, About::Motion)
-            && let Some(i) = stage_named(&mut base.faults, stages, q.at.as_ref())
+            && let Some(i) = only.or_else(|| stage_named(&mut base.faults, stages, q.at.as_ref()))
         {
             out.insert(k, i);
         }
     }
     out
+}
+
+/// The impact that has a contact, hinge, blow, support or string of this name, if only one has.
+fn only_impact_at(stages: &[StageFile], place: &str) -> Option<usize> {
+    let has = |stage: &StageFile| {
+        stage.impact.as_ref().is_some_and(|impact| {
+            let mut all = impact
+                .places()
+                .into_iter()
+                .chain(keys(impact.blows.as_ref()));
+            all.any(|name| name.text == place)
+        })
+    };
+    let mut found = (0..stages.len()).filter(|i| has(&stages[*i]));
+    let first = found.next()?;
+    found.next().is_none().then_some(first)
 }
 
 pub(super) fn stage_named(
