@@ -84,9 +84,14 @@ impl VelocityFile {
 
 impl Read for VelocityFile {
     fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self> {
-        match node.value {
+        match &node.value {
             Value::List(_) => Pair::read(node, faults).map(VelocityFile::Components),
             Value::Object(_) => AboutFile::read(node, faults).map(VelocityFile::About),
+            Value::Text(text) => {
+                let message = "expected a velocity: [x, y] or {\"about\": …}, found a text";
+                let hint = format!("to the right it is [\"{text}\", 0]");
+                Fault::new(node.span, message).hint(hint).add_to(faults)
+            }
             _ => unexpected(node, "a velocity: [x, y] or {\"about\": …}", faults),
         }
     }

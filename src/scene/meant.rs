@@ -10,6 +10,17 @@ pub(super) fn meant(word: &str, here: &[&str]) -> Option<&'static str> {
     }
 }
 
+/// What a field that is missing has to say.
+pub(super) fn missing(field: &str) -> Option<&'static str> {
+    Some(match field {
+        "along" => {
+            "the direction: \"x\", \"-x\", \"y\", \"-y\", the components [x, y] of a unit vector, or {\"angle\": …}"
+        }
+        "about" => "the point that it turns about: its name, or its place [x, y]",
+        _ => return None,
+    })
+}
+
 /// What a word means among these; `Some(None)` where nothing is to be said of it.
 fn among(word: &str, here: &[&str]) -> Option<Option<&'static str>> {
     let has = |word| here.contains(&word);
@@ -72,7 +83,7 @@ fn anywhere(word: &str) -> Option<&'static str> {
             "a pulley is a body, a disk of mass \"0\" where it is light; a `slide` has `strings` `over` it, and an impact has one of the `strings` on each side of it"
         }
         "weld" | "welded" | "glued" | "rigid" | "docking" => {
-            "bodies that are one after the impact stick at two points: two contacts with \"law\": \"sticking\""
+            "bodies that are one after the impact stick at two points: two contacts with \"law\": \"sticking\", the second anywhere beside the first"
         }
         "omega" | "angular_velocity" | "rotation" => "an angular velocity is `spin`",
         "gained" | "gain" | "released" => "energy that is gained is `lost` with a minus sign",

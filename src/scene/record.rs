@@ -352,7 +352,11 @@ pub(super) fn field<T: Read>(
             // An unreadable or misspelled neighbor may be this field.
             if absent.is_none() && is_sound(node.span, faults) {
                 let fault = Fault::new(node.span, format!("the field `{name}` is missing"));
-                faults.push(fault.shown_at(node.span.opening()));
+                let fault = fault.shown_at(node.span.opening());
+                faults.push(match super::meant::missing(name) {
+                    Some(hint) => fault.hint(hint),
+                    None => fault,
+                });
             }
             absent
         }

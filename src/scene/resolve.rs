@@ -207,21 +207,20 @@ impl<'f> Resolver<'f> {
         for (name, blow) in entries(file.blows.as_ref()) {
             let body = self.moving(&blow.on);
             let at = self.position(&blow.at);
-            let impulse =
-                match (&blow.impulse, &blow.along) {
-                    (Some(given), None) => self
-                        .vector(given, Quantity::IMPULSE)
-                        .map(BlowImpulse::Given),
-                    (None, Some(along)) => self.direction(along).map(BlowImpulse::Along),
-                    _ => {
-                        let message = "a blow has either `impulse` or `along`";
-                        let fault = Fault::new(blow.span, message).shown_at(name.span);
-                        self.faults.push(fault.hint(
-                            "`impulse` gives it; `along` only says in which direction it acts",
+            let impulse = match (&blow.impulse, &blow.along) {
+                (Some(given), None) => self
+                    .vector(given, Quantity::IMPULSE)
+                    .map(BlowImpulse::Given),
+                (None, Some(along)) => self.direction(along).map(BlowImpulse::Along),
+                _ => {
+                    let message = "a blow has either `impulse` or `along`";
+                    let fault = Fault::new(blow.span, message).shown_at(name.span);
+                    self.faults.push(fault.hint(
+                            "`impulse` gives it; `along` only says in which direction it acts, and one of unknown direction is two blows, `along` x and `along` y",
                         ));
-                        None
-                    }
-                };
+                    None
+                }
+            };
             if let (Some(body), Some(at), Some(impulse)) = (body, at, impulse) {
                 self.reach([body, body], &at, name.span, &name.text);
                 scene.blows.push(Blow {
