@@ -101,9 +101,12 @@ impl Work<'_> {
             }
         }
         if self.order_matters() {
-            all.push(String::from(
-                "all contacts act at the same instant, each with its own restitution (Newton); acting one after another they could leave a different motion",
-            ));
+            let rebounds = |c: &Contact| matches!(&c.law, ContactLaw::Frictionless { restitution } if !restitution.is_zero());
+            let own = match self.scene.contacts.iter().any(rebounds) {
+                true => ", each with its own restitution (Newton)",
+                false => "",
+            };
+            all.push(format!("all contacts act at the same instant{own}; acting one after another they could leave a different motion"));
         }
         for contact in &self.scene.contacts {
             if let ContactLaw::Decided(decided) = &contact.law {

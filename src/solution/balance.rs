@@ -251,13 +251,19 @@ impl Writer<'_> {
     ) {
         let d = along.vector();
         let dot = |v: &Vector| &v[0] * &d[0] + &v[1] * &d[1];
-        let mut left = Vec::new();
+        // Bodies that change their velocity alike count with their mass together.
+        let mut changes: Vec<(Expr, Expr)> = Vec::new();
         for &b in system {
             let v = self.velocity_after(b);
             let change = dot(&v) - dot(self.g.before(b).0);
             let change = self.tidy(&change);
-            left.push(self.g.mass(b) * &change);
+            let mass = self.g.mass(b).clone();
+            match changes.iter_mut().find(|(_, alike)| *alike == change) {
+                Some((total, _)) => *total = self.tidy(&(&*total + &mass)),
+                None => changes.push((mass, change)),
+            }
         }
+        let left: Vec<Expr> = changes.iter().map(|(mass, v)| mass * v).collect();
         let mut right = Vec::new();
         for x in self.outside(system, None) {
             let p = dot(&x.impulse);

@@ -121,15 +121,20 @@ impl Writer<'_> {
                 )
             }
             _ => {
-                let reasons = along.iter().map(|(axis, bodies)| {
+                let forces = along.iter().map(|(axis, bodies)| {
                     let on = words::either(bodies);
-                    format!("no impulse acts on {on} along {}", direction(axis))
+                    format!("on {on} along {}", direction(axis))
                 });
+                let forces: Vec<String> = forces.collect();
+                let forces = match forces.is_empty() {
+                    true => None,
+                    false => Some(format!("no impulse acts {}", forces.join(", nor "))),
+                };
                 let turns = (!spins.is_empty()).then(|| {
                     let of = words::either(&spins);
                     format!("no impulse has a moment about the center of mass of {of}")
                 });
-                let reasons: Vec<String> = reasons.chain(turns).collect();
+                let reasons: Vec<String> = forces.into_iter().chain(turns).collect();
                 words::capital(&reasons.join(", and "))
             }
         };

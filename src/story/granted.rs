@@ -51,14 +51,16 @@ pub(super) fn assumed(readings: &[String], stages: &[StageTold]) -> Vec<Sentence
         };
         let body = &told.placed.scene.bodies[turn.body];
         let about = &turn.about_name;
+        let name = &body.name;
+        let bodies = turn.bodies().into_iter();
+        let bodies = bodies.map(|b| format!("`{}`", told.placed.scene.bodies[b].name));
+        let rigid = match turn.with.is_empty() {
+            true => format!("`{name}` is rigid"),
+            false => listed(&bodies.collect::<Vec<_>>()) + " turn as one rigid body",
+        };
         let holds = match body.is_particle() && turn.with.is_empty() {
-            true => format!(
-                " `{}` keeps its distance from `{about}`, which does not move",
-                body.name
-            ),
-            false => {
-                format!(" the body is rigid, and `{about}` is frictionless and does not move")
-            }
+            true => format!(" `{name}` keeps its distance from `{about}`, which does not move"),
+            false => format!(" {rigid}, and `{about}` is frictionless and does not move"),
         };
         let name = format!("`{}`", told.placed.name);
         match turns.iter_mut().find(|(h, _)| *h == holds) {

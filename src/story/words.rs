@@ -261,7 +261,7 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
     };
     let free = slide.friction.is_none() && !grips && !slide.rolling;
     let way = towards(slide).filter(|_| free);
-    let lead = names.join(" and ");
+    let lead = listed(&names);
     if let Some(on) = &slide.on {
         let below: Vec<String> = on.company().iter().map(name).collect();
         let verb = match one {
@@ -274,7 +274,7 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
         } else {
             "smooth"
         };
-        let below = below.join(" and ");
+        let below = listed(&below);
         let lead = format!("{lead} {verb} on {below}, which moves on a {floor} floor,");
         return match &slide.until {
             SlideEnd::Distance(s) => {
@@ -300,7 +300,7 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
         false => lead + how,
     };
     let strings = slide.strings.iter().map(|s| {
-        let list = |all: &[usize]| all.iter().map(name).collect::<Vec<_>>().join(" and ");
+        let list = |all: &[usize]| listed(&all.iter().map(name).collect::<Vec<_>>());
         let rough = s.friction.as_ref().map_or("", |_| " on a rough surface");
         let under = |p| (format!(" and under {}", name(&p)), ", half as fast");
         let (under, half) = s.under.map(under).unwrap_or_default();

@@ -61,6 +61,14 @@ impl Page<'_> {
             };
             here.steps.iter().position(found).unwrap_or(usize::MAX)
         });
+        // A flight lasts until it has a velocity, and leads as far as it lasts.
+        if matches!(here.placed.kind, StageKind::Fall(_)) {
+            asked.sort_by_key(|(question, _)| match question.ask {
+                Ask::Velocity { .. } => 0,
+                Ask::Time => 1,
+                _ => 2,
+            });
+        }
         for (question, answer) in asked {
             if !self.is_in_speed(here, answer) {
                 self.answer([i, outcome, from], question, answer, &mut end);

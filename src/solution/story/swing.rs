@@ -74,15 +74,15 @@ impl Page<'_> {
         if let Some((angle, [first, last])) = began {
             let name = Symbol::from(angle.name.as_str());
             let (turned, cosine) = (Expr::symbol(&name), Expr::symbol(&name).cos());
-            let (part, swung) = match last {
-                "above" => (turned.sin(), &length * turned.sin()),
-                _ => (cosine.clone(), &length * (Expr::one() - cosine)),
+            let (place, swung) = match last {
+                "above" => (&length * turned.sin(), &length * turned.sin()),
+                _ => (&length * cosine.clone(), &length * (Expr::one() - cosine)),
             };
             let about = say(&turn.about_name);
-            let [length, part] = [&length, &part].map(words::formula);
+            let [length, place] = [&length, &place].map(words::formula);
             self.solution.text(fill(
-                "It began {} {}, at the distance {} from it, and is in the end that distance times {} {} it:",
-                [say(first), about, length, part, say(last)],
+                "It began {} {}, a distance {} away, and ends {} {} it:",
+                [say(first), about, length, place, say(last)],
             ));
             let math = words::related(&h, "=", &swung);
             self.solution.display(vec![Line::plain(math)]);
