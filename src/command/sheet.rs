@@ -5,11 +5,17 @@ use crate::derive::friction::table;
 use crate::formula::Sentence;
 use crate::grade::believed::Story;
 use crate::grade::sheet::Sheet;
-use crate::scene::Scene;
+use crate::scene::{Question, Scene};
+use crate::verify::printed::friction_bound;
 use crate::{story, verify, worked};
 
 /// The answers of a scene, proved; and what is to be said of them all the same.
 pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
+    let rough = |q: &Question| {
+        let (mu, relation) = friction_bound(&scene, &q.name)?;
+        Some((q.name.clone(), mu.as_symbol()?.clone(), relation))
+    };
+    let coefficients: Vec<_> = scene.questions.iter().filter_map(rough).collect();
     let (scene, mut notes) = gradable(scene)?;
     let worked = worked::out(&scene)?;
     let failed = worked.failed();
@@ -38,6 +44,7 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
         all: all.clone(),
         impacts: impacts.clone(),
         laws: laws.clone(),
+        coefficients: coefficients.clone(),
         story: (story.clone()).map(|scene| Story::new(scene, answers)),
         otherwise: Vec::new(),
     });

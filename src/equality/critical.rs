@@ -288,6 +288,7 @@ pub(super) fn tested(
         all.extend(starts(1).flat_map(|start| corners(e, start, domains)));
         all.extend(starts(DESCENTS).map(|start| descended(e, start, domains, roles)));
         all.extend(starts(2).flat_map(|start| kinks(e, start, domains)));
+        all.extend(starts(1).filter_map(|start| vertex(e, start, domains)));
         for start in near {
             for name in free_symbols(std::slice::from_ref(e), domains, start) {
                 if let Some(domain) = along(&name, start, domains) {
@@ -333,6 +334,37 @@ fn descended(e: &Expr, start: &Sample, domains: &Domains, roles: &Roles) -> Samp
         }
     }
     at
+}
+
+/// The point at which all slopes of an expression vanish that are linear, exactly: doubles do not tell the least value of
+/// `(x − 71234567)² − 1/1000` from zero.
+fn vertex(e: &Expr, start: &Sample, domains: &Domains) -> Option<Sample> {
+    let mut roots: Vec<(Symbol, Expr)> = Vec::new();
+    for name in free_symbols(std::slice::from_ref(e), domains, start) {
+        let slope = e.derivative(&name);
+        let slope = roots
+            .iter()
+            .fold(slope, |slope, (other, root)| slope.put(other, root));
+        let rate = slope.derivative(&name);
+        let rate = rate.as_number().filter(|rate| !rate.is_zero());
+        if let (Some(rate), Some(_)) = (rate, along(&name, start, domains)) {
+            let root = slope.put(&name, &Expr::zero()) * Expr::from(-rate.recip());
+            roots.push((name, root));
+        }
+    }
+    let mut at = start.clone();
+    // The last one found depends on none of the others.
+    while let Some((name, root)) = roots.pop() {
+        let value = root.as_number()?.clone();
+        let inside = domains.symbols.get(&name)?.contains(&value);
+        let moved = inside.then(|| at.moved(&name, Coordinate::Number(value.clone())))?;
+        at = moved;
+        let value = Expr::from(value);
+        roots
+            .iter_mut()
+            .for_each(|(_, root)| *root = root.put(&name, &value));
+    }
+    Some(at)
 }
 
 /// Points where an absolute value or a root inside an expression vanishes: with one symbol led along its domain, another

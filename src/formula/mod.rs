@@ -51,7 +51,7 @@ use parser::{Parser, Side};
 pub use quotient::Quotient;
 pub(crate) use sentence::sentence;
 pub use sentence::{Piece, Sentence, capital, either, listed, sides, trimmed};
-pub(crate) use several::{UNNAMED, letters_apart};
+pub(crate) use several::{UNNAMED, letters_apart, values_of_one};
 pub use symbols::{Declared, Symbols, letter};
 pub(crate) use symbols::{is_angle_name, is_greek, letters};
 pub(crate) use units::plain_unit;
@@ -122,7 +122,13 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     {
         return Ok(between);
     }
-    let usual = read_as(text, symbols, 0, held);
+    let mut usual = read_as(text, symbols, 0, held);
+    if usual.is_err()
+        && held.any(":")
+        && let Some(ratio) = prose::ratio(text)
+    {
+        usual = read_as(&ratio, symbols, 0, held);
+    }
     let worded = match &usual {
         Ok(reading) => reading.notes.iter().any(|n| n.remark == Remark::Letters),
         Err(_) => text.len() <= MAX_BYTES,
@@ -167,9 +173,22 @@ fn read_behind_words(text: &str, symbols: &Symbols) -> Option<Reading> {
     };
     let split = |r: &Reading| r.notes.iter().any(|n| n.remark == Remark::Letters);
     let marked = prose::formula_in_words(text).and_then(part);
-    marked.or_else(|| {
+    let marked = marked.or_else(|| {
         let start = prose::behind_words(text, &known)?;
         part((start, text.len())).filter(|reading| !split(reading))
+    });
+    // `x is 5` says what a name is, in a text of the same length.
+    marked.or_else(|| {
+        let named = |verb| {
+            text.split_once(verb)
+                .map(|(name, value)| (name, verb, value))
+        };
+        let (name, verb, value) = [" is ", " equals "].into_iter().find_map(named)?;
+        let said = format!("{name} ={:1$}{value}", "", verb.len() - 2);
+        let reading = read_either(&said, 0, symbols, 0).ok()?;
+        let is_name =
+            !name.trim().contains(' ') && !std::ptr::eq(reading.content.answer(), &reading.content);
+        (is_name && !split(&reading)).then_some(reading)
     })
 }
 
@@ -229,7 +248,17 @@ fn read_as(text: &str, symbols: &Symbols, flips: u64, held: prose::Held) -> Faul
         return Err(Fault::new(message, 0, 0));
     }
     let (mut start, end) = boxed(text)?;
-    let inner = &text[..end];
+    let mut inner = &text[..end];
+    // `**x = 5**` in Markdown.
+    let bold = inner[start..].trim().strip_prefix("**");
+    if bold.is_some_and(|rest| {
+        rest.strip_suffix("**")
+            .is_some_and(|rest| !rest.contains("**"))
+    }) {
+        start += inner[start..].find("**").map_or(0, |at| at + 2);
+        inner = inner.trim_end().trim_end_matches('*');
+    }
+    let end = inner.len();
     if let Some(last) = prose::conclusion(&inner[start..], held) {
         start += last;
     }

@@ -56,30 +56,55 @@ pub(super) fn behind_words(text: &str, known: &dyn Fn(&str) -> bool) -> Option<u
             break;
         }
         if !word.is_empty() {
-            words.push((at, word.to_ascii_lowercase()));
+            words.push((at, word));
         }
         at += piece.len();
     }
     let (start, last) = words.last()?;
-    let changing = |(_, word): &(usize, String)| CHANGING.split(' ').any(|w| w == word);
+    let changing =
+        |(_, word): &(usize, &str)| CHANGING.split(' ').any(|w| word.eq_ignore_ascii_case(w));
     if words.iter().any(changing) {
         return None;
     }
-    let surely = |(_, word): &(usize, String)| word.len() > 2 && !known(word);
+    let surely = |(_, word): &(usize, &str)| word.len() > 2 && !known(word);
     let led = words[..words.len() - 1].iter().any(surely);
+    let names = words.iter().rev().take_while(|(_, word)| known(word));
     match text[at..].split_once(['=', '≈']) {
-        _ if led && VERBS.contains(&&**last) => Some(at),
-        Some(("", _)) if led => Some(*start),
+        _ if led && VERBS.iter().any(|verb| last.eq_ignore_ascii_case(verb)) => Some(at),
+        // `so M V = …` begins with the product.
+        Some(("", _)) if led => Some(names.last().map_or(*start, |(start, _)| *start)),
         // `we get m v l cosθ/2 = …`: a product begins with the names at the end.
-        Some((name, _)) if words.iter().any(surely) => {
-            let names = words.iter().rev().take_while(|(_, word)| known(word));
-            match names.last() {
-                Some((start, _)) => Some(*start),
-                None => (!name.trim().contains(' ')).then_some(at),
-            }
-        }
+        Some((name, _)) if words.iter().any(surely) => match names.last() {
+            Some((start, _)) => Some(*start),
+            None => (!name.trim().contains(' ')).then_some(at),
+        },
         _ => None,
     }
+}
+
+/// A ratio of two numbers, `5:2` and `m_1:m_2 = 1:3`, with a slash for its colon; nothing where a colon stands for anything else.
+pub(super) fn ratio(text: &str) -> Option<String> {
+    let inner = text.trim().trim_matches('$');
+    let parts = |side: &str| {
+        let (a, b) = side.split_once(':')?;
+        Some([a, b].map(|part| part.trim().to_string()))
+    };
+    let number = |part: &String| {
+        part.parse::<f64>()
+            .is_ok_and(|_| !part.contains(['e', 'E', 'n']))
+    };
+    let name = |part: &String| {
+        part.starts_with(char::is_alphabetic)
+            && part
+                .chars()
+                .all(|c| c.is_alphanumeric() || "_{}".contains(c))
+    };
+    let mut sides = inner.split('=').rev();
+    // The last side has numbers; those before may have names, or no colon.
+    let last = parts(sides.next()?)?.iter().all(number);
+    let plain = sides
+        .all(|side| !side.contains(':') || parts(side).is_some_and(|parts| parts.iter().all(name)));
+    (last && plain).then(|| text.replace(':', "/"))
 }
 
 /// The value that goes on from what was asked: `≈ 1.2 m/s`, `= 1.2 m/s`, `about 1.2 m/s`.

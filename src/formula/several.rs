@@ -313,8 +313,11 @@ pub(super) fn values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fa
             .map(|(end, next)| &text[start + end..start + next]);
         gaps.any(|gap| signs.iter().any(|sign| gap.contains(*sign)))
     };
-    let is_or = between(&["or", "∨", "\\vee"]);
-    let (content, unit) = together(&parts, is_or)?;
+    let said = match between(&["or", "∨", "\\vee"]) {
+        true => Some(Join::Or),
+        false => between(&["and", "∧", "\\wedge"]).then_some(Join::And),
+    };
+    let (content, unit) = together(&parts, said)?;
     // Lines hold results with their names; `a\\b` is a slip of the pen.
     let lines = between(&["\\\\"]);
     // Between vectors ∧ is a product.
@@ -339,8 +342,9 @@ pub(super) fn values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fa
     }))
 }
 
-/// Parts that are said together; nothing where they do not belong together.
-fn together(parts: &[Reading], is_or: bool) -> Option<(Content, Option<Unit>)> {
+/// Parts that are said together; nothing where they do not belong together. Equations for one name are joined by a word where
+/// their sides are formulas, as in `x = y and x = z`, and are a list of its values else.
+fn together(parts: &[Reading], said: Option<Join>) -> Option<(Content, Option<Unit>)> {
     let contents: Vec<&Content> = parts.iter().map(|part| &part.content).collect();
     let signs = |content: &&Content| match content {
         Content::Relations(_, signs) => Some(signs.clone()),
@@ -352,16 +356,18 @@ fn together(parts: &[Reading], is_or: bool) -> Option<(Content, Option<Unit>)> {
     };
     let whole = || contents.iter().map(|part| (*part).clone()).collect();
     if signs.concat().iter().all(|sign| *sign == Relation::Equal) {
-        return list(&contents).or_else(|| match is_or {
-            true => None,
-            false => Some((Content::Joined(Join::And, whole()), None)),
-        });
+        let formula = |part: &&Content| part.answer().expr().is_some_and(|e| !e.is_constant());
+        let both = || (said != Some(Join::Or)).then(|| (Content::Joined(Join::And, whole()), None));
+        return match said != Some(Join::Or) && contents.iter().all(formula) {
+            true => both(),
+            false => list(&contents).or_else(both),
+        };
     }
     let content = match contents.as_slice() {
-        [a, b] if !is_or => chain(a, b),
+        [a, b] if said != Some(Join::Or) => chain(a, b),
         _ => None,
     };
-    let join = if is_or { Join::Or } else { Join::And };
+    let join = said.unwrap_or(Join::And);
     Some((
         content.unwrap_or_else(|| Content::Joined(join, whole())),
         None,
@@ -383,6 +389,14 @@ fn chain(first: &Content, second: &Content) -> Option<Content> {
     };
     let sides = vec![low.clone(), x.clone(), high.clone()];
     (x == y).then(|| Content::Relations(sides, vec![s.turned(), *t]))
+}
+
+/// `x = a and x = -a` as the list of the values of x; nothing where it is none.
+pub(crate) fn values_of_one(content: &Content) -> Option<Content> {
+    let Content::Joined(Join::And, parts) = content else {
+        return None;
+    };
+    Some(list(&parts.iter().collect::<Vec<_>>())?.0)
 }
 
 /// Values of one kind, named alike or not at all, with the unit behind the last.

@@ -363,7 +363,8 @@ impl Lexer<'_> {
         let shown = &self.text[start..end];
         let small = shown.to_lowercase();
         let mut fault = Fault::new(format!("`{shown}` is not declared"), start, end);
-        if shown.len() > 1 && small != shown && crate::dimension::unit(&small).is_ok() {
+        let letters = shown.len() > 1 && shown.chars().all(char::is_alphabetic);
+        if letters && small != shown && crate::dimension::unit(&small).is_ok() {
             fault = fault.hint(format!("the unit is {small}"));
         } else if let [Some(x), Some(y)] = ["x", "y"].map(|axis| self.part_of(key, axis)) {
             fault = fault.hint(format!("it is a vector: its components are {x} and {y}"));

@@ -183,6 +183,10 @@ fn opposite(written: &Written, trials: &Trials, slips: &[(&Belief, Slip)]) -> Ve
     let values = written.values.iter().map(|v| -v).collect();
     let turned = written.of(written.ask, written.component, values);
     let mirrored = trials.times(-1.0);
+    // What is right but for its sign needs no belief beside it.
+    if mirrored.fits(&turned, &Slip::none(written.scene)) {
+        return Vec::new();
+    }
     let hit = slips.iter().find(|(_, slip)| mirrored.fits(&turned, slip));
     hit.map(|(belief, slip)| {
         let mut d = words(belief, slip, written.rounding.is_some());
@@ -250,8 +254,12 @@ fn trials(written: &Written) -> Option<Trials> {
     let (points, exact) = match written.rounding {
         Some(_) => (vec![given_values(written.scene)?], Vec::new()),
         None => {
-            let exact: Vec<_> = (11..11 + POINTS)
+            // Where the right answer has no value nothing is told by others.
+            let truth = Slip::none(written.scene);
+            let exact: Vec<_> = (11..11 + 3 * POINTS)
                 .map(|seed| numeric::random_point(&needed, &written.scene.domains, seed))
+                .filter(|point| doubles(written, &truth, &numeric::rounded(point)).is_some())
+                .take(POINTS as usize)
                 .collect();
             (exact.iter().map(numeric::rounded).collect(), exact)
         }

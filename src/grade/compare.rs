@@ -188,6 +188,20 @@ fn claim(content: &Content) -> Claim<'_> {
 }
 
 fn compare(ctx: &Context, answer: &Reading) -> Finding {
+    // Values of one name are a list of which each will do, unless the other side says that they are all the same.
+    let expected = &ctx.key.reading.content;
+    let is_chain =
+        |content: &Content| matches!(content, Content::Relations(sides, _) if sides.len() > 2);
+    if let (false, Some(list)) = (is_chain(expected), formula::values_of_one(&answer.content)) {
+        return compare(ctx, &answer.with(list));
+    }
+    if let (false, Some(list)) = (is_chain(&answer.content), formula::values_of_one(expected)) {
+        let key = Key {
+            reading: ctx.key.reading.with(list),
+            ..ctx.key.clone()
+        };
+        return compare(&Context::new(&key, ctx.options, ctx.diagnose), answer);
+    }
     // `a = b = c` is a system, in whatever order, where b and c are not the same of themselves.
     if let (Content::Relations(a, s), Content::Relations(b, t)) =
         (&ctx.key.reading.content, &answer.content)
@@ -241,6 +255,12 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
         {
             values(ctx, right, value)
         }
+        // `2, -2` for `x^2 = 4`
+        (Claim::Relations(sides, signs), Claim::Value(None, value))
+            if let Some(named) = only_unknown(&ctx.key.reading.content, value) =>
+        {
+            relation::compare(ctx, (sides, signs), (&named, &[Relation::Equal]))
+        }
         (Claim::Relations(sides, signs), Claim::Value(None, value)) => {
             match sides.first().and_then(Content::expr) {
                 // `v ≤ X`: the bare right side of an inequality does not say which way.
@@ -254,6 +274,22 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
         (Claim::Value(name, expected), Claim::Relations(mine, my_signs)) => {
             solved(ctx, (name, expected), (mine, my_signs))
         }
+    }
+}
+
+/// The sides of `x = 2` for the values of the only symbol of an equation.
+fn only_unknown(equation: &Content, value: &Content) -> Option<[Content; 2]> {
+    let constant = match value {
+        Content::Scalar(e) => e.is_constant(),
+        Content::Either(values) => values.iter().all(Expr::is_constant),
+        _ => false,
+    };
+    let mut symbols = equation.symbols().into_iter().filter(|s| &**s != "pi");
+    match (symbols.next(), symbols.next()) {
+        (Some(name), None) if constant && !equation.is_bounded() => {
+            Some([Content::Scalar(Expr::symbol(&name)), value.clone()])
+        }
+        _ => None,
     }
 }
 

@@ -43,16 +43,23 @@ pub(super) fn euler(
     options: &Options,
     finding: &mut compare::Finding,
 ) {
+    let (expected, answer) = (&key.reading.content, &reading.content);
+    let mut logarithm = false;
+    for content in [expected, answer] {
+        let is_ln = |part: &Expr| matches!(part.node(), Node::Call(Function::Ln, _));
+        content.each(&mut |e| logarithm |= e.parts().any(is_ln));
+    }
     let is_e = |e: &Expr| e.as_symbol().is_some_and(|s| &**s == "e");
-    fn number(e: &Expr, is_e: &dyn Fn(&Expr) -> bool) -> Expr {
+    fn number(e: &Expr, is_e: &dyn Fn(&Expr) -> bool, alone: bool) -> Expr {
         match e.node() {
-            Node::Power(base, k) if is_e(base) => Expr::call(Function::Exp, number(k, is_e)),
+            Node::Power(base, k) if is_e(base) => Expr::call(Function::Exp, number(k, is_e, alone)),
             Node::Call(Function::Ln, x) if is_e(x) => Expr::one(),
-            _ => e.map_parts(|part| number(part, is_e)),
+            Node::Symbol(_) if alone && is_e(e) => Expr::call(Function::Exp, Expr::one()),
+            _ => e.map_parts(|part| number(part, is_e, alone)),
         }
     }
-    let number = |e: &Expr| number(e, &is_e);
-    let (expected, answer) = (&key.reading.content, &reading.content);
+    // Alone it is a number beside a logarithm only: `ln x = 1` and `x = e`.
+    let number = |e: &Expr| number(e, &is_e, logarithm);
     let occurs = |content: &Content| {
         let mut found = false;
         content.each(&mut |e| found |= e.mentions("e"));
@@ -78,11 +85,6 @@ pub(super) fn euler(
     let found = compare::contents(&other, &mine, &plain);
     if found.verdict != Verdict::Equivalent {
         return;
-    }
-    let mut logarithm = false;
-    for content in [expected, answer] {
-        let is_ln = |part: &Expr| matches!(part.node(), Node::Call(Function::Ln, _));
-        content.each(&mut |e| logarithm |= e.parts().any(is_ln));
     }
     let mut counts = occurs(expected);
     let mut note = |part: &Expr| {
@@ -293,7 +295,7 @@ fn parted(text: &str, stands: impl Fn(&str) -> Option<usize>) -> Option<Vec<Stri
 }
 
 /// `mv sinθ N s`: a wrong answer with a unit behind its last spaces whose letters the question does not know is right when
-/// the formula before it is, and is told so. One letter, or two small ones, are a factor.
+/// the formula before it is, and is told so. One letter, or two small ones, are a factor; J, N and W are units first.
 pub(super) fn unit_behind(
     key: &Key,
     answer: &str,
@@ -302,7 +304,16 @@ pub(super) fn unit_behind(
     finding: &mut compare::Finding,
 ) {
     let known = |word: &str| key.question.symbols.iter().any(|g| *g.name == *word);
-    if finding.verdict != Verdict::Different || reading.symbols().iter().all(|name| known(name)) {
+    // `0.25 m g h J` is a number of units where m, g and h are the symbols of a formula.
+    let formula = key
+        .reading
+        .content
+        .answer()
+        .expr()
+        .is_some_and(|e| !e.is_constant());
+    let measured = formula && matches!(reading.content.answer(), Content::Quantity(_));
+    let own = !reading.symbols().iter().all(|name| known(name));
+    if finding.verdict != Verdict::Different || !(measured || own) {
         return;
     }
     let spaces = answer.rmatch_indices(' ').take(3);
@@ -317,7 +328,7 @@ pub(super) fn unit_behind(
             plain &= word.len() == 1 && word.to_lowercase() == word;
             known(word)
         });
-        let letter = text.chars().count() == 1;
+        let letter = text.chars().count() == 1 && !matches!(text.as_str(), "J" | "N" | "W");
         if declared || letter || plain || unit.dimension.is_none() {
             return None;
         }

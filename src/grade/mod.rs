@@ -113,6 +113,8 @@ pub struct Key {
     pub(crate) quantity: Option<Box<Key>>,
     /// The key as an interval, where its text could be one as well as a vector: `[0, 1]`.
     pub(crate) range: Option<Box<Key>>,
+    /// The direction in words behind the key: along x and y, and about the axis out of the page.
+    pub(crate) direction: Option<[i32; 3]>,
     /// Whether the question says itself what e is.
     pub(crate) declares_e: bool,
     /// How the formula was read, where slashes could reach further or less far.
@@ -123,6 +125,14 @@ pub struct Key {
 
 /// Reads an expected formula.
 pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
+    if let Some((value, direction)) = read::sense(expected) {
+        let mut key = key(value, question)?;
+        if let Some(quantity) = &mut key.quantity {
+            quantity.direction = Some(direction);
+        }
+        key.direction = Some(direction);
+        return Ok(key);
+    }
     let mut symbols = if question.closed {
         Symbols::strict()
     } else {
@@ -240,6 +250,7 @@ fn from_reading(mut reading: Reading, question: &Question) -> Key {
         readable,
         quantity: None,
         range: None,
+        direction: None,
         declares_e,
         told: None,
         unclear: None,
@@ -361,6 +372,9 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
     unit::behind(key, &reading, &mut finding);
     unit::of_relations(key, &reading, &mut finding);
     finding.assumed.extend(meant);
+    if finding.is_equivalent() && key.direction.is_some() && read::sense(answer).is_none() {
+        finding.assumed.push("the direction is not judged".into());
+    }
     let settled = finding.note == "EQUIV_READING";
     let open_to_doubt = options.strength == Strength::Identity
         && !settled

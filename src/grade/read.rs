@@ -115,8 +115,16 @@ pub(super) fn is_stable(reading: &Reading) -> bool {
 
 /// Reads an answer.
 pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
+    if let (Some((value, mine)), Some(theirs)) = (sense(text), key.direction)
+        && (mine == theirs || mine == theirs.map(|part| -part))
+    {
+        return answer(key, &with_sign(value, mine == theirs));
+    }
     if let Some(fault) = direction(text) {
         return Err(fault);
+    }
+    if let Some(reading) = with_definitions(key, text) {
+        return Ok(reading);
     }
     let mut usual = formula::read(text, &key.readable);
     // `(0, 1)` and `[0, 1]`, where bounds are asked.
@@ -176,6 +184,61 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         Ok(reading) => worded(key, text, reading),
         Err(fault) => mended(key, text, fault),
     }
+}
+
+/// Most names that an answer says behind its formula.
+const MOST_DEFINITIONS: usize = 8;
+
+/// A formula with names of its own that are said behind it: `m d v/I where I = M l^2/3 + m d^2`.
+fn with_definitions(key: &Key, text: &str) -> Option<Reading> {
+    const WORDS: [&str; 6] = [
+        " where ",
+        " with ",
+        "\\text{where}",
+        "\\text{ where }",
+        "\\text{with}",
+        "\\text{ with }",
+    ];
+    let found = WORDS
+        .iter()
+        .filter_map(|word| Some((text.find(word)?, word.len())));
+    let (at, length) = found.min()?;
+    let formula = text[..at]
+        .trim_end_matches([' ', ',', ';', '$'])
+        .trim_start_matches('$');
+    let said = text[at + length..].replace(" and ", ", ").replace(';', ",");
+    let mut symbols = key.readable.clone();
+    let mut parts = Vec::new();
+    for part in said.split(", ") {
+        let (name, value) = part.trim_matches([' ', '$', '.']).split_once('=')?;
+        let name = formula::read(name, &Symbols::open()).ok()?;
+        let name = name.content.expr()?.as_symbol()?.clone();
+        if declared(key, &name) || value.contains('=') || parts.len() == MOST_DEFINITIONS {
+            return None;
+        }
+        symbols.declare(&name);
+        parts.push((name, value.to_string()));
+    }
+    let value = |(name, text): (Symbol, String)| {
+        let value = formula::read(&text, &symbols).ok()?;
+        Some((name, value.content.expr()?.clone()))
+    };
+    let values: BTreeMap<Symbol, Expr> = parts.into_iter().map(value).collect::<Option<_>>()?;
+    let mut reading = formula::read(formula, &symbols).ok()?;
+    let used = values.keys().any(|name| reading.symbols().contains(name));
+    if !used || reading.unit.is_some() {
+        return None;
+    }
+    // One definition may use another.
+    for _ in 0..values.len() {
+        reading.content = reading.content.map(&|e| e.substitute(&values));
+    }
+    // Places in this text are not those of the whole.
+    reading.choices = 0;
+    reading.slashes = false;
+    reading.notes.clear();
+    let own = |name: &Symbol| values.contains_key(name);
+    (!reading.symbols().iter().any(own)).then_some(reading)
 }
 
 /// An answer that cannot be read with the names of its question alone: with a unit apart, or names of its own.
@@ -242,44 +305,80 @@ fn mended(key: &Key, text: &str, fault: Fault) -> Result<Reading, Fault> {
     named.ok_or(fault)
 }
 
-/// Refuses a direction in words behind a formula: `9.31 rad/s clockwise`, `5 N to the left`.
-fn direction(text: &str) -> Option<Fault> {
-    const WORDS: [&str; 13] = [
-        "clockwise",
-        "to the right",
-        "to the left",
-        "upward",
-        "upwards",
-        "downward",
-        "downwards",
-        "rightward",
-        "leftward",
-        "eastward",
-        "westward",
-        "northward",
-        "southward",
-    ];
+/// Words behind a formula for a direction, each with its sense along x and y or about the axis out of the page.
+const SENSES: [(&str, [i32; 3]); 21] = [
+    ("counterclockwise", [0, 0, 1]),
+    ("anticlockwise", [0, 0, 1]),
+    ("clockwise", [0, 0, -1]),
+    ("ccw", [0, 0, 1]),
+    ("cw", [0, 0, -1]),
+    ("to the right", [1, 0, 0]),
+    ("rightwards", [1, 0, 0]),
+    ("rightward", [1, 0, 0]),
+    ("to the left", [-1, 0, 0]),
+    ("leftwards", [-1, 0, 0]),
+    ("leftward", [-1, 0, 0]),
+    ("upwards", [0, 1, 0]),
+    ("upward", [0, 1, 0]),
+    ("up", [0, 1, 0]),
+    ("downwards", [0, -1, 0]),
+    ("downward", [0, -1, 0]),
+    ("down", [0, -1, 0]),
+    ("eastward", [1, 0, 0]),
+    ("westward", [-1, 0, 0]),
+    ("northward", [0, 1, 0]),
+    ("southward", [0, -1, 0]),
+];
+
+/// A formula without the direction in words behind it, and that direction: `9.31 rad/s clockwise`, `5 N (to the left)`.
+pub(super) fn sense(text: &str) -> Option<(&str, [i32; 3])> {
     let said = text.trim_end_matches([' ', '.', ')', '}']);
-    let ends = |word: &&str| {
-        let at = said.len().checked_sub(word.len()).filter(|at| *at > 0);
-        let found = at.and_then(|at| said.get(at..));
-        found.is_some_and(|end| end.eq_ignore_ascii_case(word))
-    };
-    let word = WORDS.into_iter().find(ends)?;
-    let at = said.len() - word.len();
-    let (what, message) = match word {
-        "clockwise" => ("sense", "a sense of rotation is no part of the formula"),
-        _ => (
+    SENSES.into_iter().find_map(|(word, sense)| {
+        let at = said.len().checked_sub(word.len())?;
+        let (before, end) = said.split_at_checked(at)?;
+        let apart = before.ends_with([' ', '(', '~', ',', '{']);
+        if !apart || !end.eq_ignore_ascii_case(word) {
+            return None;
+        }
+        let body = before.trim_end_matches([' ', ',', '(', '~']);
+        let body = body.strip_suffix("\\text{").unwrap_or(body).trim_end();
+        (!body.is_empty()).then_some((body, sense))
+    })
+}
+
+/// A value, maybe behind its name, as it stands or with the other sign.
+pub(super) fn with_sign(text: &str, same: bool) -> String {
+    let at = text.rfind('=').map_or(0, |at| at + 1);
+    let (name, value) = (&text[..at], text[at..].trim());
+    let positive = value.strip_prefix(['-', '−']);
+    let several = positive
+        .unwrap_or(value)
+        .contains(['+', '-', '−', '±', '∓']);
+    match (same, positive) {
+        (true, _) => format!("{name}{value}"),
+        (false, _) if several => format!("{name}-({value})"),
+        (false, Some(positive)) => format!("{name}{positive}"),
+        (false, None) => format!("{name}-{value}"),
+    }
+}
+
+/// Refuses a direction in words behind a formula.
+fn direction(text: &str) -> Option<Fault> {
+    let (body, [.., turn]) = sense(text)?;
+    let (what, message) = match turn {
+        0 => (
             "direction",
             "a direction in words is no part of the formula",
         ),
+        _ => ("sense", "a sense of rotation is no part of the formula"),
     };
-    let start = match said[..at].ends_with(' ') {
-        true => at,
-        false => said[..at].rfind(' ').map_or(0, |at| at + 1),
-    };
+    let start = text.len()
+        - text[body.len()..]
+            .trim_start_matches([' ', ',', '(', '~'])
+            .len();
+    let end = text.trim_end_matches([' ', '.', ')', '}']).len();
     let hint = format!("which {what} counts as positive is told by the question");
-    Some(*Fault::new(message, start, said.len()).hint(hint))
+    Some(*Fault::new(message, start, end).hint(hint))
 }
 
 /// Whether a side is worked out in what follows, as in `\sqrt{2gh} = 14 m/s`; with one symbol it would be an equation for it.

@@ -27,7 +27,7 @@ use crate::equality;
 use crate::expr::{Expr, Function, Node, Point, Rational, Symbol, ratio};
 use crate::formula::{Content, Join, Relation, is_angle_name, write_plain};
 use crate::interval::{Interval, Outcome, evaluate};
-use cells::holds;
+use cells::{Cases, holds};
 use factor::{turned_term, unrooted};
 use inequality::inequalities;
 use locus::{Compared, Extent, Part};
@@ -172,12 +172,44 @@ pub(crate) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Fin
             let found = |cases: &[Vec<Normal>], others: &[Vec<Normal>]| {
                 cases.iter().all(|a| others.iter().any(|b| same(a, b)))
             };
-            match found(&mine, &theirs) && found(&theirs, &mine) {
-                true => same_solutions("each case of the one is a case of the other"),
-                false => undecided("cases in several symbols are compared one by one"),
+            if found(&mine, &theirs) && found(&theirs, &mine) {
+                return same_solutions("each case of the one is a case of the other");
             }
+            if let (Some(mine), Some(theirs)) = (negated(&mine, domains), negated(&theirs, domains))
+                && system::compare(ctx, &mine, &theirs, domains).is_equivalent()
+            {
+                return same_solutions("none of the cases holds at the same points");
+            }
+            let apart = apart_in_cases(ctx, &mine, &theirs);
+            apart.unwrap_or_else(|| undecided("cases in several symbols are compared one by one"))
         }
     }
+}
+
+/// What holds where none of several bounds does: nothing where a case has more than one, or some value may be missing.
+fn negated(cases: &Cases, domains: &Domains) -> Option<Vec<Normal>> {
+    let everywhere = |part: &Expr| match part.node() {
+        Node::Power(base, k) => k.as_number().is_some_and(|k| {
+            let whole = k.is_integer() || sign_of(base, domains).is_some_and(Sign::is_not_negative);
+            whole && !k.is_negative()
+        }),
+        Node::Call(function, _) => {
+            matches!(function, Function::Abs | Function::Sin | Function::Cos)
+        }
+        _ => true,
+    };
+    let turned = |case: &Vec<Normal>| match case.as_slice() {
+        [n] if n.difference.parts().all(everywhere) => {
+            let relation = match n.relation {
+                Relation::Less => Relation::LessEqual,
+                Relation::LessEqual => Relation::Less,
+                _ => return None,
+            };
+            Some(Normal::new(-&n.difference, relation))
+        }
+        _ => None,
+    };
+    cases.iter().map(turned).collect()
 }
 
 /// The systems of which one holds.
@@ -257,9 +289,26 @@ fn rooted(difference: Expr) -> Expr {
 
 /// Two relations as they are written, or else with the functions undone that stand around both sides.
 fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
-    let mut finding = as_written(ctx, expected, answer);
     let mut pair = [expected.clone(), answer.clone()];
     let domains = (ctx.key.question.domains).of(&[&expected.difference, &answer.difference]);
+    if expected.relation == Relation::Equal && answer.relation == Relation::Equal {
+        let sought = sought_in(ctx, &expected.difference, &answer.difference);
+        let mut plain = pair.clone();
+        let given = plain.iter_mut().flat_map(|n| divide(n, &sought, &domains));
+        let given: Vec<String> = given.collect();
+        if plain
+            .iter()
+            .zip(&pair)
+            .any(|(a, b)| a.difference != b.difference)
+        {
+            let mut found = link(&ctx.plain(), &plain[0], &plain[1]);
+            if found.is_equivalent() {
+                found.assume(given);
+                return found;
+            }
+        }
+    }
+    let mut finding = as_written(ctx, expected, answer);
     let mut given = Vec::new();
     for step in undone::STEPS {
         if finding.verdict != Verdict::Undecided {
@@ -294,6 +343,23 @@ fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
         finding.assume(given);
     }
     finding
+}
+
+/// Takes the factors without the sought quantity out of an equation; what they must not be in words.
+fn divide(n: &mut Normal, sought: &BTreeSet<Symbol>, domains: &Domains) -> Vec<String> {
+    let Node::Product(factors) = n.difference.node() else {
+        return Vec::new();
+    };
+    let (free, rest): (Vec<Expr>, Vec<Expr>) = factors
+        .iter()
+        .cloned()
+        .partition(|factor| factor.symbols().is_disjoint(sought));
+    if rest.is_empty() || sought.is_empty() {
+        return Vec::new();
+    }
+    n.difference = rooted(Expr::product(rest));
+    let open = |factor: &&Expr| !sign_of(factor, domains).is_some_and(Sign::is_strict);
+    free.iter().filter(open).map(not_zero).collect()
 }
 
 fn as_written(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
@@ -634,7 +700,12 @@ fn differences<'n>(
 
 /// A point at which one system of relations holds and the other does not.
 fn apart_at_points(ctx: &Context, expected: &[Normal], answer: &[Normal]) -> Option<Finding> {
-    let all = differences(expected, answer);
+    apart_in_cases(ctx, &[expected.to_vec()], &[answer.to_vec()])
+}
+
+/// A point at which one of several systems holds and none of the others does.
+fn apart_in_cases(ctx: &Context, expected: &Cases, answer: &Cases) -> Option<Finding> {
+    let all = differences(expected.iter().flatten(), answer.iter().flatten());
     let uses = roles(&all);
     let (domains, assumed) = ctx.key.question.domains.completed(&uses);
     let inside = samples(&uses, &domains, 48);
@@ -643,7 +714,7 @@ fn apart_at_points(ctx: &Context, expected: &[Normal], answer: &[Normal]) -> Opt
     for sample in inside.iter().cloned().chain(ends) {
         // Whether all relations hold: nothing where one is too near to its boundary.
         let point = sample.point::<Interval>(true);
-        let truth = |system: &[Normal]| {
+        let truth = |system: &Vec<Normal>| {
             let mut all = true;
             for link in system {
                 let sign = match evaluate::<Interval>(&link.difference, &point) {
@@ -660,7 +731,11 @@ fn apart_at_points(ctx: &Context, expected: &[Normal], answer: &[Normal]) -> Opt
             }
             Some(all)
         };
-        if let (Some(e), Some(a)) = (truth(expected), truth(answer))
+        let any = |cases: &Cases| {
+            let truths: Option<Vec<bool>> = cases.iter().map(truth).collect();
+            truths.map(|all| all.contains(&true))
+        };
+        if let (Some(e), Some(a)) = (any(expected), any(answer))
             && e != a
         {
             let [note, words, hint] = system::OTHER_NUMBERS;

@@ -26,6 +26,8 @@ pub struct Sheet {
     pub impacts: Vec<Scene>,
     /// Laws of the motions between the impacts, in the names of the answers: expressions that are zero.
     pub laws: Vec<Expr>,
+    /// Thresholds of friction: the question, the coefficient it bounds, and how that stands to it.
+    pub coefficients: Vec<(String, Symbol, Relation)>,
     /// Its story, where it has stages.
     pub story: Option<Story>,
     /// What must hold for these answers, in words; empty where they hold on the whole domain.
@@ -45,6 +47,16 @@ pub struct Bound {
     pub relation: Relation,
     /// The value.
     pub value: Expr,
+}
+
+impl Bound {
+    /// Whether an equation speaks of the parameter and is not solved for it.
+    fn is_in(&self, sides: &[Content]) -> bool {
+        let first = sides.first().and_then(Content::expr);
+        let solved = first.and_then(Expr::as_symbol) == Some(&self.parameter);
+        let other = |side: &Content| side.symbols().contains(&self.parameter);
+        !solved && sides.iter().any(other)
+    }
 }
 
 /// A quantity of a sheet: a question, or one component of its answer.
@@ -71,6 +83,7 @@ pub fn sheet(scene: Scene) -> Result<Sheet, derive::Stop> {
         all: Vec::new(),
         impacts: Vec::new(),
         laws: Vec::new(),
+        coefficients: Vec::new(),
         story: None,
         given: Vec::new(),
         otherwise: Vec::new(),
@@ -107,7 +120,17 @@ impl Sheet {
             }
             _ => None,
         };
-        self.all.iter().filter_map(bound)
+        let friction = self.coefficients.iter().filter_map(|(name, mu, relation)| {
+            let mut answers = self.derivation.answers.iter();
+            let answer = answers.find(|a| a.name == *name)?;
+            Some(Bound {
+                name: name.clone(),
+                parameter: mu.clone(),
+                relation: *relation,
+                value: answer.formula()?.clone(),
+            })
+        });
+        self.all.iter().filter_map(bound).chain(friction)
     }
 
     /// The questions that have an answer.

@@ -117,18 +117,20 @@ pub const MAX_LINES: usize = 400;
 /// Checks a worked solution.
 pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
     let mut desk = Desk::new(sheet);
-    desk.ahead = names::definitions(text);
-    desk.along_normal(text);
-    desk.solved_for = names::solved_for(text);
+    let read = desk.in_names(text);
+    desk.ahead = names::definitions(&read);
+    desk.along_normal(&read);
+    desk.solved_for = names::solved_for(&read);
     let mut before = String::new();
     let lines = text
         .lines()
+        .zip(read.lines())
         .enumerate()
-        .filter(|(_, line)| !line.trim().is_empty())
+        .filter(|(_, (line, _))| !line.trim().is_empty())
         .take(MAX_LINES)
-        .map(|(i, line)| {
+        .map(|(i, (line, read))| {
             let line = line.trim();
-            let whole = text::continued(&before, &text::unaligned(line));
+            let whole = text::continued(&before, &text::unaligned(read.trim()));
             let (status, diagnosis) = desk.line(i + 1, &whole, options);
             before = whole;
             Line {
@@ -337,6 +339,18 @@ impl<'a> Desk<'a> {
         symbols
     }
 
+    /// A solution with signs and names for words, line by line.
+    fn in_names(&self, text: &str) -> String {
+        let symbols = self.symbols(text);
+        let asked = |word: &str| {
+            let reading = formula::read(word, &symbols).ok();
+            let name = reading.as_ref().and_then(|r| r.expr()?.as_symbol());
+            name.is_some_and(|name| self.closed.contains_key(name))
+        };
+        let lines = text.lines().map(|line| text::in_names(line, &asked));
+        lines.collect::<Vec<_>>().join("\n")
+    }
+
     /// A line is as good as its worst equation.
     fn line(&mut self, number: usize, text: &str, options: &Options) -> (Status, Vec<Diagnosis>) {
         if let Some(status) = self.in_case(text) {
@@ -421,17 +435,23 @@ impl<'a> Desk<'a> {
         found
     }
 
-    /// `ω = 3v/(4a) clockwise` with the sign the question counts by, on every side.
+    /// `ω = 3v/(4a) clockwise` and `P_y = m v downwards` with the sign the question counts by, on every side.
     fn with_sense(&self, text: &str) -> Option<String> {
         let (name, right) = names::named(text)?;
         let name = name.trim_end_matches(['\'', '^', '+']);
-        let spin = |q: &&Question| *q.name == *name && matches!(q.ask, Ask::Spin { .. });
-        let ask = &self.sheet.scene.questions.iter().find(spin)?.ask;
-        judge::in_words(ask, right)?;
-        let (values, word) = right.trim_end().rsplit_once([' ', '('])?;
-        let sides = values.trim_end_matches([' ', ',']).split('=');
+        let part = |q: &Question| match name.strip_prefix(q.name.as_str())? {
+            "" => Some((q.ask.clone(), None)),
+            "_x" => Some((q.ask.clone(), Some(0))),
+            "_y" => Some((q.ask.clone(), Some(1))),
+            _ => None,
+        };
+        let (ask, component) = self.sheet.scene.questions.iter().find_map(part)?;
+        let (values, _) = super::read::sense(right)?;
+        let word = right[values.len()..].trim_start_matches([' ', ',', '(']);
+        judge::in_words(&ask, component, &format!("{values} {word}"))?;
+        let sides = values.split('=');
         let sides: Option<Vec<String>> = sides
-            .map(|side| judge::in_words(ask, &format!("{side} {word}")))
+            .map(|side| judge::in_words(&ask, component, &format!("{side} {word}")))
             .collect();
         Some(format!("{name} = {}", sides?.join(" = ")))
     }

@@ -197,8 +197,14 @@ impl Motion<'_> {
         self.kinetic(bodies, Moment::End) - self.kinetic(bodies, Moment::Start)
     }
 
-    /// Work done on the bodies \[J\].
+    /// Work done on the bodies \[J\], over a distance by its name where one asks for it.
     fn work(&self) -> Expr {
-        Expr::sum(self.told.work.iter().map(|(_, work)| work.clone()))
+        let work = Expr::sum(self.told.work.iter().map(|(_, work)| work.clone()));
+        let mut asked = self.asked(self.told);
+        let named = asked.find(|q| matches!(q.ask, Ask::Distance));
+        match (named, &self.told.way) {
+            (Some(q), Some(way)) if !way.is_constant() => work.replace(way, &Expr::symbol(&q.name)),
+            _ => work,
+        }
     }
 }

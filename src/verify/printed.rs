@@ -379,6 +379,18 @@ impl<'a> Desk<'a> {
         let number = number.is_ok_and(|number| {
             matches!(number.content, Content::Quantity(_)) && number.literal.is_some()
         });
+        if self.vectors.contains_key(item)
+            && let Some(parts) = numbers(last)
+        {
+            for (axis, number) in ["x", "y"].iter().zip(parts) {
+                self.number(printed, &number, &format!("{item}_{axis}"), finding)?;
+                if finding.holds != Some(true) {
+                    finding.because = format!("along {axis}, {}", finding.because);
+                    break;
+                }
+            }
+            return Ok(());
+        }
         if !number || !self.closed.contains_key(item) {
             return self.formula(printed, item, text, finding);
         }
@@ -592,6 +604,21 @@ impl<'a> Desk<'a> {
     }
 }
 
+/// The components of a vector in numbers, each with the unit behind all: `[-1.84, 3.12] N s`.
+fn numbers(text: &str) -> Option<[String; 2]> {
+    let (inside, unit) = text
+        .trim()
+        .strip_prefix(['[', '('])?
+        .split_once([']', ')'])?;
+    let (x, y) = inside.split_once(',')?;
+    let number = |part: &str| {
+        let text = format!("{} {}", part.trim(), unit.trim());
+        let read = formula::read(&text, &Symbols::strict()).ok()?;
+        read.literal.map(|_| text)
+    };
+    Some([number(x)?, number(y)?])
+}
+
 /// The decimal number in its unit that is printed by itself, or as the bound of something: rounded, like every decimal.
 fn decimal_in(text: &str) -> Option<&str> {
     let mut sides = text.split(['<', '>', '=', '≤', '≥']).map(str::trim);
@@ -602,7 +629,7 @@ fn decimal_in(text: &str) -> Option<&str> {
 }
 
 /// Which coefficient of friction a threshold bounds, and how it stands to it.
-fn friction_bound(scene: &Scene, name: &str) -> Option<(Expr, Relation)> {
+pub(crate) fn friction_bound(scene: &Scene, name: &str) -> Option<(Expr, Relation)> {
     let question = scene.question(name)?;
     let Ask::Friction { contact, event } = &question.ask else {
         return None;

@@ -158,7 +158,8 @@ impl<'a> Trial<'a> {
         if self.expected.is_zero() || self.answer.is_zero() || !self.in_proportion() {
             return None;
         }
-        if let Some(k) = quotient(self.answer, self.expected, ctx) {
+        // A factor 1 holds on one branch of |f| alone.
+        if let Some(k) = quotient(self.answer, self.expected, ctx).filter(|k| !k.is_one()) {
             let fraction = fraction(&k).is_some_and(|k| simple(&k));
             if let Some([low, high]) = number::bounds(&k).filter(|_| !fraction) {
                 let one = ratio(1, 1);

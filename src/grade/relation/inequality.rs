@@ -59,6 +59,17 @@ fn by_extent(ctx: &Context, expected: &Normal, answer: &Normal) -> Option<Findin
     let (f, g) = (&expected.difference, &answer.difference);
     match [expected, answer].map(|n| extent(n, domains)) {
         [Extent::All, Extent::All] | [Extent::None, Extent::None] => {
+            if !domains.relations.is_empty() {
+                let mut key = ctx.key.clone();
+                key.question.domains.relations.clear();
+                let wider = Context::new(&key, ctx.options, false);
+                let mut found = inequalities(&wider, expected, answer);
+                if found.is_equivalent() {
+                    let given = "compared beyond what is granted of the parameters";
+                    found.assume(vec![given.into()]);
+                    return Some(found);
+                }
+            }
             let reals = over_reals(domains, &[f, g]);
             let extents = [expected, answer].map(|n| extent(n, &reals));
             match extents {

@@ -3,8 +3,10 @@
 use super::super::compare::{Context, Finding};
 use super::super::{Apart, Verdict};
 use super::cells::{self, Along, Cases};
+use super::inequality::extent;
+use super::locus::Extent;
 use super::solved::{rounded, solve_for, unknowns};
-use super::undone::called;
+use super::undone::{self, called};
 use super::{
     GAINED, LOST, Normal, OTHER, REALS, apart_at_points, differences, holding, link, not_zero,
     over_reals, same_solutions, says_nothing, sign_of, told, undecided,
@@ -160,7 +162,7 @@ pub(super) fn compare(
 ) -> Finding {
     let [mine, theirs] = [expected, answer].map(|system| match expected.len() == answer.len() {
         true => system.to_vec(),
-        false => system.iter().flat_map(without_bars).collect(),
+        false => spread(system, domains),
     });
     if mine.len() == theirs.len()
         && let Some(finding) = matched(ctx, &mine, &theirs)
@@ -187,6 +189,23 @@ pub(super) fn compare(
     apart_at_points(ctx, expected, answer).unwrap_or_else(|| {
         undecided("the relations could not be solved to compare their solutions")
     })
+}
+
+/// A system with each bound by itself: `x² < y` as `x < √y` and `−x < √y`, without what holds everywhere on the domain.
+fn spread(system: &[Normal], domains: &Domains) -> Vec<Normal> {
+    let domains = domains.of(&differences(system, []));
+    let plain = |n: &Normal| {
+        let undone = [undone::turns, undone::powers, undone::square].map(|step| step(n, &domains));
+        let given = undone.into_iter().flatten().find(|u| u.given.is_empty());
+        given.map_or_else(|| n.clone(), |undone| undone.normal)
+    };
+    let all: Vec<Normal> = system
+        .iter()
+        .flat_map(|n| without_bars(&plain(n)))
+        .collect();
+    let says = |n: &&Normal| extent(n, &domains) != Extent::All;
+    let some: Vec<Normal> = all.iter().filter(says).cloned().collect();
+    if some.is_empty() { all } else { some }
 }
 
 /// `|u| < v` as `u < v` and `−u < v`; any other relation as it is.

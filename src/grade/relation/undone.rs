@@ -165,8 +165,8 @@ pub(super) fn called(
 }
 
 /// An inequality with one sine, cosine or tangent of an angle on whose domain it only grows or only falls, as one of the
-/// angle: `tan θ < 1` is `θ < arctan 1`.
-fn turns(n: &Normal, domains: &Domains) -> Option<Undone> {
+/// angle: `tan θ < 1` is `θ < arctan 1`; or with bars, `sin θ > 1/2` as `|θ − π/2| < π/3`.
+pub(super) fn turns(n: &Normal, domains: &Domains) -> Option<Undone> {
     use Function::{Acos, Asin, Atan, Cos, Sin, Tan};
     if !matches!(n.relation, Relation::Less | Relation::LessEqual) {
         return None;
@@ -178,12 +178,22 @@ fn turns(n: &Normal, domains: &Domains) -> Option<Undone> {
     let monotone = (to < most || to == most && !(open && at_to))
         && (from > least || from == least && !(open && at_from));
     let reached = open || is_not_negative(&(Expr::one() - value.powi(2)), domains);
-    let (arc, k) = match function {
-        Sin => (Asin, k),
-        Cos => (Acos, -k),
-        _ => (Atan, k),
+    // Over a whole turn a cosine falls on both sides of zero, and a sine on both sides of a right angle.
+    let [middle, about] = match function {
+        Cos => [ratio(0, 1), ratio(1, 1)],
+        _ => [ratio(1, 2), ratio(1, 1)],
     };
-    (monotone && reached).then(|| {
+    let even = !open && from >= &middle - &about && to <= &middle + &about;
+    let (arc, k, angle) = match function {
+        _ if !monotone => {
+            let aside = angle - Expr::pi() * Expr::from(middle);
+            (Acos, -k, Expr::call(Function::Abs, aside))
+        }
+        Sin => (Asin, k, angle),
+        Cos => (Acos, -k, angle),
+        _ => (Atan, k, angle),
+    };
+    ((monotone || even) && reached).then(|| {
         let difference = Expr::from(k) * (angle - Expr::call(arc, value));
         n.undone(difference, Vec::new())
     })
@@ -266,7 +276,7 @@ fn ends(angle: &Expr, domains: &Domains) -> Option<[(Rational, bool); 2]> {
 }
 
 /// `a^k rel b^k` with a rational k, where `a` and `b` are products of powers.
-fn powers(n: &Normal, domains: &Domains) -> Option<Undone> {
+pub(super) fn powers(n: &Normal, domains: &Domains) -> Option<Undone> {
     let sides = two_sides(n, domains)?;
     let exponent = |f: &Expr| match f.node() {
         Node::Power(_, k) => k.as_number().cloned(),
@@ -333,6 +343,21 @@ fn powers(n: &Normal, domains: &Domains) -> Option<Undone> {
     };
     let [left, right] = sides.each_ref().map(|side| root_of(side, &common));
     Some(n.undone(left - right, given))
+}
+
+/// A bound on the square of what may have either sign: `x² < y` as `|x| < √y`.
+pub(super) fn square(n: &Normal, domains: &Domains) -> Option<Undone> {
+    let symbols = n.difference.symbols();
+    symbols.iter().find_map(|name| {
+        let letter = Symbol::from(format!("{name}^2"));
+        let size = Expr::call(Function::Abs, Expr::symbol(name));
+        let line = (n.difference).replace(&Expr::symbol(name).powi(2), &Expr::symbol(&letter));
+        let slope = line.derivative(&letter);
+        let bound = -line.put(&letter, &Expr::zero()) * slope.powi(-1);
+        let linear = !line.symbols().contains(name) && !slope.symbols().contains(&letter);
+        (linear && is_positive(&slope, domains) && is_not_negative(&bound, domains))
+            .then(|| n.undone(size - bound.sqrt(), Vec::new()))
+    })
 }
 
 /// `a rel b` with exponentials in them as `ln a rel ln b`.

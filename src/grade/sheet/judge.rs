@@ -9,9 +9,10 @@ use super::super::{
 use super::{Entry, Sheet, rows};
 use crate::answer::Answer;
 use crate::dimension;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Symbol, Vector, dot};
 use crate::formula::{Content, Quantity, Reading, Relation};
 use crate::scene::Ask;
+use num_traits::{One, Signed};
 
 impl Sheet {
     /// Judges an answer for a quantity of the scene; a wrong one is held against the beliefs students have. Names of earlier
@@ -103,10 +104,14 @@ impl Sheet {
         if let Some(grade) = self.judge_worked(entry, answer, options) {
             return grade;
         }
-        let sensed = in_words(&entry.question.ask, answer);
+        let sensed = in_words(&entry.question.ask, entry.component, answer);
         let answer = sensed.as_deref().unwrap_or(answer);
-        let along = read::answer(&entry.key, answer)
-            .ok()
+        // `-v/l k` with the letter k for the direction out of the page.
+        let axes = || {
+            let names = entry.key.readable.clone().with_axes();
+            crate::formula::read(answer, &names).ok()
+        };
+        let along = (read::answer(&entry.key, answer).ok().or_else(axes))
             .and_then(|reading| about_z(&entry.question.ask, &reading));
         let answer = along.as_deref().unwrap_or(answer);
         let mut grade = judge_against(&entry.key, answer, options);
@@ -200,11 +205,19 @@ impl Sheet {
                 grade.assumed.push(words.into());
                 Some(grade)
             }
-            (_, Content::Relations(_, signs)) if signs.iter().any(|s| *s != Relation::Equal) => {
+            (_, Content::Relations(said, signs)) => {
                 let bound = self.bounds().find(|b| b.name == entry.name)?;
+                let equation = signs.iter().all(|s| *s == Relation::Equal);
+                if equation && !bound.is_in(said) {
+                    return None;
+                }
                 let sides = [Expr::symbol(&bound.parameter), bound.value.clone()];
                 let sides = sides.map(Content::Scalar).to_vec();
-                let content = Content::Relations(sides, vec![bound.relation]);
+                let relation = match equation {
+                    true => Relation::Equal,
+                    false => bound.relation,
+                };
+                let content = Content::Relations(sides, vec![relation]);
                 let key = key_of(content, &self.question());
                 Some(judge_against(&key, answer, options))
             }
@@ -354,37 +367,54 @@ fn components(entry: &Entry, exact: [Expr; 3], answer: &str, options: &Options) 
     Some(grade)
 }
 
-/// `9.31 rad/s clockwise` with the sign the question counts by.
-pub(in crate::grade) fn in_words(ask: &Ask, answer: &str) -> Option<String> {
-    const SENSES: [&str; 5] = [
-        "counterclockwise",
-        "anticlockwise",
-        "clockwise",
-        "ccw",
-        "cw",
-    ];
-    let Ask::Spin { clockwise, .. } = ask else {
-        return None;
+/// `9.31 rad/s clockwise` and `m u/M to the left` with the sign the question counts by; for a vector in formulas its components.
+pub(in crate::grade) fn in_words(
+    ask: &Ask,
+    component: Option<usize>,
+    answer: &str,
+) -> Option<String> {
+    let (body, [x, y, z]) = read::sense(answer)?;
+    let along = |axis: &Vector| {
+        let part = dot(&[Expr::from(x), Expr::from(y)], axis);
+        part.as_number()
+            .filter(|part| part.abs().is_one())
+            .map(Signed::is_positive)
     };
-    let text = answer.trim().trim_end_matches(['.', ')']).trim_end();
-    let lower = text.to_ascii_lowercase();
-    let word = SENSES.into_iter().find(|word| lower.ends_with(word))?;
-    let sense = matches!(word, "clockwise" | "cw");
-    let body = text[..text.len() - word.len()].trim_end_matches([' ', ',', '(', '~']);
-    let (name, value) = match body.rfind('=') {
-        Some(at) => body.split_at(at + 1),
-        None => ("", body),
+    let axes = [[1, 0], [0, 1]].map(|axis| axis.map(Expr::from));
+    let same = match (ask, component) {
+        (
+            Ask::Spin { clockwise, .. }
+            | Ask::Angle { clockwise, .. }
+            | Ask::AngularAcceleration { clockwise, .. },
+            _,
+        ) if z != 0 => (z < 0) == *clockwise,
+        (Ask::Velocity { along: None, .. } | Ask::Impulse { along: None, .. }, Some(axis)) => {
+            along(&axes[axis])?
+        }
+        (Ask::Velocity { along: None, .. } | Ask::Impulse { along: None, .. }, None) if z == 0 => {
+            true
+        }
+        (
+            Ask::Velocity {
+                along: Some(axis), ..
+            }
+            | Ask::Impulse {
+                along: Some(axis), ..
+            }
+            | Ask::PointAcceleration { along: axis, .. }
+            | Ask::Reaction { along: axis, .. },
+            _,
+        ) => along(axis)?,
+        _ => return None,
     };
-    let value = value.trim();
-    let positive = value.strip_prefix(['-', '−']);
-    let size = positive.unwrap_or(value);
-    let several = size.contains(['+', '-', '−', '±', '∓']);
-    Some(match (sense == *clockwise, positive) {
-        (true, _) => format!("{name}{value}"),
-        (false, _) if several => format!("{name}-({value})"),
-        (false, Some(positive)) => format!("{name}{positive}"),
-        (false, None) => format!("{name}-{value}"),
-    })
+    if component.is_none()
+        && let Ask::Velocity { along: None, .. } | Ask::Impulse { along: None, .. } = ask
+    {
+        let at = body.rfind('=').map_or(0, |at| at + 1);
+        let parts = [x, y].map(|part| format!("{part}*({})", body[at..].trim()));
+        return Some(format!("{}[{}]", &body[..at], parts.join(", ")));
+    }
+    Some(read::with_sign(body, same))
 }
 
 /// A spin as a vector along k, which points out of the page, in the sense the question counts by.

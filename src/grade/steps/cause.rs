@@ -5,6 +5,7 @@ use std::convert::Infallible;
 
 use super::super::relation::{follows, solve_for};
 use super::link::Link;
+use super::names::angle_in;
 use super::{Desk, MOST_CAUSES, MOST_STATED};
 use crate::dimension::Dimension;
 use crate::domain::Domains;
@@ -100,11 +101,10 @@ impl Desk<'_> {
                 let line = reduced(line, &rules);
                 // What says nothing new, or contradicts those before, gives no rule.
                 let symbols = line.symbols();
-                let mut names = symbols.iter().filter(|n| self.is_found(n));
-                let rule = names.find_map(|name| {
-                    let root = solve_for(&line, name, domains);
-                    let root = root.or_else(|| size_in(&line, name, domains))?;
-                    Some((name.clone(), root))
+                let names = || symbols.iter().filter(|n| self.is_found(n));
+                let ways = [solve_for, angle_in, size_in];
+                let rule = ways.iter().find_map(|way| {
+                    names().find_map(|name| Some((name.clone(), way(&line, name, domains)?)))
                 });
                 rules.extend(rule);
             }
@@ -124,8 +124,10 @@ impl Desk<'_> {
                 let others = laws.iter().enumerate().filter(|(i, _)| *i != j);
                 others.map(|(_, law)| law).collect()
             };
+            // Of a story the laws of impacts are not among them, and it may stand in place of one of those.
+            let others = usize::from(!self.sheet.scene.stages.is_empty());
             let mut all = causes.iter().copied();
-            all.find(|cause| (0..laws.len()).any(|j| follows(*cause, &without(j))))
+            all.find(|cause| (0..laws.len() + others).any(|j| follows(*cause, &without(j))))
         })
     }
 

@@ -368,8 +368,15 @@ impl Desk<'_> {
             }
         };
         let entry: Entry = self.sheet.entry(&question).ok()?;
+        // `μ ≥ P_t/P_n = …` says what its first link says where the others hold.
+        let first = self.first_link(reading);
+        let reading = first.as_ref().unwrap_or(reading);
         let grade = match self.in_given(reading) {
             Some(text) => self.sheet.judge(&entry, &text, options),
+            None if first.is_some() => {
+                let text = super::super::show(&reading.content);
+                self.sheet.judge(&entry, &text, options)
+            }
             None => self.sheet.judge(&entry, text, options),
         };
         let status = match grade.verdict {
@@ -387,6 +394,25 @@ impl Desk<'_> {
         self.finals
             .insert(question, Final::new(number, text, grade.verdict));
         Some((status, grade.diagnosis))
+    }
+
+    /// The bound of a chain that goes on with equalities, where all of these hold, and what is known put in.
+    fn first_link(&self, reading: &Reading) -> Option<Reading> {
+        let Content::Relations(sides, signs) = &reading.content else {
+            return None;
+        };
+        let ([name, first, rest @ ..], [sign, others @ ..]) = (&sides[..], &signs[..]) else {
+            return None;
+        };
+        let goes_on = !equal(*sign) && !others.is_empty() && others.iter().all(|s| equal(*s));
+        let none = BTreeMap::new();
+        let links = rest.iter().map(|side| self.link(first, side));
+        let links: Vec<Link> = links.collect::<Option<_>>().filter(|_| goes_on)?;
+        let hold = |link: &Link| self.all_zero(&link.differences, &none) == Some(true);
+        let value = self.put_in(first.expr()?, &none);
+        let sides = vec![name.clone(), Content::Scalar(value)];
+        let content = Content::Relations(sides, vec![*sign]);
+        links.iter().all(hold).then(|| reading.with(content))
     }
 
     /// A line about a parameter with the student's own names put in, where it has such.

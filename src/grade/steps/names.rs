@@ -23,7 +23,7 @@ pub(super) fn named(text: &str) -> Option<(Symbol, &str)> {
     let (left, right) = text.split_once('=')?;
     let left = left.trim_end_matches(':').trim();
     let word = left.starts_with(|c: char| c.is_ascii_alphabetic())
-        && left.chars().all(|c| c.is_ascii_alphanumeric());
+        && left.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     let read = formula::read(left, &Symbols::open()).ok();
     let symbol = read.and_then(|reading| reading.expr()?.as_symbol().cloned());
     let name = symbol.or_else(|| word.then(|| Symbol::from(left)))?;
@@ -78,7 +78,7 @@ fn below_in(line: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
 }
 
 /// The angle between 0 and 90° whose sine, cosine or tangent alone occurs.
-fn angle_in(line: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
+pub(super) fn angle_in(line: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
     let angle = Expr::symbol(name);
     let value = Symbol::from(format!("{name}_value"));
     let forms = [
@@ -145,6 +145,7 @@ impl Desk<'_> {
         let known = |c: char| self.is_known(&Symbol::from(c.to_string()));
         let new = |name: &Symbol| !self.is_known(name) && !name.chars().all(known);
         let (name, right) = named(text).filter(|(name, _)| new(name))?;
+        let right = super::super::read::sense(right).map_or(right, |(value, _)| value);
         let right = match formula::read(right, &self.symbols(right)) {
             Ok(reading) => reading,
             Err(_) => match self.looked_ahead(right) {
@@ -319,22 +320,33 @@ impl Desk<'_> {
             if self.own.len() >= MOST_NAMES || self.is_known(&missing) {
                 return None;
             }
-            let said = self.ahead.iter().find(|(name, _)| *name == missing);
-            let value =
-                said.and_then(
-                    |(_, right)| match formula::read(right, &symbols).ok()?.content {
-                        Content::Relations(sides, _) => sides.last()?.expr().cloned(),
-                        one => one.expr().cloned(),
-                    },
-                );
-            let is_said = said.is_some();
-            let value = value.or_else(|| self.lone_inertia(&missing))?;
-            if is_said {
+            if self.said_ahead(&missing, &symbols) {
+                continue;
+            }
+            let value = self.lone_inertia(&missing)?;
+            if self.ahead.iter().any(|(name, _)| *name == missing) {
                 self.early.insert(missing.clone());
             }
             self.own.insert(missing, value);
         }
         None
+    }
+
+    /// Takes what a name is from the line further down that says it.
+    fn said_ahead(&mut self, name: &Symbol, symbols: &Symbols) -> bool {
+        let said = self.ahead.iter().find(|(other, _)| other == name);
+        let value = said.and_then(
+            |(_, right)| match formula::read(right, symbols).ok()?.content {
+                Content::Relations(sides, _) => sides.last()?.expr().cloned(),
+                one => one.expr().cloned(),
+            },
+        );
+        let found = value.is_some();
+        if let Some(value) = value {
+            self.early.insert(name.clone());
+            self.own.insert(name.clone(), value);
+        }
+        found
     }
 
     /// What I_G and I_A stand for where nobody says it and only one body moves.
@@ -385,11 +397,12 @@ impl Desk<'_> {
             .notes
             .iter()
             .any(|n| n.remark == formula::Remark::Letters && !product(n));
-        let new: Vec<Symbol> = reading
-            .symbols()
-            .into_iter()
-            .filter(|n| !self.is_known(n))
-            .collect();
+        let mut new: Vec<Symbol> = reading.symbols().into_iter().collect();
+        new.retain(|name| !self.is_known(name));
+        if new.len() > 1 {
+            let symbols = self.symbols(text);
+            new.retain(|name| !self.said_ahead(name, &symbols));
+        }
         let ([name], false, true) = (new.as_slice(), letters, self.own.len() < MOST_NAMES) else {
             return None;
         };

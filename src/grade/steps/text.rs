@@ -57,6 +57,86 @@ pub(super) fn equations(text: &str) -> Vec<&str> {
     out
 }
 
+/// Words that stand for a sign of equality behind a name.
+const VERBS: [&str; 4] = [" is equal to ", " is given by ", " equals ", " is "];
+
+/// Words behind the letters of a quantity that tell which value of it is meant.
+const WHICH: [&str; 6] = ["before", "after", "lost", "gained", "initially", "finally"];
+
+/// A line with signs and names for words: `ω is 3v/(2l)` with a sign of equality, `KE before = ½mv²` with the name `KE_before`.
+/// What is `asked` of the moment just after is its own name then.
+pub(super) fn in_names(line: &str, asked: &dyn Fn(&str) -> bool) -> String {
+    let line = line.replace("K.E.", "KE").replace("P.E.", "PE");
+    let words: Vec<&str> = line.split(' ').collect();
+    let sign = |word: &str| word.ends_with(['=', '+', '-', '−', '≈', ':', ',']);
+    let mut out: Vec<String> = Vec::new();
+    let mut at = 0;
+    while let Some(word) = words.get(at) {
+        let first = out.last().is_none_or(|w| sign(w) || is_word(w));
+        let which = Some(&words[at + 1..]).filter(|_| first && (is_letters(word) || asked(word)));
+        match which.and_then(which_value) {
+            Some((which, used)) if which.starts_with("after") && asked(word) => {
+                out.push(format!("{word}{}", &which["after".len()..]));
+                at += used;
+            }
+            Some((which, used)) => {
+                out.push(format!("{word}_{which}"));
+                at += used;
+            }
+            None => out.push(word.to_string()),
+        }
+        at += 1;
+    }
+    let mut line = out.join(" ");
+    for verb in VERBS {
+        if let Some((left, right)) = line.split_once(verb) {
+            let name = left.rsplit(' ').next().unwrap_or_default();
+            let name = name.trim_start_matches('$');
+            if asked(name) || verb != " is " && is_letters(name) {
+                line = format!("{left} = {right}");
+            }
+        }
+    }
+    line
+}
+
+/// Which value words behind a name speak of, and how many words that takes: `just after the hit`.
+fn which_value<'t>(words: &[&'t str]) -> Option<(&'t str, usize)> {
+    let mut at = usize::from(["just", "right", "immediately"].contains(words.first()?));
+    let plain = |word: &&str| word.trim_end_matches([':', ',', '.']).len();
+    let which = *words
+        .get(at)
+        .filter(|word| WHICH.contains(&&word[..plain(word)]))?;
+    at += 1;
+    if plain(&which) < which.len() {
+        return Some((which, at));
+    }
+    if words.get(at) == Some(&"the") {
+        at += 1 + usize::from(words.get(at + 1).is_some_and(|word| is_word(word)));
+    }
+    let ends = |next: &str| {
+        next.starts_with(['=', '+', '-', '−', '≈', ':', ',']) || ["is", "equals"].contains(&next)
+    };
+    let end = words.get(at).is_none_or(|next| ends(next));
+    end.then_some((which, at))
+}
+
+fn is_word(text: &str) -> bool {
+    let function = ["sin", "cos", "tan", "cot"].contains(&text);
+    text.len() > 2 && !function && text.chars().all(|c| c.is_ascii_alphabetic())
+}
+
+/// Whether a word is one or two letters as they stand for a quantity, maybe with an index.
+fn is_letters(word: &str) -> bool {
+    const WORDS: [&str; 12] = [
+        "a", "as", "at", "by", "if", "in", "is", "it", "of", "so", "to", "we",
+    ];
+    let base = word.split('_').next().unwrap_or_default();
+    let plain = word.chars().all(|c| c.is_alphanumeric() || c == '_');
+    let letters = base.chars().filter(|c| c.is_alphabetic()).count();
+    plain && (1..3).contains(&letters) && !WORDS.contains(&word)
+}
+
 /// What a line supposes and what follows then: `For θ = 0: ω = 3v/(2l)`, `If e = 1, E = 0`.
 pub(super) fn supposition(text: &str) -> Option<(&str, &str)> {
     let lead = text.split(' ').next()?;
@@ -142,6 +222,16 @@ fn equation(text: &str) -> &str {
     {
         rest = behind.trim_start();
     }
+    // `As M→∞, …`
+    if let Some((words, behind)) = rest.split_once(", ")
+        && ["→", "->", "\\to"]
+            .iter()
+            .any(|arrow| words.contains(arrow))
+        && !relates(&words.replace("->", ""))
+        && relates(behind)
+    {
+        rest = behind.trim_start();
+    }
     // A law or body named before a colon; a definition `a := b` has its sign behind the colon.
     if let Some((words, behind)) = rest.split_once(':')
         && !behind.starts_with('=')
@@ -176,11 +266,33 @@ fn equation(text: &str) -> &str {
             ""
         };
     }
-    let rest = without_remark(rest.trim_end_matches(['$', ' ', '.', ',', ';']));
+    let rest = without_remark(without_reason(rest).trim_end_matches(['$', ' ', '.', ',', ';']));
     let moment = MOMENTS
         .split('|')
         .find_map(|words| rest.strip_suffix(words));
     moment.unwrap_or(rest).trim_end()
+}
+
+/// An equation without the reason in words behind it: `T1 = T2 since the pulley is light`, `…, where v' is the speed after`.
+fn without_reason(text: &str) -> &str {
+    const REASONS: [&str; 7] = [
+        " where ",
+        " because ",
+        " since ",
+        " using ",
+        " due to ",
+        " as the ",
+        " by the ",
+    ];
+    let found = REASONS
+        .iter()
+        .filter_map(|lead| Some((text.find(lead)?, lead.len())));
+    match found.min() {
+        Some((at, length)) if !relates(&text[at..]) && text[at + length..].contains(' ') => {
+            text[..at].trim_end_matches([' ', ','])
+        }
+        _ => text,
+    }
 }
 
 /// Whether words left of an equality sign describe a quantity and do not end in its name: `the energy lost`, `momentum about A`,
@@ -226,7 +338,9 @@ pub(super) fn is_near(fault: &Fault, text: &str) -> bool {
     let first = |text: &str| text.chars().find(|c| c.is_alphabetic());
     let meant = offered.and_then(|words| words.split_whitespace().last());
     let own = text.get(fault.start..fault.end).unwrap_or_default();
-    let indexed = |name: &str| name.contains('_');
+    let indexed = |name: &str| {
+        name.contains('_') || name.ends_with(|c: char| c.is_ascii_digit() || c == '\'')
+    };
     let alike = |meant: &str| first(meant) == first(own) && (indexed(meant) || !indexed(own));
     // `ma` is m a rather than a slip for m.
     let product = |meant: &str| meant.len() == 1 && own.len() < 4 && !own.contains('_');
