@@ -457,3 +457,34 @@ proptest! {
         read_and_render(&letters.into_iter().collect::<String>());
     }
 }
+
+#[test]
+fn a_formula_may_name_an_answer_that_is_asked_further_down() {
+    let names = |questions: &str| -> Vec<String> {
+        let text = format!(
+            r#"{{
+              "parameters": {{"m": {{"unit": "kg"}}, "v": {{"unit": "m/s"}}, "e": {{}}}},
+              "bodies": {{
+                "left": {{"shape": "particle", "mass": "m", "velocity": ["v", "0"]}},
+                "right": {{"shape": "particle", "mass": "2*m"}}
+              }},
+              "contacts": {{
+                "c": {{"bodies": ["left", "right"], "at": ["0", "0"], "normal": ["1", "0"], "law": "frictionless", "restitution": "e"}}
+              }},
+              "questions": {{{questions}}}
+            }}"#
+        );
+        let scene =
+            carom::scene::read(&text).unwrap_or_else(|f| panic!("{}", f.render("a", &text)));
+        scene.questions.iter().map(|q| q.name.clone()).collect()
+    };
+    let [share, w, u] = [
+        r#""share": {"value": "w/v"}"#,
+        r#""w": {"value": "u_x/2"}"#,
+        r#""u": {"velocity": "right"}"#,
+    ];
+    let found = names(&[share, w, u].join(", "));
+    assert_eq!(found, ["u", "w", "share"]);
+    let found = names(&[u, w, share].join(", "));
+    assert_eq!(found, ["u", "w", "share"]);
+}

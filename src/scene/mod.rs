@@ -71,9 +71,10 @@ pub fn read(text: &str) -> Result<Scene, Faults> {
             Some((root, turns)) => (root, turns.as_slice()),
             None => (root, [].as_slice()),
         };
-        let Some(file) = <file::SceneFile as record::Read>::read(root, faults) else {
+        let Some(mut file) = <file::SceneFile as record::Read>::read(root, faults) else {
             return Scene::default();
         };
+        questions::order::order(&mut file);
         let lone = stages::lone(&file).or_else(|| questions::with_parts(&file));
         let file = lone.as_ref().unwrap_or(&file);
         let (scene, all) = resolve::resolve(file, turns, std::mem::take(faults));

@@ -18,7 +18,7 @@ use crate::scene::{Ask, FrictionEvent};
 /// Highest power of a small parameter that may be asked for.
 const ORDER: u32 = 6;
 
-/// Reads formulas of parameters and of answers to questions above them.
+/// Reads formulas of parameters and of answers to other questions.
 pub(in crate::scene) struct Reader<'a, 'f> {
     pub base: &'a mut Resolver<'f>,
     /// What formulas may name.

@@ -6,6 +6,7 @@
 pub(super) mod answers;
 mod impact;
 mod motion;
+pub(super) mod order;
 mod told;
 mod turn;
 
@@ -462,9 +463,9 @@ fn with_names<T>(
         return found;
     }
     let questions = r.file.questions.iter().flat_map(|m| &m.0);
-    let further_down = questions.map(|(name, _)| {
+    let in_a_circle = questions.map(|(name, _)| {
         let hint = format!(
-            "`{name}` is asked here or further down; a formula takes answers to questions above it",
+            "`{name}` is asked, and needs this one; no formula takes an answer that rests on it",
             name = name.text
         );
         (&name.text, hint)
@@ -474,7 +475,7 @@ fn with_names<T>(
         let hint = format!("`{stage}` is a stage; ask for its `distance` or `time` in a question above, and name that one here");
         (stage, hint)
     });
-    for (name, hint) in further_down.chain(of_stages) {
+    for (name, hint) in in_a_circle.chain(of_stages) {
         let open = format!("`{name}` is not declared");
         for fault in r.faults[earlier..].iter_mut().filter(|f| f.message == open) {
             fault.hint = Some(hint.clone());
