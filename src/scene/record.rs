@@ -343,10 +343,19 @@ pub(super) fn field<T: Read>(
     node: &Node<'_>,
     entries: &[&Entry<'_>],
     name: &str,
+    meaning: fn(&str) -> Option<String>,
     faults: &mut Vec<Fault>,
 ) -> Option<T> {
     match entries.iter().find(|e| e.key == name) {
-        Some(entry) => T::read(&entry.node, faults),
+        Some(entry) => {
+            let before = faults.len();
+            let read = T::read(&entry.node, faults);
+            let own = |f: &&mut Fault| f.span == entry.node.span && f.hint.is_none();
+            for fault in faults[before..].iter_mut().filter(own) {
+                fault.hint = meaning(name).map(|meaning| format!("`{name}`: {meaning}"));
+            }
+            read
+        }
         None => {
             let absent = T::absent();
             // An unreadable or misspelled neighbor may be this field.
@@ -361,6 +370,21 @@ pub(super) fn field<T: Read>(
             absent
         }
     }
+}
+
+/// What a field of a record is, by the first sentence of its description.
+pub(super) fn meaning<R: JsonSchema>(field: &str) -> Option<String> {
+    let schema = SchemaGenerator::default().into_root_schema_for::<R>();
+    let described = schema.get("properties")?.get(field)?.get("description")?;
+    let text = described.as_str()?;
+    let ends = [". ", "? "].iter().filter_map(|end| text.find(end));
+    let first = ends.min().map_or(text, |end| &text[..=end]);
+    let first = first.trim_end_matches('.').replace('\n', " ");
+    // `mass`: mass.
+    first.contains(' ').then_some(())?;
+    let mut letters = first.chars();
+    let small = letters.next()?.to_lowercase();
+    Some(small.chain(letters).collect())
 }
 
 /// Declares a record of a scene file: a struct with its schema, and how it is read. `span` is the place of the whole.
@@ -383,7 +407,7 @@ macro_rules! record {
                 const KNOWN: &[super::record::Known] =
                     &[$((super::record::key!($field $($key)?), <$type as super::record::Read>::FIELDS)),+];
                 let entries = super::record::fields(node, KNOWN, faults)?;
-                $(let $field = super::record::field(node, &entries, super::record::key!($field $($key)?), faults);)+
+                $(let $field = super::record::field(node, &entries, super::record::key!($field $($key)?), super::record::meaning::<$name>, faults);)+
                 Some($name { span: node.span, $($field: $field?),+ })
             }
         }
