@@ -597,6 +597,13 @@ fn take(
     domains: &Domains,
     out: &mut Roots,
 ) {
+    let put_in = e.put(symbol, &value);
+    let mut there = Field::new(domains);
+    there.prepare([&put_in]);
+    if matches!(there.element(&put_in), Err(Stop::DivisionByZero)) {
+        // A pole, of which multiplying by the denominator made a zero.
+        return;
+    }
     let words = sentence!("{} = {}", symbol, &value);
     let mut given: Vec<Sentence> = Vec::new();
     let mut probe = Field::new(domains);
@@ -614,7 +621,6 @@ fn take(
             return;
         }
     }
-    let put_in = e.put(symbol, &value);
     match is_zero(&put_in, domains) {
         Some(true) => out.inside.push(Root {
             value,

@@ -210,15 +210,28 @@ impl Work<'_> {
             None => Dimension::none(),
         };
         let raw = self.raw(formula, with);
-        out.checks.push(Check::new(
-            "identity",
-            "with the results substituted, the difference is identically zero",
-            is_zero(&(&raw.substitute(self.known) - &value), &self.scene.domains),
-        ));
+        let substituted = raw.substitute(self.known);
+        out.checks.push(self.same(&substituted, &value));
         out.put_in.push((raw, value.clone(), SUBSTITUTED));
         out.form = Form::value(value);
         out.text.extend(with_words(with));
         Ok(out)
+    }
+
+    /// That a result is the formula with the other results in it.
+    fn same(&self, substituted: &Expr, value: &Expr) -> Check {
+        let domains = &self.scene.domains;
+        let words = "with the results substituted, the difference is identically zero";
+        let holds = is_zero(&(substituted - value), domains);
+        if holds.is_some() {
+            return Check::new("identity", words, holds);
+        }
+        // What stands under a root is not negative where both have a value.
+        let decided = equality::decide(substituted, value, domains).equality;
+        let holds = (decided.is_identity().then_some(true))
+            .or_else(|| decided.is_different().then_some(false));
+        let words = "with the results substituted, both are equal wherever they have a value";
+        Check::new("identity", words, holds)
     }
 
     fn maximum(&self, of: &Expr, over: &[Symbol]) -> Result<Vec<Answer>, Refused> {
