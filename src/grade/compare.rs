@@ -255,13 +255,11 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
         {
             values(ctx, right, value)
         }
-        // `2, -2` for `x^2 = 4`
-        (Claim::Relations(sides, signs), Claim::Value(None, value))
-            if let Some(named) = only_unknown(&ctx.key.reading.content, value) =>
-        {
-            relation::compare(ctx, (sides, signs), (&named, &[Relation::Equal]))
-        }
         (Claim::Relations(sides, signs), Claim::Value(None, value)) => {
+            // `2, -2` for `x^2 = 4`
+            if let Some(named) = only_unknown(&ctx.key.reading.content, value) {
+                return relation::compare(ctx, (sides, signs), (&named, &[Relation::Equal]));
+            }
             match sides.first().and_then(Content::expr) {
                 // `v ≤ X`: the bare right side of an inequality does not say which way.
                 Some(_) if signs.iter().any(|s| *s != Relation::Equal) => kind(&format!(
