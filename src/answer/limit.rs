@@ -9,13 +9,13 @@ use num_traits::Signed;
 
 use super::Check;
 use super::calc::{Seen, is_zero, rounding, sign, tidy, within};
-use super::powers::{Found, Tends, by_powers, not_zero};
+use super::powers::{self, Found, Tends, by_powers, not_zero};
 use super::taylor::{Side, Taylor, rooted};
 use super::{Answer, Form, Near};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, roles, samples};
 use crate::expr::{Expr, Node, Symbol};
-use crate::formula::{Sentence, sentence};
+use crate::formula::{Sentence, sentence, write_plain};
 
 /// Highest power among which the leading one is looked for.
 const LEADING: usize = 6;
@@ -147,6 +147,10 @@ pub(super) fn approximate(
         Some(series)
     });
     let Some(series) = series else {
+        let is_alone = order.is_none() && to.is_zero();
+        if is_alone && let Some(found) = powers::leading(of, parameter, domains) {
+            return lead_with_a_root(out, of, parameter, found, domains);
+        }
         out.text.push(sentence!(
             "no power series in {} was found there",
             parameter
@@ -206,6 +210,36 @@ pub(super) fn approximate(
         order,
     });
     out.form = Form::value(polynomial);
+}
+
+/// A leading term with a broken power, as in 2 R √(g h)/(2 R − h) for small h.
+fn lead_with_a_root(
+    out: &mut Answer,
+    of: &Expr,
+    parameter: &Symbol,
+    found: powers::Leading,
+    domains: &Domains,
+) {
+    let power = Expr::from(found.power);
+    let words = format!("the leading power is {}", write_plain(&power));
+    out.text.push(words.into());
+    out.assumptions.extend(found.given);
+    let whole = Expr::symbol(parameter).power(power);
+    let words = "found from the lowest powers of numerator and denominator";
+    out.checks.push(Check::new("series", words, Some(true)));
+    let stretched = of / &whole;
+    let zero = Expr::zero();
+    let near = tried(
+        &stretched,
+        &found.coefficient,
+        parameter,
+        Some(&zero),
+        0,
+        domains,
+    );
+    out.checks.extend(near);
+    let term = &found.coefficient * &whole;
+    out.form = Form::value(tidy(&term, domains).unwrap_or(term));
 }
 
 fn exact() -> Check {

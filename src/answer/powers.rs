@@ -67,6 +67,30 @@ pub(super) fn by_powers(
     })
 }
 
+/// The leading term of a formula for a small positive parameter.
+pub(super) struct Leading {
+    pub coefficient: Expr,
+    /// The power of the parameter.
+    pub power: Rational,
+    /// What must not vanish for it.
+    pub given: Vec<Sentence>,
+}
+
+/// The lowest power of a parameter that is not negative, half a whole number where it stands under a root.
+pub(super) fn leading(of: &Expr, p: &Symbol, domains: &Domains) -> Option<Leading> {
+    sign(&Expr::symbol(p), domains).side().filter(|up| *up)?;
+    let mut domains = domains.clone();
+    domains.symbols.insert(ROOT.into(), Domain::positive());
+    let through = of.put(p, &Expr::symbol(ROOT).powi(2));
+    let found = lead(&through, &domains).filter(|found| !found.coefficient.is_zero())?;
+    let above = found.above.iter().filter_map(|e| not_zero(e, &domains));
+    Some(Leading {
+        power: found.power / Rational::from_integer(2.into()),
+        given: found.given.iter().cloned().chain(above).collect(),
+        coefficient: found.coefficient,
+    })
+}
+
 /// The lowest power of x in a formula, and its coefficient.
 struct Lead {
     coefficient: Expr,
