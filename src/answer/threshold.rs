@@ -6,7 +6,9 @@
 use std::collections::BTreeSet;
 
 use super::Check;
-use super::calc::{Roots, Seen, Unsolved, by_signs, end_of, essential, is_zero, sign, solve, tidy};
+use super::calc::{
+    Roots, Seen, Unsolved, above_zero, by_signs, end_of, essential, is_zero, sign, solve, tidy,
+};
 use super::inequality::{everywhere, sign_words};
 use super::{Answer, Form, intervals, limit, undo};
 use crate::algebra::Sign;
@@ -42,7 +44,16 @@ pub(super) fn fill(
     let upward = matches!(relation, Relation::Greater | Relation::GreaterEqual);
     let under = radicand(&gap, parameter, domains).filter(|_| upward);
     let (gap, rooted) = (under.clone().unwrap_or(gap), under.is_some());
-    let roots = match solve(&gap, parameter, domains) {
+    let roots = solve(&gap, parameter, domains);
+    let real = roots.as_ref().ok().filter(|_| relation != Relation::Equal);
+    let (roots, domains) = match real.and_then(|found| where_real(found, domains)) {
+        Some((wanted, granted)) => {
+            out.assumptions.extend(wanted);
+            (solve(&gap, parameter, &granted), &granted.clone())
+        }
+        None => (roots, domains),
+    };
+    let roots = match roots {
         Ok(roots) => roots,
         Err(Unsolved::Absent) => {
             let words = always(&gap, relation, domains);
@@ -137,6 +148,26 @@ fn radicand(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Expr> {
         }
         _ => None,
     }
+}
+
+/// The domains within which what stands under the roots of the values is positive, and what that asks; `None` where it is sure.
+fn where_real(roots: &Roots, domains: &Domains) -> Option<(Vec<Sentence>, Domains)> {
+    let mut granted = domains.clone();
+    let mut wanted = Vec::new();
+    for part in roots.inside.iter().flat_map(|root| root.value.parts()) {
+        let under = match part.node() {
+            Node::Power(base, k) if k.as_number().is_some_and(|k| !k.is_integer()) => base,
+            _ => continue,
+        };
+        let core = essential(under, &granted);
+        // What has a sign by itself is real, or is not.
+        if core.is_constant() || sign(&core, &granted).is_proved() {
+            continue;
+        }
+        wanted.push(above_zero(&core, &granted));
+        granted = granted.given(&core, false);
+    }
+    (!wanted.is_empty()).then_some((wanted, granted))
 }
 
 /// On which side of the root the inequality holds.
@@ -275,6 +306,9 @@ pub(super) fn beside(
     domains: &Domains,
 ) -> Seen {
     let mut domains = domains.clone();
+    domains.symbols.insert(STEP.into(), Domain::positive());
+    // Any distance does: there is no other zero on this side.
+    let at_any = value + &(Expr::from(way) * Expr::symbol(STEP));
     let end = end.map(Limit::expr);
     // A relation counts where it leaves less than the domain.
     let stated = stated(parameter, way, &domains).filter(|stated| {
@@ -289,17 +323,22 @@ pub(super) fn beside(
             if sign(&inside, &domains) == Seen::Mixed {
                 domains = domains.given(&inside, false);
             }
-            &Expr::ratio(1, 2) * &(value + &number)
+            &(&Expr::ratio(1, 2) * &(value + &number))
         }
-        None if way > 0 && sign(value, &domains).is_positive() => Expr::from(2) * value.clone(),
-        None => {
-            // Any distance does: there is no other zero on this side.
-            domains.symbols.insert(STEP.into(), Domain::positive());
-            value + &(Expr::from(way) * Expr::symbol(STEP))
-        }
+        None if way > 0 && sign(value, &domains).is_positive() => &(Expr::from(2) * value.clone()),
+        None => &at_any,
     };
-    let e = gap.put(parameter, &place);
-    sign(&essential(&e, &domains), &domains)
+    let seen_at = |place: &Expr| {
+        let e = gap.put(parameter, place);
+        sign(&essential(&e, &domains), &domains)
+    };
+    match seen_at(place) {
+        seen if seen.is_proved() || *place == at_any => seen,
+        // What holds at every distance holds up to the end.
+        seen => Some(seen_at(&at_any))
+            .filter(|s| s.is_proved())
+            .unwrap_or(seen),
+    }
 }
 
 /// The one end that relations put to a parameter on one side.
