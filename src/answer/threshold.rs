@@ -55,21 +55,17 @@ pub(super) fn fill(
     };
     let roots = match roots {
         Ok(roots) => roots,
-        Err(Unsolved::Absent) => {
-            let words = always(&gap, relation, domains);
-            out.text
-                .push(sentence!("{}, whatever {} is", words, parameter));
-            return;
-        }
-        Err(Unsolved::Inside) => {
-            out.text.push(sentence!(
-                "not solved: {} stands inside a function",
-                parameter
-            ));
-            return;
-        }
-        Err(Unsolved::Limit(what)) => {
-            out.text.push(sentence!("not solved: {}", what));
+        Err(why) => {
+            out.text.push(match why {
+                Unsolved::Absent => {
+                    let words = always(&gap, relation, domains);
+                    sentence!("{}, whatever {} is", words, parameter)
+                }
+                Unsolved::Inside => {
+                    sentence!("not solved: {} stands inside a function", parameter)
+                }
+                Unsolved::Limit(what) => sentence!("not solved: {}", what),
+            });
             return;
         }
     };
@@ -90,23 +86,7 @@ pub(super) fn fill(
         });
         return;
     }
-    for root in &roots.inside {
-        if root.proved {
-            let (left, right) = (
-                left.put(parameter, &root.value),
-                right.put(parameter, &root.value),
-            );
-            let why = "both sides with the value substituted";
-            out.put_in.push((left, right, why));
-        }
-        out.assumptions.extend(root.given.iter().cloned());
-        let words = match root.proved {
-            true => "with the value substituted, both sides are identical",
-            false => "whether both sides meet at this value was not proved",
-        };
-        let holds = root.proved.then_some(true);
-        out.checks.push(Check::new("identity", words, holds));
-    }
+    meet(out, parameter, [left, right], &roots);
     if relation == Relation::Equal {
         let values = roots.inside.iter().map(|root| root.value.clone());
         let at = |value| (Expr::symbol(parameter), Relation::Equal, value);
@@ -147,6 +127,24 @@ fn radicand(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Expr> {
             Some(Expr::product(idle.into_iter().chain([base]).cloned()))
         }
         _ => None,
+    }
+}
+
+/// That both sides are the same at the values that were found.
+fn meet(out: &mut Answer, parameter: &Symbol, sides: [&Expr; 2], roots: &Roots) {
+    for root in &roots.inside {
+        if root.proved {
+            let [left, right] = sides.map(|side| side.put(parameter, &root.value));
+            let why = "both sides with the value substituted";
+            out.put_in.push((left, right, why));
+        }
+        out.assumptions.extend(root.given.iter().cloned());
+        let words = match root.proved {
+            true => "with the value substituted, both sides are identical",
+            false => "whether both sides meet at this value was not proved",
+        };
+        let holds = root.proved.then_some(true);
+        out.checks.push(Check::new("identity", words, holds));
     }
 }
 
