@@ -9,7 +9,7 @@ use crate::domain::Domain;
 use crate::expr::{Expr, Node, Symbol, dot, minus};
 use crate::formula::write_plain;
 use crate::scene::{Body, OneSided, Scene, Stage, touch};
-use crate::story::{Refused, State};
+use crate::story::{Part, Refused, State};
 
 /// A particle is touched where it is.
 pub(super) fn touches(
@@ -27,7 +27,7 @@ pub(super) fn touches(
         .iter()
         .map(|o| (&o.name, o.bodies, &o.at, Some(o)));
     for (name, bodies, at, one_sided) in joints.chain(supports) {
-        for body in bodies.map(|b| &scene.bodies[b]) {
+        for (b, body) in bodies.map(|b| (b, &scene.bodies[b])) {
             if !body.is_particle() {
                 continue;
             }
@@ -50,7 +50,8 @@ pub(super) fn touches(
                     "`{name}` is not where the particle `{}` is by then: at ({x}, {y})",
                     body.name
                 );
-                let hint = format!("\"at\": \"{}\" is always where it is", body.name);
+                let always = || format!("\"at\": \"{}\" is always where it is", body.name);
+                let hint = waits(scene, b, before).unwrap_or_else(always);
                 return Err(Refused::new(&stage.name, why, hint));
             }
         }
@@ -65,8 +66,21 @@ pub(super) fn touches(
         "{}; the center of `{}` is at ({x}, {y}) by then",
         off.words, body.name
     );
-    let hint = off.hint;
+    let hint = waits(scene, off.body, before).unwrap_or(off.hint);
     Err(Refused::new(&stage.name, why, hint))
+}
+
+/// That a body which moves has taken no part so far, and is met where the scene has it.
+fn waits(scene: &Scene, b: usize, before: &State) -> Option<String> {
+    let body = &scene.bodies[b];
+    let rests = |c: &Expr| is_zero(c, &scene.domains) == Some(true);
+    let waits = before.part[b] == Part::Waits && !body.velocity.iter().all(rests);
+    waits.then(|| {
+        format!(
+            "`{}` has taken no part before and comes in where the scene has it: give its `center` at that time, or a stage in which it moves",
+            body.name
+        )
+    })
 }
 
 /// A string between two particles pulls the second to the first.
