@@ -2,12 +2,14 @@
 
 use super::super::compare::{Context, Finding, scalars};
 use super::super::{Apart, Verdict};
+use super::factor::unrooted;
 use super::factor::{Factor, factor};
 use super::locus::{self, Extent};
+use super::points::holding;
 use super::solved::lies_inside;
 use super::{
-    Normal, REALS, apart_at_points, holding, not_zero, over_reals, same_solutions, says_nothing,
-    sign_of, solve_for, sought_in, undecided, unknowns, unrooted,
+    Normal, REALS, apart_at_points, not_zero, over_reals, same_solutions, says_nothing, sign_of,
+    solve_for, sought_in, undecided, unknowns,
 };
 use crate::algebra::Sign;
 use crate::domain::{Domains, Sample};

@@ -1,8 +1,9 @@
 //! Values that one side lists, `x = 2` or `x = 1 ± √2`, held against an equation: each is put in, and they are counted.
 
 use super::super::compare::{Context, Finding};
+use super::equations::{LOST, OTHER, told};
 use super::solved::{lies_in, solve_for};
-use super::{LOST, Normal, OTHER, cells, same_solutions, told};
+use super::{Normal, cells, same_solutions};
 use crate::domain::Domains;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Node, Symbol};

@@ -3,13 +3,15 @@
 use super::super::compare::{Context, Finding};
 use super::super::{Apart, Verdict};
 use super::cells::{self, Along, Cases};
+use super::equations::{GAINED, LOST, OTHER, told};
 use super::inequality::extent;
 use super::locus::Extent;
+use super::points::holding;
 use super::solved::{rounded, solve_for, unknowns};
 use super::undone::{self, called};
 use super::{
-    GAINED, LOST, Normal, OTHER, REALS, apart_at_points, differences, holding, link, not_zero,
-    over_reals, same_solutions, says_nothing, sign_of, told, undecided,
+    Normal, REALS, apart_at_points, differences, link, not_zero, over_reals, same_solutions,
+    says_nothing, sign_of, undecided,
 };
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, roles};

@@ -1,0 +1,203 @@
+//! Two equations, by the parts that only one of them has: a root lost, a root gained, or the same solutions.
+
+use super::factor::{turned_term, unrooted};
+use super::locus::{self, Compared, Extent, Part};
+use super::solved::{same_angle, solve_for, solved_in};
+use super::{
+    Normal, REALS, listed, not_zero, over_reals, same_solutions, says_nothing, sign_of, sought_of,
+    undecided,
+};
+use crate::algebra::Sign;
+use crate::domain::Domains;
+use crate::equality;
+use crate::expr::{Expr, Symbol};
+use crate::grade::compare::{Context, Finding};
+use crate::grade::{Apart, Diagnosis};
+
+/// Note, words and hint where each of two equations has a solution of its own, and where one is lost or gained.
+pub(super) const OTHER: [&str; 3] = [
+    "DIFF_EQUATION",
+    "the equation says something else than the expected one",
+    "compare your equation with the law it comes from, term by term",
+];
+pub(super) const LOST: [&str; 3] = [
+    "DIFF_ROOT_LOST",
+    "a solution of the expected equation does not fulfil the answer",
+    "a solution is missing or the equation says something else",
+];
+pub(super) const GAINED: [&str; 3] = [
+    "DIFF_ROOT_GAINED",
+    "the answer has a solution that the expected equation lacks",
+    "your equation is fulfilled where it should not be",
+];
+
+/// Different, with note, words and hint.
+pub(super) fn told([note, words, hint]: [&'static str; 3]) -> Finding {
+    Finding::told(note, "solutions", words, hint)
+}
+
+/// Two equations.
+pub(super) fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
+    let mut finding = solutions(ctx, expected, answer);
+    if finding.is_equivalent() {
+        let domains = ctx
+            .key
+            .question
+            .domains
+            .of(&[&expected.difference, &answer.difference]);
+        finding.assume(poles(&expected.difference, &answer.difference, &domains));
+    }
+    finding
+}
+
+/// What one equation divides by and the other does not, where it may be zero with the other fulfilled, in words.
+fn poles(f: &Expr, g: &Expr, domains: &Domains) -> Vec<String> {
+    let matters = |pole: &Expr| {
+        let excluded = |name: &Symbol| {
+            let Some(root) = solve_for(pole, name, domains) else {
+                return false;
+            };
+            [f, g]
+                .iter()
+                .any(|e| sign_of(&e.put(name, &root), domains).is_some_and(Sign::is_strict))
+        };
+        !pole.symbols().iter().any(excluded)
+    };
+    let poles = equality::poles(f, g, domains).into_iter().filter(matters);
+    poles.map(|pole| not_zero(&pole)).collect()
+}
+
+/// Two equations by their solutions, wherever both have values.
+fn solutions(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
+    let domains = &ctx.key.question.domains;
+    let (f, g) = (&expected.difference, &answer.difference);
+    let compared = locus::compare(f, g, domains);
+    match compared.as_ref().map(|c| c.extents) {
+        Some([Extent::All, Extent::All] | [Extent::None, Extent::None]) => {
+            return vacuous(ctx, f, g);
+        }
+        Some([Extent::All, _]) => {
+            let words = "the expected equation holds everywhere, and the answer does not";
+            return Finding::different("DIFF_EQUATION", "solutions", words);
+        }
+        Some([_, Extent::All]) => {
+            let words = "the answer holds everywhere: it says nothing";
+            return Finding::different("DIFF_EQUATION", "solutions", words);
+        }
+        _ => {}
+    }
+    if let Some(finding) = compared.and_then(|c| from_parts(ctx, f, g, c)) {
+        return finding;
+    }
+    let same_angle = same_angle(f, g, domains);
+    if same_angle == Some(true) {
+        return same_solutions("each equation fixes the angle, and at the same value");
+    }
+    if same_angle == Some(false) {
+        let words = "the two equations fix the angle at different values";
+        return told([OTHER[0], words, OTHER[2]]);
+    }
+    if solved_in(f, g, domains) && solved_in(g, f, domains) {
+        let mut finding = same_solutions("each equation, solved, fulfils the other");
+        let given = "what was divided by is not zero";
+        finding.assumed.push(given.into());
+        return finding;
+    }
+    // Without roots of sums, as in c = √(a² + b²).
+    let plain = [expected, answer].map(|n| unrooted(n, domains));
+    if plain.iter().any(Option::is_some) {
+        let [p, q] = plain.map(|n| n.map(|n| n.difference));
+        let (a, b) = (p.unwrap_or(f.clone()), q.unwrap_or(g.clone()));
+        let found = locus::compare(&a, &b, domains).and_then(|c| from_parts(ctx, &a, &b, c));
+        if let Some(found) = found.filter(Finding::is_equivalent) {
+            return found;
+        }
+    }
+    listed::values(expected, answer, domains).unwrap_or_else(|| {
+        undecided("the equations could not be solved to compare their solutions")
+    })
+}
+
+/// Two equations that both hold nowhere on the domain, or both everywhere.
+fn vacuous(ctx: &Context, f: &Expr, g: &Expr) -> Finding {
+    let reals = over_reals(&ctx.key.question.domains, &[f, g]);
+    let Some(compared) = locus::compare(f, g, &reals) else {
+        return undecided("neither equation has a solution on the domain");
+    };
+    match compared.extents {
+        [Extent::All, Extent::All] => return says_nothing("holds everywhere"),
+        [Extent::None, Extent::None] => return says_nothing("has no solution"),
+        [Extent::Unknown, _] | [_, Extent::Unknown] => {
+            return undecided("no solution of the equations was found, on the domain or beyond it");
+        }
+        _ => {}
+    }
+    match from_parts(ctx, f, g, compared) {
+        Some(mut finding) => {
+            let words = "neither equation has a solution on the domain: ";
+            finding.proof.words = format!("{words}{REALS}, {}", finding.proof.words);
+            finding.assumed.push(REALS.into());
+            finding
+        }
+        None => undecided("neither equation has a solution on the domain"),
+    }
+}
+
+/// The verdict from the parts that only one of two equations has, where they tell.
+fn from_parts(ctx: &Context, f: &Expr, g: &Expr, compared: Compared) -> Option<Finding> {
+    let Compared {
+        lost,
+        gained,
+        shared,
+        extents,
+    } = compared;
+    if lost.is_empty() && gained.is_empty() {
+        let mut finding =
+            same_solutions("whatever sets the two apart is nowhere zero where it matters");
+        if extents.contains(&Extent::Unknown) {
+            finding.assumed.push("the equation has a solution".into());
+        }
+        return Some(finding);
+    }
+    let sought = sought_of(ctx, shared);
+    let free = |part: &Part| part.expr.symbols().is_disjoint(&sought);
+    if !sought.is_empty() && lost.iter().chain(&gained).all(free) {
+        let mut finding = same_solutions("the two differ by factors without the sought quantity");
+        let factors = lost.iter().chain(&gained);
+        finding.assumed = factors.map(|part| not_zero(&part.expr)).collect();
+        return Some(finding);
+    }
+    let found = |parts: &[Part]| parts.iter().find(|p| p.at.is_some()).cloned();
+    let open = |parts: &[Part]| parts.iter().any(|p| p.at.is_none());
+    match (found(&lost), found(&gained)) {
+        (Some(at), Some(_)) => {
+            let mut finding = parted(ctx, OTHER, &at, false);
+            if let Some(term) = turned_term(f, g, &ctx.key.question.domains) {
+                let message = format!("right with the sign of {} turned", ctx.say(&term));
+                finding.note = "DIFF_TERM_SIGN";
+                let hint = "one term of your equation has the wrong sign";
+                finding.diagnosis = vec![Diagnosis::new("TERM_SIGN", message, hint)];
+            }
+            Some(finding)
+        }
+        (Some(at), None) => Some(parted(ctx, LOST, &at, false)),
+        (None, Some(at)) => Some(parted(ctx, GAINED, &at, true)),
+        (None, None) => {
+            debug_assert!(open(&lost) || open(&gained));
+            None
+        }
+    }
+}
+
+fn parted(ctx: &Context, words: [&'static str; 3], part: &Part, gained: bool) -> Finding {
+    let mut finding = told(words);
+    if let Some((at, value)) = &part.at {
+        let (zero, other) = (
+            "left minus right is 0".to_string(),
+            format!("left minus right is {}", ctx.say(value)),
+        );
+        let (yours, expected) = if gained { (zero, other) } else { (other, zero) };
+        finding.counterexample = Some(Apart::new(at, yours, expected));
+    }
+    finding
+}
