@@ -58,9 +58,7 @@ pub struct Case {
     /// The mode.
     pub mode: Mode,
     /// The direction s: that of slip before for a law with a path, that of the impulse along t for the others.
-    pub direction: i64,
-    /// Whether s is known from the domain, so that no case has the other direction.
-    pub known_direction: bool,
+    pub direction: Direction,
     /// What must hold besides.
     pub conditions: Vec<Bound>,
     /// The closed forms of the impulse (P_t, P_n) in a, b, c, u_t⁻, u_n⁻ put in.
@@ -74,22 +72,48 @@ pub struct Case {
 impl Case {
     /// Everything that must be ≥ 0 for it, the direction included.
     pub fn needs(&self, side: &Side) -> Vec<Expr> {
-        let bounds = self.conditions.iter().map(|bound| bound.when.of.clone());
-        let direction = match (self.known_direction, side.of.is_zero()) {
-            (true, _) => None,
-            (false, false) => Some(&side.of),
-            (false, true) => Some(&side.tie),
+        let bounds = self.conditions.iter().flat_map(|bound| &bound.when);
+        let decides = match side.of.is_zero() {
+            false => &side.of,
+            true => &side.tie,
         };
-        let direction = direction.map(|e| &Expr::from(self.direction) * e);
+        let direction = match self.direction {
+            Direction::Asked(s) => Some(Expr::from(s) * decides),
+            _ => None,
+        };
+        let bounds = bounds.map(|when| when.of.clone());
         direction.into_iter().chain(bounds).collect()
+    }
+}
+
+/// What a case supposes of the direction s, which is 1 or -1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// The domain allows no other.
+    Only(i64),
+    /// This one, which the conditions of the case do not say.
+    Asked(i64),
+    /// This one, wherever the conditions hold.
+    Follows(i64),
+    /// Nothing: the case is the same either way.
+    Either,
+}
+
+impl Direction {
+    /// s, where it is one of the two.
+    pub fn sign(self) -> Option<i64> {
+        match self {
+            Direction::Only(s) | Direction::Asked(s) | Direction::Follows(s) => Some(s),
+            Direction::Either => None,
+        }
     }
 }
 
 /// A condition of a case.
 #[derive(Clone, Debug)]
 pub struct Bound {
-    /// Not negative, or positive, where the condition holds.
-    pub when: When,
+    /// Each not negative, or positive, where the condition holds.
+    pub when: Vec<When>,
     /// The same as `left relation right`, solved for the coefficient of friction where that is possible.
     pub left: Expr,
     /// How the sides compare.
@@ -140,7 +164,10 @@ pub fn table(scene: &Scene) -> Result<Option<Table>, Stop> {
         for mode in modes(&table.space, &table.law, *s) {
             match forms.conditions(&mode, &table.law)? {
                 Some(conditions) => {
-                    let direction = (*s, directions.len() == 1);
+                    let direction = match directions.len() {
+                        1 => Direction::Only(*s),
+                        _ => Direction::Asked(*s),
+                    };
                     let case = forms.case(scene, &table, mode, direction, conditions)?;
                     table.cases.push(case);
                 }
@@ -154,6 +181,7 @@ pub fn table(scene: &Scene) -> Result<Option<Table>, Stop> {
             }
         }
     }
+    forms.without_directions(&mut table)?;
     let asked = thresholds(scene, &table, &mut forms)?;
     for case in &mut table.cases {
         case.scene.questions.clone_from(&asked);
@@ -178,6 +206,15 @@ fn alone(scene: &Scene, contact: usize) -> Result<(), Stop> {
         }
     }
     Ok(())
+}
+
+/// Whether something of this sign is never positive, or where it may vanish never negative.
+fn impossible(sign: Sign, strict: bool) -> bool {
+    match sign {
+        Sign::Negative => true,
+        Sign::Zero | Sign::NotPositive => strict,
+        Sign::NotNegative | Sign::Positive => false,
+    }
 }
 
 /// Writing and signs on the domain of a scene.
@@ -222,11 +259,6 @@ impl Forms {
     /// What remains to be asked of a mode; `None` where it cannot happen.
     fn conditions(&mut self, mode: &ModeLaw, law: &Friction) -> Result<Option<Vec<Bound>>, Stop> {
         let mut open = Vec::new();
-        let impossible = |sign: Sign, strict: bool| match sign {
-            Sign::Negative => true,
-            Sign::Zero | Sign::NotPositive => strict,
-            Sign::NotNegative | Sign::Positive => false,
-        };
         for when in &mode.when {
             let of = self.tidy(&when.of)?;
             match self.sign(&of)? {
@@ -275,7 +307,7 @@ impl Forms {
                 let right = self.tidy(&(-rest / factor))?;
                 let relation = relation(up);
                 return Ok(Bound {
-                    when,
+                    when: vec![when],
                     left: law.mu.clone(),
                     relation,
                     right,
@@ -286,8 +318,91 @@ impl Forms {
             left: self.without_positive_factors(&when.of)?,
             relation: relation(true),
             right: Expr::zero(),
-            when,
+            when: vec![when],
         })
+    }
+
+    /// Joins the cases of both directions where they are the same, and finds where the conditions say the direction.
+    fn without_directions(&mut self, table: &mut Table) -> Result<(), Stop> {
+        if table.side.of.is_zero() {
+            return Ok(());
+        }
+        let (along, mut against): (Vec<Case>, Vec<Case>) = std::mem::take(&mut table.cases)
+            .into_iter()
+            .partition(|case| case.direction != Direction::Asked(-1));
+        for mut one in along {
+            let like = |other: &Case| {
+                other.mode == one.mode && other.conditions.len() == one.conditions.len()
+            };
+            if one.direction == Direction::Asked(1)
+                && let Some(i) = against.iter().position(like)
+            {
+                match self.turned(&one, &against[i], &table.side)? {
+                    Some(Direction::Either) => {
+                        let other = against.remove(i);
+                        self.join(&mut one, other.conditions, table.contact)?;
+                    }
+                    Some(_) => {
+                        one.direction = Direction::Follows(1);
+                        against[i].direction = Direction::Follows(-1);
+                    }
+                    None => {}
+                }
+            }
+            table.cases.push(one);
+        }
+        table.cases.extend(against);
+        Ok(())
+    }
+
+    /// Compares a case with that of the other direction: whether they are the same, or the conditions of each say its
+    /// direction. Conditions of the two, one by one, must differ by a factor of known sign times what decides the direction.
+    fn turned(&mut self, one: &Case, other: &Case, side: &Side) -> Result<Option<Direction>, Stop> {
+        let (mut same, mut told) = (true, false);
+        for (a, b) in one.conditions.iter().zip(&other.conditions) {
+            let [[a], [b]] = [&a.when, &b.when].map(Vec::as_slice) else {
+                return Ok(None);
+            };
+            let gap = self.sign(&((&b.of - &a.of) / &side.of))?;
+            same &= gap.is_some_and(Sign::is_not_negative);
+            // Not both hold, and the one that does is on its own side.
+            told |= gap == Some(Sign::Negative)
+                && (self.sign(&(&a.of + &b.of))?)
+                    .is_some_and(|sum| impossible(sum, a.strict || b.strict));
+        }
+        for (p, q) in one.impulse.iter().zip(&other.impulse) {
+            same = same && self.tidy(&(p - q))?.is_zero();
+        }
+        Ok(match (same, told) {
+            (true, _) => Some(Direction::Either),
+            (false, true) => Some(one.direction),
+            (false, false) => None,
+        })
+    }
+
+    /// A case that holds either way, under its conditions for both: those of opposite right sides become one.
+    fn join(&mut self, one: &mut Case, others: Vec<Bound>, contact: usize) -> Result<(), Stop> {
+        one.direction = Direction::Either;
+        let mut joined = Vec::new();
+        for (mut bound, other) in std::mem::take(&mut one.conditions).into_iter().zip(others) {
+            let alike = bound.left == other.left && bound.relation == other.relation;
+            let is_lower = matches!(bound.relation, Relation::Greater | Relation::GreaterEqual);
+            let sum = self.tidy(&(&bound.right + &other.right))?;
+            if alike && is_lower && sum.is_zero() && !bound.right.is_zero() {
+                bound.when.extend(other.when);
+                bound.right = self.size(&bound.right)?;
+                joined.push(bound);
+            } else {
+                joined.extend([bound, other]);
+            }
+        }
+        one.conditions = joined;
+        let told = one.conditions.iter();
+        let told = told.map(|b| (b.left.clone(), b.relation, b.right.clone()));
+        if let ContactLaw::Decided(decided) = &mut one.scene.contacts[contact].law {
+            decided.when = told.collect();
+        }
+        Ok(())
     }
 
     /// An expression of the same sign, as short as its factors allow.
@@ -310,7 +425,7 @@ impl Forms {
         scene: &Scene,
         table: &Table,
         mode: ModeLaw,
-        (direction, known_direction): (i64, bool),
+        direction: Direction,
         conditions: Vec<Bound>,
     ) -> Result<Case, Stop> {
         let holds = |b: &Bound| (b.left.clone(), b.relation, b.right.clone());
@@ -335,7 +450,6 @@ impl Forms {
         Ok(Case {
             mode: mode.mode,
             direction,
-            known_direction,
             conditions,
             impulse: mode.impulse,
             scene: settled,
@@ -382,7 +496,15 @@ impl Forms {
         Ok(match self.sign(&x)? {
             Some(sign) if sign.is_not_negative() => x,
             Some(_) => self.tidy(&-x)?,
-            None => Expr::call(Function::Abs, x),
+            None => {
+                let bars = Expr::call(Function::Abs, x);
+                let tidied = self.tidy(&bars)?;
+                // A sign that was only seen at points takes no bars away.
+                match self.field.assumptions().is_empty() {
+                    true => tidied,
+                    false => bars,
+                }
+            }
         })
     }
 
@@ -503,13 +625,13 @@ fn threshold(table: &Table, forms: &mut Forms, event: FrictionEvent) -> Result<E
     let mut bounds = Vec::new();
     for case in cases.iter().flatten() {
         let bound = bound(table, forms, case, upward)?;
-        bounds.push((case.known_direction, bound.ok_or_else(none)?));
+        bounds.push((case.direction, bound.ok_or_else(none)?));
     }
     match bounds.as_slice() {
-        [(true, bound)] => Ok(bound.clone()),
+        [(Direction::Only(_) | Direction::Either, bound)] => Ok(bound.clone()),
         // Either way the same, but for the sign that the direction of slip has.
         [(_, one), (_, other)] if forms.tidy(&(one + other))?.is_zero() => {
-            forms.tidy(&Expr::call(Function::Abs, one.clone()))
+            forms.size(one)
         }
         _ => Err(none()),
     }

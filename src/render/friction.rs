@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::{latex, unicode};
 use crate::answer::{Answer, Check, Form};
-use crate::derive::friction::{Bound, Case, Table};
+use crate::derive::friction::{Bound, Case, Direction, Table};
 use crate::expr::Expr;
 use crate::formula::write_plain;
 use crate::scene::{Friction, Hypothesis, Scene};
@@ -231,16 +231,12 @@ fn bound(scene: &Scene, b: &Bound) -> String {
 
 fn holds_where(scene: &Scene, law: &Friction, case: &Case) -> String {
     let mut all = Vec::new();
-    if !case.known_direction {
+    if let Direction::Asked(s) | Direction::Follows(s) = case.direction {
         let what = match law.hypothesis {
             Hypothesis::Newton | Hypothesis::Poisson | Hypothesis::Stronge => "slip before is",
             Hypothesis::ChatterjeeRuina { .. } | Hypothesis::Brach { .. } => "friction is",
         };
-        let way = if case.direction > 0 {
-            "along t"
-        } else {
-            "against t"
-        };
+        let way = if s > 0 { "along t" } else { "against t" };
         all.push(format!("{what} {way}"));
     }
     all.extend(case.conditions.iter().map(|b| bound(scene, b)));
@@ -259,7 +255,7 @@ pub fn json(scene: &Scene, table: &Table, judged: &Judged, shown: &[Shown]) -> V
             let mut value = super::json::told(&each.case.scene, &each.told);
             if let Value::Object(fields) = &mut value {
                 fields.insert("mode".into(), json!(each.case.mode.words()));
-                fields.insert("direction".into(), json!(each.case.direction));
+                fields.insert("direction".into(), json!(each.case.direction.sign()));
                 let conditions: Vec<Value> = each
                     .case
                     .conditions

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Check;
 use crate::algebra::{Field, Sign};
-use crate::derive::friction::{Bound, Case, Table};
+use crate::derive::friction::{Bound, Case, Direction, Table};
 use crate::domain::Domains;
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Point, Rational, Symbol};
@@ -269,13 +269,14 @@ impl Signs {
 
     /// Whether a case holds; `None` where a sign is not known.
     fn holds(&self, side: &Side, case: &Case) -> Option<bool> {
-        let direction = || direction_holds(self.sign(&side.of)?, || self.sign(&side.tie), case);
-        if !(case.known_direction || direction()?) {
+        if let Direction::Asked(s) = case.direction
+            && !direction_holds(self.sign(&side.of)?, || self.sign(&side.tie), s)?
+        {
             return Some(false);
         }
         let mut all = true;
-        for bound in &case.conditions {
-            all &= satisfied(self.sign(&bound.when.of)?, &bound.when);
+        for when in case.conditions.iter().flat_map(|bound| &bound.when) {
+            all &= satisfied(self.sign(&when.of)?, when);
         }
         Some(all)
     }
@@ -284,10 +285,10 @@ impl Signs {
 fn direction_holds(
     of: std::cmp::Ordering,
     tie: impl Fn() -> Option<std::cmp::Ordering>,
-    case: &Case,
+    s: i64,
 ) -> Option<bool> {
     let decides = if of.is_eq() { tie()? } else { of };
-    Some(decides.is_ge() == (case.direction > 0))
+    Some(decides.is_ge() == (s > 0))
 }
 
 /// Whether a condition holds as it is told; `None` where a side has no exact value.
@@ -447,14 +448,17 @@ fn same<T: Number>(
         let Some(of) = sign(&table.side.of) else {
             return Ok(None);
         };
-        let right_way = case.known_direction
-            || direction_holds(of, || sign(&table.side.tie), case).unwrap_or(false);
-        let mut all = right_way;
+        let tie = || sign(&table.side.tie);
+        let mut all = match case.direction {
+            Direction::Asked(s) => direction_holds(of, tie, s).unwrap_or(false),
+            Direction::Only(_) | Direction::Follows(_) | Direction::Either => true,
+        };
         for bound in &case.conditions {
-            let Some(sign) = sign(&bound.when.of) else {
+            let each = bound.when.iter().map(|when| Some(satisfied(sign(&when.of)?, when)));
+            let Some(each) = each.collect::<Option<Vec<bool>>>() else {
                 return Ok(None);
             };
-            let holds = satisfied(sign, &bound.when);
+            let holds = each.iter().all(|holds| *holds);
             // As it is told, solved for μ where that is possible, it must say the same.
             if stated(bound, exact).is_some_and(|told| told != holds) {
                 return Err(format!(

@@ -182,7 +182,7 @@ fn a_wrong_form_is_refused_by_the_path() {
     *last = -last.clone();
     assert!(is_refused(&table));
     let (mut table, _) = judged(&scene);
-    table.cases[0].conditions[0].when.of = Expr::one();
+    table.cases[0].conditions[0].when[0].of = Expr::one();
     assert!(is_refused(&table));
 }
 
