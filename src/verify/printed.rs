@@ -15,6 +15,7 @@ use std::collections::BTreeMap;
 
 pub use cases::in_cases;
 
+use crate::algebra::tidy;
 use crate::answer::{Answer, Form};
 use crate::derive::Derivation;
 use crate::dimension::Dimension;
@@ -428,6 +429,7 @@ impl<'a> Desk<'a> {
         let reading = self.read(text, printed)?;
         let name = Symbol::from(item);
         let bound = self.bound(&name, &reading.content);
+        let said = self.said_of(&name, reading.content.answer());
         let pairs: Vec<(Expr, Expr)> = match (
             &bound,
             self.vectors.get(&name),
@@ -435,6 +437,7 @@ impl<'a> Desk<'a> {
             reading.content.answer(),
         ) {
             (Some((_, value, derived)), ..) => vec![(derived.clone(), value.clone())],
+            (_, _, Some(_), _) if said.is_some() => said.into_iter().collect(),
             (_, _, Some(closed), content) => {
                 let value = match content {
                     // Along k, out of the page, whichever way the answer counts.
@@ -500,6 +503,23 @@ impl<'a> Desk<'a> {
                 .or_else(|| self.short_factor(&all));
         }
         Ok(())
+    }
+
+    /// `cos(alpha) = …` says what alpha is: the left side as it is in truth, and the right one.
+    fn said_of(&self, name: &Symbol, content: &Content) -> Option<(Expr, Expr)> {
+        let Content::Relations(sides, signs) = content else {
+            return None;
+        };
+        let ([left, right], [Relation::Equal]) = (&sides[..], &signs[..]) else {
+            return None;
+        };
+        let (left, right) = (left.expr()?, right.expr()?);
+        let truth = self.closed.get(name).filter(|_| left.mentions(name))?;
+        let there = |e: &Expr| {
+            let value = e.put(name, truth);
+            tidy(&value, &self.scene.domains).unwrap_or(value)
+        };
+        Some((there(left), right.put(name, truth)))
     }
 
     fn equation(&self, printed: &Printed, text: &str, finding: &mut Finding) -> Result<(), String> {
