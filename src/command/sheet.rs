@@ -44,6 +44,7 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
         all: all.clone(),
         impacts: impacts.clone(),
         laws: laws.clone(),
+        accelerations: story::accelerations(&worked.told),
         coefficients: coefficients.clone(),
         story: (story.clone()).map(|scene| Story::new(scene, answers)),
         otherwise: Vec::new(),

@@ -26,6 +26,8 @@ pub struct Sheet {
     pub impacts: Vec<Scene>,
     /// Laws of the motions between the impacts, in the names of the answers: expressions that are zero.
     pub laws: Vec<Expr>,
+    /// Accelerations along the lines of the motions, whether they are asked for or not.
+    pub accelerations: Vec<Expr>,
     /// Thresholds of friction: the question, the coefficient it bounds, and how that stands to it.
     pub coefficients: Vec<(String, Symbol, Relation)>,
     /// Its story, where it has stages.
@@ -83,6 +85,7 @@ pub fn sheet(scene: Scene) -> Result<Sheet, derive::Stop> {
         all: Vec::new(),
         impacts: Vec::new(),
         laws: Vec::new(),
+        accelerations: Vec::new(),
         coefficients: Vec::new(),
         story: None,
         given: Vec::new(),

@@ -41,6 +41,28 @@ pub fn lent(scene: &Scene, told: &Told) -> Vec<Expr> {
     laws.collect()
 }
 
+/// Accelerations along the lines of a story's motions, of bodies behind movable pulleys too, each once; none that is zero.
+pub fn accelerations(told: &Told) -> Vec<Expr> {
+    let mut all = Vec::new();
+    for (stage, rate) in told
+        .stages
+        .iter()
+        .filter_map(|t| Some((t, t.acceleration.as_ref()?)))
+    {
+        let strings = match &stage.placed.kind {
+            StageKind::Slide(slide) => slide.strings.as_slice(),
+            _ => &[],
+        };
+        let behind = strings.iter().map(|string| &string.ratio() * rate);
+        for value in std::iter::once(rate.clone()).chain(behind) {
+            if !value.is_zero() && !all.contains(&value) {
+                all.push(value);
+            }
+        }
+    }
+    all
+}
+
 impl Motion<'_> {
     fn laws(&self) -> Vec<Expr> {
         let mut laws = match &self.told.placed.kind {

@@ -21,7 +21,7 @@ mod worlds;
 use std::collections::BTreeMap;
 use std::iter::successors;
 
-pub use lent::lent;
+pub use lent::{accelerations, lent};
 pub(crate) use motion::by_coordinate;
 pub use second::held;
 pub use sheet::{Way, beginning, impact, impacts, is_clockwise, outcomes, sheet, ways};

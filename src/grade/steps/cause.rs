@@ -10,7 +10,7 @@ use super::{Desk, MOST_CAUSES, MOST_STATED};
 use crate::dimension::Dimension;
 use crate::domain::Domains;
 use crate::equality::{self};
-use crate::expr::{Expr, Symbol, Vector};
+use crate::expr::{Expr, Node, Symbol, Vector};
 use crate::formula::{Content, Reading};
 use crate::laws::{self, Geometry, Kinematics, Law, Unknown};
 use crate::scene::{Ask, EnergyWhen, Question, Scene};
@@ -91,18 +91,18 @@ impl Desk<'_> {
             let rules = rules.iter();
             rules.fold(e.clone(), |e, (name, root)| e.put(name, root))
         };
-        let follows = |cause: usize, laws: &[&Expr]| {
-            let of = |wanted: Option<usize>| {
-                let stated = self.stated.iter().filter(move |(c, _)| *c == wanted);
-                stated.map(|(_, line)| line)
-            };
+        let follows = |causes: &[usize], laws: &[&Expr]| {
+            let hangs = |c: &Option<usize>| c.is_some_and(|c| causes.contains(&c));
+            let wrong = self.stated.iter().filter(|(c, _)| hangs(c));
+            let right = self.stated.iter().filter(|(c, _)| c.is_none());
+            let said = wrong.chain(right).map(|(_, line)| line);
             let mut rules: Vec<(Symbol, Expr)> = Vec::new();
-            for line in of(Some(cause)).chain(of(None)).chain(laws.iter().copied()) {
+            for line in said.chain(laws.iter().copied()) {
                 let line = reduced(line, &rules);
                 // What says nothing new, or contradicts those before, gives no rule.
                 let symbols = line.symbols();
                 let names = || symbols.iter().filter(|n| self.is_found(n));
-                let ways = [solve_for, angle_in, size_in];
+                let ways = [solve_for, angle_in, size_in, under_root];
                 let rule = ways.iter().find_map(|way| {
                     names().find_map(|name| Some((name.clone(), way(&line, name, domains)?)))
                 });
@@ -111,24 +111,32 @@ impl Desk<'_> {
             equality::vanishes(&reduced(one, &rules), domains)
         };
         let mut all = causes.iter().copied();
-        let found = all.find(|cause| follows(*cause, &[]));
-        found.or_else(|| {
-            // The wrong line stands in place of one law; the others may be used for a result without being written.
-            let symbols = one.symbols();
-            let results = symbols.iter().filter(|n| self.is_found(n)).count();
-            let laws = match results {
-                1 => self.unwritten(),
-                _ => Vec::new(),
-            };
-            let without = |j: usize| -> Vec<&Expr> {
-                let others = laws.iter().enumerate().filter(|(i, _)| *i != j);
-                others.map(|(_, law)| law).collect()
-            };
-            // Of a story the laws of impacts are not among them, and it may stand in place of one of those.
-            let others = usize::from(!self.sheet.scene.stages.is_empty());
-            let mut all = causes.iter().copied();
-            all.find(|cause| (0..laws.len() + others).any(|j| follows(*cause, &without(j))))
-        })
+        let found = all.find(|cause| follows(&[*cause], &[]));
+        found
+            .or_else(|| {
+                // The wrong line stands in place of one law; the others may be used for a result without being written.
+                let symbols = one.symbols();
+                let results = symbols.iter().filter(|n| self.is_found(n)).count();
+                let laws = match results {
+                    1 => self.unwritten(),
+                    _ => Vec::new(),
+                };
+                let without = |j: usize| -> Vec<&Expr> {
+                    let others = laws.iter().enumerate().filter(|(i, _)| *i != j);
+                    others.map(|(_, law)| law).collect()
+                };
+                // Of a story the laws of impacts are not among them, and it may stand in place of one of those.
+                let others = usize::from(!self.sheet.scene.stages.is_empty());
+                let mut all = causes.iter().copied();
+                all.find(|cause| (0..laws.len() + others).any(|j| follows(&[*cause], &without(j))))
+            })
+            // It may take several slips together.
+            .or_else(|| {
+                causes
+                    .first()
+                    .copied()
+                    .filter(|_| causes.len() > 1 && follows(&causes, &[]))
+            })
     }
 
     /// A line `name = …` that holds says what the name is under every belief about the others.
@@ -329,4 +337,18 @@ pub(super) fn size_in(line: &Expr, name: &Symbol, domains: &Domains) -> Option<E
     let line = line.replace(&Expr::symbol(name).powi(2), &Expr::symbol(&square));
     let alone = !line.symbols().contains(name);
     alone.then(|| Some(solve_for(&line, &square, domains)?.sqrt()))?
+}
+
+/// What occurs under one root alone, as the height does in the speed of a fall.
+fn under_root(line: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
+    let half = |part: &&Expr| match part.node() {
+        Node::Power(base, k) => base.symbols().contains(name) && *k == Expr::ratio(1, 2),
+        _ => false,
+    };
+    let root = line.parts().find(half)?.clone();
+    let value = Symbol::from(format!("{name}_root"));
+    let line = line.replace(&root, &Expr::symbol(&value));
+    let alone = !line.symbols().contains(name);
+    let found = alone.then(|| solve_for(&line, &value, domains))??;
+    solve_for(&(root.powi(2) - found.powi(2)), name, domains)
 }

@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use super::super::relation::{proportional, solve_for};
 use super::super::sheet::{Entry, Sheet};
 use super::super::{Diagnosis, Options, Verdict};
+use super::names::ACCELERATION;
 use super::text::supposition;
 use super::{Desk, Final, Status};
-use crate::algebra::{self, Sign};
+use crate::algebra::{self, Field, Sign};
 use crate::answer::Answer;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Function, Symbol};
@@ -234,9 +235,13 @@ impl Desk<'_> {
             return false;
         };
         let one = self.with_own(one);
-        let is = |c: &Expr| *c == one || *c == -&one;
         let mut all = self.sought.iter();
-        let stated = all.position(|s| s.condition.as_ref().is_some_and(is));
+        let is = |s: &Sought| {
+            s.condition
+                .as_ref()
+                .is_some_and(|c| self.is_multiple(&one, c))
+        };
+        let stated = all.position(is);
         // ½ m u² = μ m g d for s = d; ½ M u² = M g h where a body gets as high as h, in a solution that goes on to v = ….
         let found = stated.or_else(|| {
             if !matches!(weighed, Weighed::Slip(_)) {
@@ -252,6 +257,23 @@ impl Desk<'_> {
         });
         self.supposed.extend(found);
         found.is_some()
+    }
+
+    /// Whether a line is a condition, multiplied by given quantities at most: m w²/L = m g where w² = g L is asked about.
+    fn is_multiple(&self, line: &Expr, condition: &Expr) -> bool {
+        if line == condition || *line == -condition {
+            return true;
+        }
+        let domains = self.sheet.scene.domains.of(&[line, condition]);
+        let factor = || {
+            let (field, line, condition) = Field::pair(&domains, line, condition).ok()?;
+            Some(field.expr(&field.div(&line, &condition).ok()?))
+        };
+        let given = |name: &Symbol| {
+            let mut parameters = self.sheet.scene.parameters.iter();
+            parameters.any(|p| p.name == *name) && !self.is_found(name)
+        };
+        factor().is_some_and(|k| !k.is_zero() && k.symbols().iter().all(given))
     }
 
     /// Whether a line is a balance of energies for an energy that is to be zero: what is proportional to an energy is about
@@ -480,6 +502,8 @@ impl Desk<'_> {
         let name = self.spins.get(&**name).map_or(name, |(spin, _)| spin);
         let answers = &self.sheet.derivation.answers;
         let asked = |a: &crate::answer::Answer| *a.name == **name || *a.question == **name;
+        // Answers may stand on an acceleration that nobody asked for.
+        let lent = &**name == ACCELERATION && self.closed.contains_key(name);
         let given = |e: &Expr| {
             let parameters = &self.sheet.scene.parameters;
             let used = self.with_own(e).symbols();
@@ -503,7 +527,7 @@ impl Desk<'_> {
         };
         // A speed is no answer where a velocity is asked for.
         let whole = self.vector(first).is_some() == self.vector(last).is_some();
-        if !in_given || !whole || !answers.iter().any(asked) {
+        if !in_given || !whole || !(lent || answers.iter().any(asked)) {
             return;
         }
         let none = BTreeMap::new();

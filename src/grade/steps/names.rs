@@ -3,10 +3,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::relation::solve_for;
+use super::super::sheet::Sheet;
 use super::super::{Tolerance, believed, number};
 use super::cause::size_in;
 use super::link::Weighed;
 use super::{Desk, Diagnosis, Options, Status};
+use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
 use crate::equality::{self};
 use crate::expr::{Expr, Function, Symbol, dot, ratio};
@@ -15,6 +17,8 @@ use crate::scene::{Ask, Body};
 
 /// Most names a student may introduce.
 const MOST_NAMES: usize = 100;
+/// Most accelerations that one letter is tried as.
+const MOST_WAYS: usize = 6;
 /// Most bodies whose moments of inertia are added.
 const MOST_BODIES: usize = 4;
 
@@ -59,6 +63,61 @@ pub(super) fn behind(text: &str, reading: &Reading) -> Option<(usize, usize)> {
     let unit = text.get(note.start..note.end)?.trim_end();
     let last = unit.rfind(' ').map_or(0, |at| at + 1);
     Some((note.start + last, note.start + unit.len()))
+}
+
+/// What everybody calls an acceleration.
+pub(super) const ACCELERATION: &str = "a";
+
+/// The accelerations that the letter a of a worked solution may stand for, counted either way: those of the scene, where it
+/// has no such name itself and the solution says that of nothing else.
+pub(super) fn accelerations(sheet: &Sheet, text: &str) -> Vec<Expr> {
+    let scene = &sheet.scene;
+    let asked = sheet.derivation.answers.iter().map(|answer| &*answer.name);
+    let mut taken = scene.parameters.iter().map(|p| &*p.name).chain(asked);
+    if taken.any(|name| name == ACCELERATION) {
+        return Vec::new();
+    }
+    let mut symbols = Symbols::open();
+    for p in &scene.parameters {
+        symbols.declare_as(
+            p.name.clone(),
+            p.latex.as_deref(),
+            Some(p.dimension.clone()),
+        );
+    }
+    let rate = Dimension::new(0, 1, -2);
+    let of = |name: &str| {
+        let mut parameters = scene.parameters.iter();
+        Some(parameters.find(|p| *p.name == *name)?.dimension.clone())
+    };
+    let is_rate = |side: &Content| match side.expr().map(|e| dimension::of(e, &of)) {
+        Some(Ok(Some(found))) => found == rate,
+        _ => true,
+    };
+    let parts = text
+        .lines()
+        .take(super::MAX_LINES)
+        .flat_map(super::text::equations);
+    let readings = parts.filter_map(|part| formula::read(part, &symbols).ok());
+    let (mut used, mut fits) = (false, true);
+    for reading in readings {
+        used |= reading.symbols().contains(ACCELERATION);
+        if let Content::Relations(sides, _) = &reading.content
+            && let [first, rest @ ..] = sides.as_slice()
+            && first
+                .expr()
+                .and_then(Expr::as_symbol)
+                .is_some_and(|s| &**s == ACCELERATION)
+        {
+            fits &= rest.iter().all(is_rate);
+        }
+    }
+    let both = sheet
+        .accelerations
+        .iter()
+        .flat_map(|value| [value.clone(), -value]);
+    both.take(if used && fits { MOST_WAYS } else { 0 })
+        .collect()
 }
 
 /// Whether a letter behind a formula is a quantity first: a speed V rather than volts, a height h rather than hours.
