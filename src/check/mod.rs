@@ -4,10 +4,11 @@
 //! Comes in: the JSON of `carom solution`. Goes out: a [`Report`] that names every step that does not hold. Nothing of the
 //! deriving code is used: formulas are read and evaluated, the scene inside the file is read and solved in numbers.
 
+mod impacts;
 mod near;
 mod replay;
-mod story;
 mod typeset;
+mod whole;
 
 use std::collections::BTreeMap;
 
@@ -110,13 +111,18 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
     if let (false, Some(stage)) = (scene.has_stages(), root["impacts"][0]["stage"].as_str()) {
         scene = scene.staged(stage);
     }
-    let impacts = story::impacts(&scene, &root["impacts"])?;
-    let meanings = meanings(&scene, &root["symbols"])?;
-    let known = Known::of(&scene, &meanings, &root["spelled"]);
-    let mut symbols = BTreeMap::from([(None, known)]);
+    let impacts = impacts::read(&scene, &root)?;
+    let mut symbols = BTreeMap::new();
     for impact in &impacts {
         let of = Known::of(&impact.scene, &impact.meanings, &root["spelled"]);
-        symbols.insert(Some(impact.name.clone()), of);
+        symbols.insert(impact.name.clone(), of);
+    }
+    let whole = match scene.has_stages() {
+        true => Some(meanings(&scene, &root["symbols"])?),
+        false => None,
+    };
+    if let Some(meanings) = &whole {
+        symbols.insert(None, Known::of(&scene, meanings, &root["spelled"]));
     }
     let mut report = Report::default();
     let mut claims = Claims::default();
@@ -129,17 +135,12 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
         mine.collect::<Vec<_>>()
     };
     for impact in &impacts {
-        let (mine, own) = (of(Some(&impact.name)), (&*impact.name, &impact.scene));
-        let told = (impact.mode.as_deref(), &*impact.needs);
-        replay::replay(own, &impact.meanings, &mine, told, &mut report);
+        replay::replay(impact, &of(impact.name.as_ref()), &mut report);
     }
-    if scene.has_stages() {
-        let needs = story::needs(&scene, &root["needs"])?;
-        let claims = of(None);
-        story::replay(&scene, &impacts, &meanings, (&claims, &needs), &mut report);
-    } else {
-        let mode = root["mode"].as_str();
-        replay::replay(("", &scene), &meanings, &of(None), (mode, &[]), &mut report);
+    if let Some(meanings) = &whole {
+        let needs = impacts::needs(&scene, &root["needs"])?;
+        let claims = (&*of(None), &*needs);
+        whole::replay(&scene, &impacts, meanings, claims, &mut report);
     }
     for near in &claims.near {
         near::replay(&scene, near, &mut report);

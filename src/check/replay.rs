@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 
+use super::impacts::Impact;
 use super::{Claim, Meaning, POINTS, Report};
 use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::numeric::friction::happened;
@@ -17,14 +18,10 @@ const SEEDS: u64 = 400;
 /// Relative difference allowed where a claim has no exact value and doubles must do.
 const ROUNDING: f64 = 1e-9;
 
-/// Replays the claims of a scene of one impact, or those of one of its impacts.
-pub(super) fn replay(
-    (name, scene): (&str, &Scene),
-    meanings: &BTreeMap<Symbol, Meaning>,
-    claims: &[&Claim],
-    (mode, needs): (Option<&str>, &[Expr]),
-    report: &mut Report,
-) {
+/// Replays the claims of an impact.
+pub(super) fn replay(impact: &Impact, claims: &[&Claim], report: &mut Report) {
+    let (scene, meanings) = (&impact.scene, &impact.meanings);
+    let (mode, needs) = (impact.mode.as_deref(), &*impact.needs);
     let mut needed = needed(numeric::needed(scene), meanings, claims);
     needs.iter().for_each(|e| needed.add(e));
     let told = |p: &Point<Rational>| holds(needs, &numeric::rounded(p));
@@ -53,7 +50,7 @@ pub(super) fn replay(
             if let (true, false, Some(found)) = (all.is_empty(), needs.is_empty(), instead) {
                 let claim = format!("the contact {}", mode.unwrap_or_default());
                 let why = format!("wherever that was tried under its conditions, it {found}");
-                report.fail(name, &claim, why);
+                report.fail(impact.name.as_deref().unwrap_or_default(), &claim, why);
             }
             all
         }
