@@ -630,9 +630,7 @@ fn threshold(table: &Table, forms: &mut Forms, event: FrictionEvent) -> Result<E
     match bounds.as_slice() {
         [(Direction::Only(_) | Direction::Either, bound)] => Ok(bound.clone()),
         // Either way the same, but for the sign that the direction of slip has.
-        [(_, one), (_, other)] if forms.tidy(&(one + other))?.is_zero() => {
-            forms.size(one)
-        }
+        [(_, one), (_, other)] if forms.tidy(&(one + other))?.is_zero() => forms.size(one),
         _ => Err(none()),
     }
 }

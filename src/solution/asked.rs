@@ -32,7 +32,13 @@ pub(super) fn beyond_motion(solution: &mut Solution, scene: &Scene, answers: &[A
         );
         // So does a speed by its components.
         let stands = solution.meanings.contains_key(question.name.as_str());
-        if question.ask.is_motion() || in_stage || stands {
+        // What explains the answers is no part of a brief solution.
+        let explains = matches!(
+            question.ask,
+            Ask::Impulsive | Ask::Remark(_) | Ask::Unused(_)
+        );
+        let left_out = explains && solution.detail == Detail::Brief;
+        if question.ask.is_motion() || in_stage || stands || left_out {
             continue;
         }
         let mine = answers.iter().filter(|a| a.question == question.name);

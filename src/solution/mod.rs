@@ -334,6 +334,7 @@ pub fn write(scene: &Scene, told: &Told, detail: Detail) -> Solution {
         None => story::tell(scene, told, detail),
     };
     solution.explain(scene);
+    opening::set_axes(&mut solution);
     solution
 }
 

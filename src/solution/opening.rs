@@ -68,6 +68,47 @@ impl Solution {
     }
 }
 
+/// Sets the names of the axes in sentences and headings as the symbols they are.
+pub(super) fn set_axes(solution: &mut Solution) {
+    for section in &mut solution.sections {
+        let texts = section.parts.iter_mut().flat_map(|part| match part {
+            Part::Text(text) => std::slice::from_mut(text),
+            Part::List(items) => items.as_mut_slice(),
+            _ => &mut [],
+        });
+        for text in texts.chain([&mut section.heading]) {
+            *text = std::mem::take(text).into_iter().flat_map(axes_in).collect();
+        }
+    }
+}
+
+/// A piece of a sentence with `x` and `y`, where they are words, as formulas.
+fn axes_in(piece: Inline) -> Vec<Inline> {
+    let Inline::Text(text) = piece else {
+        return vec![piece];
+    };
+    let (mut out, mut words) = (Vec::new(), String::new());
+    // Behind a word they are the axes, behind a letter a formula of the author.
+    let mut behind_word = true;
+    for word in text.split_inclusive(' ') {
+        let name = word.trim_end_matches([' ', ',', '.', ':', ';']);
+        let is_axis = matches!(name, "x" | "y") && behind_word;
+        behind_word = name.len() > 1 && name.chars().all(char::is_alphabetic);
+        if is_axis {
+            out.extend([
+                say(std::mem::take(&mut words)),
+                words::formula(&Expr::symbol(name)),
+            ]);
+            words.push_str(&word[name.len()..]);
+        } else {
+            words.push_str(word);
+        }
+    }
+    out.push(say(words));
+    out.retain(|piece| *piece != say(""));
+    out
+}
+
 /// Where the center of mass of a body of several parts lies, and what its parts make of its moment of inertia.
 pub(super) fn composites(solution: &mut Solution, scene: &Scene) {
     let by_parts = |(_, body): &(usize, &Body)| !body.inertia_given;

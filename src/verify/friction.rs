@@ -454,7 +454,10 @@ fn same<T: Number>(
             Direction::Only(_) | Direction::Follows(_) | Direction::Either => true,
         };
         for bound in &case.conditions {
-            let each = bound.when.iter().map(|when| Some(satisfied(sign(&when.of)?, when)));
+            let each = bound
+                .when
+                .iter()
+                .map(|when| Some(satisfied(sign(&when.of)?, when)));
             let Some(each) = each.collect::<Option<Vec<bool>>>() else {
                 return Ok(None);
             };
