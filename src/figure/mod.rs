@@ -221,7 +221,7 @@ pub fn chapters(scene: &Scene, all: &[(String, Chapter)]) -> Drawing {
                 let motion = picture::outcome(&stage);
                 for which in kinds(scene) {
                     let mut one = panel(&stage, motion.as_ref(), which);
-                    one.heading = format!("{name}: {}", one.heading);
+                    one.heading = format!("{}. {}", words::title(name), one.heading);
                     panels.push(one);
                 }
             }

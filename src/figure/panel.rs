@@ -146,12 +146,12 @@ pub(super) fn motion_panel(name: &str, course: &Course) -> Panel {
     }
     let sheet = sheet.unwrap_or_default();
     let labels = labels(&sheet);
+    let name = words::title(name);
     let caption = vec![Piece::Words(format!(
-        "{}: broken lines at the beginning, full lines at the end.",
-        crate::formula::capital(name)
+        "{name}: broken lines at the beginning, full lines at the end."
     ))];
     Panel {
-        heading: name.to_string(),
+        heading: name.clone(),
         alternative: format!("Motion {name}. Marked: {labels}."),
         sheet,
         notes,

@@ -6,6 +6,11 @@ use super::values::Values;
 use crate::expr::{Expr, Vector};
 use crate::scene::{Body, ContactLaw, Scene, Shape};
 
+/// The name of a stage, with its case, as a heading.
+pub fn title(name: &str) -> String {
+    crate::formula::capital(&name.replace('_', " ").replace('`', ""))
+}
+
 /// What a scene shows, sentence by sentence.
 pub fn scene(scene: &Scene) -> String {
     let text = |e: &Expr| Label::formula(e, scene).text();
