@@ -36,7 +36,8 @@ record! {
         points: Option<Map<PositionFile>>,
         /// Bodies by name.
         bodies: Map<BodyFile>,
-        /// Hinges by name. They hold before, during and after the collision.
+        /// Hinges by name. They hold before, during and after the collision. In a scene with stages those on a fixed body hold
+        /// in every impact, and a `turn` is about the one that holds its body; the others stand in an impact.
         hinges: Option<Map<HingeFile>>,
         /// Contacts by name: where two bodies collide.
         contacts: Option<Map<ContactFile>>,

@@ -75,6 +75,7 @@ pub fn read(text: &str) -> Result<Scene, Faults> {
             return Scene::default();
         };
         questions::order::order(&mut file);
+        stages::spread(&mut file);
         let lone = stages::lone(&file).or_else(|| questions::with_parts(&file));
         let file = lone.as_ref().unwrap_or(&file);
         let (scene, all) = resolve::resolve(file, turns, std::mem::take(faults));

@@ -94,8 +94,8 @@ record! {
         body: Text,
         /// Names of bodies that are fixed to it and turn along, such as a bullet that sticks in it.
         with: Option<Vec<Text>>,
-        /// The fixed point.
-        about: PositionFile,
+        /// The fixed point; without it the one hinge that holds the body.
+        about: Option<PositionFile>,
         /// Angle turned through, in the sense of the rotation.
         by: Option<Formula>,
         /// Where the center of mass is at the end.

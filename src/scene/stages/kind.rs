@@ -276,8 +276,13 @@ fn turn_of(r: &mut Resolver<'_>, turn: &TurnFile, span: Span) -> Option<Turn> {
         return r.refuse(time.span, message, hint);
     }
     let all = company(r, &turn.body, turn.with.as_deref());
-    let about = r.position(&turn.about);
-    let about_name = match &turn.about {
+    let Some(about_file) = &turn.about else {
+        let message = "the field `about` is missing";
+        let hint = "the point that it turns about: its name, or its place [x, y]; one hinge in `hinges` says it too";
+        return r.refuse(span, message, hint);
+    };
+    let about = r.position(about_file);
+    let about_name = match about_file {
         PositionFile::Name(name) => name.text.clone(),
         // Named when all stages are read.
         _ => String::new(),

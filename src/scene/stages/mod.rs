@@ -4,10 +4,12 @@
 //! found out by [`crate::story`] and by [`crate::numeric`], each for itself; here symbols stand for it.
 
 mod earlier;
+mod hinged;
 mod kind;
 mod seen;
 mod slide;
 
+pub(super) use hinged::spread;
 pub(super) use kind::TIME;
 pub(super) use slide::STIFFNESS;
 
@@ -97,7 +99,12 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     for (what, count) in misplaced {
         if count.is_some_and(|n| n > 0) {
             let message = format!("`{what}` of a scene with stages belongs into an impact");
-            let hint = "\"stages\": [{\"name\": \"impact\", \"impact\": {\"contacts\": …}}]";
+            let hint = match what {
+                "hinges" => {
+                    "above the stages stand hinges on a fixed body, whose bodies never fall or slide; the others belong into the impact they hold in"
+                }
+                _ => "\"stages\": [{\"name\": \"impact\", \"impact\": {\"contacts\": …}}]",
+            };
             base.report(file.span, message, hint);
         }
     }
