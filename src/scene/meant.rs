@@ -40,11 +40,11 @@ fn among(word: &str, here: &[&str]) -> Option<Option<&'static str>> {
         "to" | "angle" if has("by") && has("until") => {
             "it turns `by` an angle, or `until` its center is above or below the point, or it stops"
         }
-        "until" | "top" if has("rising") => {
-            "a flight ends after a `height`, a `range` or a time `for`: at its top after \"v/g\", with v its speed upwards"
+        "top" if has("rising") => {
+            "a flight ends after a `height`, a `range` or a time `for`, or at its top: \"until\": \"top\""
         }
         "height" | "rise" if has("position") => {
-            "how high a body is at the end of a stage is its `position` along y; how high it will rise is a `value`, such as \"v^2/(2*g)\""
+            "how high a body is at the end of a stage is its `position` along y, such as after a fall `until` its \"top\""
         }
         "between" | "of" | "body" | "on" if has("bodies") => "those that meet are `bodies`, a list",
         "restitution" if has("frictionless") => {

@@ -275,8 +275,9 @@ impl StageKind {
                     .for_each(put);
             }
             StageKind::Fall(fall) => {
-                let (FallEnd::Drop(e) | FallEnd::Range(e) | FallEnd::Time(e)) = &mut fall.until;
-                put(e);
+                if let FallEnd::Drop(e) | FallEnd::Range(e) | FallEnd::Time(e) = &mut fall.until {
+                    put(e);
+                }
                 fall.gravity.iter_mut().for_each(put);
             }
             StageKind::Wind(wind) => {
@@ -592,6 +593,8 @@ pub enum FallEnd {
     Range(Expr),
     /// After this time \[s\].
     Time(Expr),
+    /// When the center of mass rises no more.
+    Top,
 }
 
 /// A rope that winds round a pole.

@@ -203,8 +203,16 @@ record! {
     }
 }
 
+choice! {
+    /// Where a flight ends.
+    FlightEndName {
+        /// At its highest point.
+        Top = "top",
+    }
+}
+
 record! {
-    /// Free fall, or free flight where no gravity is given; it ends after one of `height`, `range` and `for`.
+    /// Free fall, or free flight where no gravity is given; it ends after one of `height`, `range` and `for`, or `until` its top.
     FallFile {
         /// Name of the body.
         body: Text,
@@ -220,6 +228,8 @@ record! {
         range: Option<Formula>,
         /// Time.
         time as "for": Option<Formula>,
+        /// The top of the flight.
+        until: Option<FlightEndName>,
     }
 }
 

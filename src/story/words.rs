@@ -212,6 +212,7 @@ fn falling(told: &StageTold, fall: &Fall) -> Vec<Sentence> {
                 )
             }
         },
+        (FallEnd::Top, _) => sentence!("`{}` flies freely up to its highest point", name),
         (FallEnd::Time(t), Some(_)) if falls => {
             sentence!("`{}` falls freely for {}", name, measured(t, "s"))
         }

@@ -189,9 +189,10 @@ fn bounded(
 fn fall_of(r: &mut Resolver<'_>, fall: &FallFile, span: Span) -> Option<Fall> {
     let ends = usize::from(fall.height.is_some())
         + usize::from(fall.range.is_some())
-        + usize::from(fall.time.is_some());
+        + usize::from(fall.time.is_some())
+        + usize::from(fall.until.is_some());
     if ends != 1 {
-        let message = "a fall ends after a `height`, a horizontal distance `range` or a time `for`";
+        let message = "a fall ends after a `height`, a horizontal distance `range` or a time `for`, or `until` its top";
         return r.refuse(span, message, "give one of them");
     }
     let all = company(r, &fall.body, fall.with.as_deref());
@@ -200,7 +201,11 @@ fn fall_of(r: &mut Resolver<'_>, fall: &FallFile, span: Span) -> Option<Fall> {
         (Some(height), ..) => FallEnd::Drop(r.read(height, Quantity::LENGTH)?),
         (_, Some(range), _) => FallEnd::Range(r.read(range, Quantity::LENGTH)?),
         (.., Some(time)) => FallEnd::Time(r.read(time, TIME)?),
-        _ => return None,
+        _ if gravity.is_some() => FallEnd::Top,
+        _ => {
+            let message = "a flight without gravity has no top";
+            return r.refuse(span, message, "add \"gravity\": \"g\"");
+        }
     };
     let rising = fall.rising == Some(true);
     if rising && (gravity.is_none() || !matches!(until, FallEnd::Drop(_))) {

@@ -48,6 +48,10 @@ impl Page<'_> {
             text.push(say(" and leaves its horizontal velocity as it is"));
         }
         text.push(say("."));
+        let to_top = matches!(fall.until, FallEnd::Top);
+        if to_top {
+            text.push(say(" At the top the vertical velocity is zero."));
+        }
         // What a flight is like is told once.
         if !self.solution.says(&text) {
             self.solution.text(text);
@@ -57,7 +61,9 @@ impl Page<'_> {
         for b in bodies.iter().filter(|_| fall.gravity.is_some()) {
             let asks = |ask: &Ask| matches!(ask, Ask::Velocity { body, .. } if body == b);
             // The velocity at a height decides when it is reached, and what comes next begins with it.
-            if self.asked(told, asks) || !(self.goes_on(told) || by_height && *b == fall.body) {
+            let said = to_top && *b == fall.body;
+            let needed = self.goes_on(told) || by_height && *b == fall.body;
+            if said || !needed || self.asked(told, asks) {
                 continue;
             }
             let raw = self.falls_with(told, fall, *b, time);
@@ -116,6 +122,7 @@ impl Page<'_> {
                 let size = (v.powi(2) + Expr::from(2) * &g * h).sqrt();
                 if fall.rising { size } else { -size }
             }
+            FallEnd::Top if body == fall.body => Expr::zero(),
             _ => v - g * time,
         }
     }
@@ -132,6 +139,7 @@ impl Page<'_> {
             }
             (FallEnd::Drop(h), None) => -(h / y),
             (FallEnd::Range(s), _) => s / x,
+            (FallEnd::Top, g) => y / g.clone().unwrap_or_else(Expr::zero),
             (FallEnd::Time(_), _) => time.clone(),
         }
     }

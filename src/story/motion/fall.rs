@@ -91,6 +91,10 @@ fn duration(
     };
     let (time, down) = match (&fall.until, &fall.gravity) {
         (FallEnd::Time(t), _) => (t.clone(), None),
+        (FallEnd::Top, g) => {
+            let g = g.clone().unwrap_or_else(Expr::zero);
+            (tidied(stage, &(vy / &g))?, Some(Expr::zero()))
+        }
         (FallEnd::Range(s), _) => {
             if is_zero(vx, domains) == Some(true) {
                 return Err(never(
@@ -129,6 +133,10 @@ fn duration(
         FallEnd::Time(_) => never(
             "its time is negative",
             "`for` counts from the beginning of the stage",
+        ),
+        FallEnd::Top => never(
+            "it begins on its way down",
+            "the top of a flight comes after a beginning upwards",
         ),
         _ => never(
             "it moves the other way",

@@ -15,6 +15,8 @@ enum End {
     Height(f64),
     /// After the center has come to the right by this much.
     Range(f64),
+    /// When the center rises no more.
+    Top,
 }
 
 /// Flight, with gravity or without.
@@ -29,6 +31,7 @@ pub(in crate::numeric::follow) fn fall(
         FallEnd::Time(time) => End::Time(course.number(time, "time")?),
         FallEnd::Drop(height) => End::Height(course.number(height, "height")?),
         FallEnd::Range(range) => End::Range(course.number(range, "range")?),
+        FallEnd::Top => End::Top,
     };
     if matches!(end, End::Time(time) if time < 0.0) {
         return Err(course.contradiction("the time is negative"));
@@ -48,7 +51,7 @@ pub(in crate::numeric::follow) fn fall(
     }
     let is_timed = match &end {
         End::Time(_) => true,
-        End::Height(_) => leader.velocity[1].is_ok(),
+        End::Height(_) | End::Top => leader.velocity[1].is_ok(),
         End::Range(_) => leader.velocity[0].is_ok(),
     };
     if !is_timed {
@@ -120,6 +123,7 @@ fn flight(
             run.map_err(|stop| stopped(course, stop, NEVER))?
         }
         End::Range(range) => flight.to_range(range / units.length, u)?,
+        End::Top => flight.to_top(v)?,
         End::Height(height) => {
             let height = height / units.length;
             match (gravity > 0.0, is_rising) {
@@ -143,7 +147,8 @@ fn units_of(movers: &Movers, gravity: f64, end: &End) -> Units {
         }
         End::Height(h) if v != 0.0 => (h / v).abs(),
         End::Range(s) if u != 0.0 => (s / u).abs(),
-        End::Height(_) | End::Range(_) => 0.0,
+        End::Top if gravity > 0.0 => v / gravity,
+        End::Height(_) | End::Range(_) | End::Top => 0.0,
     };
     let time = if time > 0.0 && time.is_finite() {
         time
@@ -152,7 +157,7 @@ fn units_of(movers: &Movers, gravity: f64, end: &End) -> Units {
     };
     let size = match end {
         End::Height(h) | End::Range(h) => h.abs(),
-        End::Time(_) => 0.0,
+        End::Time(_) | End::Top => 0.0,
     };
     let length = size.max(u.hypot(v) * time).max(gravity.abs() * time * time);
     let mass = movers.inertias.iter().fold(0.0, |a: f64, i| a.max(i[0]));
@@ -204,6 +209,19 @@ impl Flight<'_> {
             left: &|y| way * (y[0] - far),
             rate: &|_| 1.0,
             never: &mut |y, _| way * y[y.len() / 2] <= 0.0,
+        };
+        self.until(&self.start, goal)
+    }
+
+    /// Up to where it rises no more.
+    fn to_top(&self, v: f64) -> Result<Run, Lost> {
+        if v < 0.0 {
+            return Err(self.course.never("it begins on its way down"));
+        }
+        let goal = Goal {
+            left: &|y| -rising(y),
+            rate: &|_| 1.0,
+            never: &mut |_, _| false,
         };
         self.until(&self.start, goal)
     }
