@@ -77,14 +77,18 @@ impl Motion<'_> {
             }
             StageKind::Fall(fall) => vec![self.change(&[fall.body]) - self.work()],
             StageKind::Turn(turn) => vec![self.change(&turn.bodies()) - self.work()],
+            StageKind::Linkage(_) => vec![self.change(&self.all_bodies()) - self.work()],
             _ => Vec::new(),
         };
+        if let StageKind::Turn(_) | StageKind::Linkage(_) = self.told.placed.kind {
+            laws.extend(self.in_step());
+        }
         let energies = self.asked(self.told).filter_map(|q| match &q.ask {
             Ask::Energy { when, of: None } => Some((Expr::symbol(&q.name), *when)),
             _ => None,
         });
         for (energy, when) in energies {
-            let bodies: Vec<usize> = (0..self.scene.bodies.len()).collect();
+            let bodies = self.all_bodies();
             laws.push(match when {
                 EnergyWhen::Before => continue,
                 EnergyWhen::After => energy - self.kinetic(&bodies, Moment::End),
@@ -92,6 +96,34 @@ impl Motion<'_> {
             });
         }
         laws
+    }
+
+    fn all_bodies(&self) -> Vec<usize> {
+        (0..self.scene.bodies.len()).collect()
+    }
+
+    /// Where one coordinate tells where all bodies are, the speeds and spins asked for at one moment grow in step.
+    fn in_step(&self) -> Vec<Expr> {
+        let after = &self.told.after;
+        let value = |q: &Question| match &q.ask {
+            Ask::Velocity {
+                body,
+                point: None,
+                along: Some(along),
+            } => Some(dot(&after.velocity[*body], along)),
+            Ask::Spin { body, clockwise } => Some(match clockwise {
+                true => -&after.spin[*body],
+                false => after.spin[*body].clone(),
+            }),
+            _ => None,
+        };
+        let asked = self.asked(self.told);
+        let asked = asked.filter_map(|q| Some((Expr::symbol(&q.name), value(q)?)));
+        let asked: Vec<_> = asked.filter(|(_, value)| !value.is_zero()).collect();
+        let pairs = asked.windows(2);
+        pairs
+            .map(|p| &p[0].0 * &p[1].1 - &p[1].0 * &p[0].1)
+            .collect()
     }
 
     /// v = v₀ + a t, v² = v₀² + 2 a s, 2 s = (v₀ + v) t, the same of a spin, and v = ω r of a body that rolls.

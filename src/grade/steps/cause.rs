@@ -1,12 +1,13 @@
 //! From which wrong line a later one follows: what each wrong line implies is kept, and tried.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::convert::Infallible;
 
 use super::super::relation::{follows, solve_for};
 use super::link::Link;
 use super::names::angle_in;
 use super::{Desk, MOST_CAUSES, MOST_STATED};
+use crate::algebra::tidy;
 use crate::dimension::Dimension;
 use crate::domain::Domains;
 use crate::equality::{self};
@@ -91,13 +92,24 @@ impl Desk<'_> {
             let rules = rules.iter();
             rules.fold(e.clone(), |e, (name, root)| e.put(name, root))
         };
-        let follows = |causes: &[usize], laws: &[&Expr]| {
+        let follows = |causes: &[usize], laws: &[&Expr], bound_first: bool| {
             let hangs = |c: &Option<usize>| c.is_some_and(|c| causes.contains(&c));
             let wrong = self.stated.iter().filter(|(c, _)| hangs(c));
             let right = self.stated.iter().filter(|(c, _)| c.is_none());
-            let said = wrong.chain(right).map(|(_, line)| line);
+            let said = wrong.clone().chain(right).map(|(_, line)| line);
+            // A balance of energies speaks of several squares until what binds them is put in.
+            let found = |e: &Expr| {
+                let mut names = e.symbols();
+                names.retain(|name| self.is_found(name));
+                names
+            };
+            let spoken: BTreeSet<Symbol> = wrong.clone().flat_map(|(_, e)| found(e)).collect();
+            let (binding, others): (Vec<&Expr>, Vec<&Expr>) = laws.iter().partition(|law| {
+                let names = found(law);
+                bound_first && names.len() > 1 && names.is_subset(&spoken)
+            });
             let mut rules: Vec<(Symbol, Expr)> = Vec::new();
-            for line in said.chain(laws.iter().copied()) {
+            for line in binding.into_iter().chain(said).chain(others) {
                 let line = reduced(line, &rules);
                 // What says nothing new, or contradicts those before, gives no rule.
                 let symbols = line.symbols();
@@ -111,7 +123,7 @@ impl Desk<'_> {
             equality::vanishes(&reduced(one, &rules), domains)
         };
         let mut all = causes.iter().copied();
-        let found = all.find(|cause| follows(&[*cause], &[]));
+        let found = all.find(|cause| follows(&[*cause], &[], false));
         found
             .or_else(|| {
                 // The wrong line stands in place of one law; the others may be used for a result without being written.
@@ -127,15 +139,22 @@ impl Desk<'_> {
                 };
                 // Of a story the laws of impacts are not among them, and it may stand in place of one of those.
                 let others = usize::from(!self.sheet.scene.stages.is_empty());
-                let mut all = causes.iter().copied();
-                all.find(|cause| (0..laws.len() + others).any(|j| follows(&[*cause], &without(j))))
+                let orders = [false, true]
+                    .into_iter()
+                    .take(1 + usize::from(!laws.is_empty()));
+                let mut ways = orders.flat_map(|first| causes.iter().map(move |c| (*c, first)));
+                let found = ways.find(|(cause, first)| {
+                    let mut one = 0..laws.len() + others;
+                    one.any(|j| follows(&[*cause], &without(j), *first))
+                });
+                found.map(|(cause, _)| cause)
             })
             // It may take several slips together.
             .or_else(|| {
                 causes
                     .first()
                     .copied()
-                    .filter(|_| causes.len() > 1 && follows(&causes, &[]))
+                    .filter(|_| causes.len() > 1 && follows(&causes, &[], false))
             })
     }
 
@@ -334,6 +353,8 @@ impl Desk<'_> {
 /// The size of what occurs by its square alone, as the speed does in an energy.
 pub(super) fn size_in(line: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
     let square = Symbol::from(format!("{name}^2"));
+    // The square of a quotient is one of squares.
+    let line = tidy(line, domains).unwrap_or_else(|_| line.clone());
     let line = line.replace(&Expr::symbol(name).powi(2), &Expr::symbol(&square));
     let alone = !line.symbols().contains(name);
     alone.then(|| Some(solve_for(&line, &square, domains)?.sqrt()))?
