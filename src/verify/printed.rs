@@ -15,7 +15,6 @@ use std::collections::BTreeMap;
 
 pub use cases::in_cases;
 
-use crate::algebra::tidy;
 use crate::answer::{Answer, Form};
 use crate::derive::Derivation;
 use crate::dimension::Dimension;
@@ -429,7 +428,8 @@ impl<'a> Desk<'a> {
         let reading = self.read(text, printed)?;
         let name = Symbol::from(item);
         let bound = self.bound(&name, &reading.content);
-        let said = self.said_of(&name, reading.content.answer());
+        let said = self.said_of(&name, &reading.content);
+        let is_said = bound.is_none() && said.is_some();
         let pairs: Vec<(Expr, Expr)> = match (
             &bound,
             self.vectors.get(&name),
@@ -437,7 +437,7 @@ impl<'a> Desk<'a> {
             reading.content.answer(),
         ) {
             (Some((_, value, derived)), ..) => vec![(derived.clone(), value.clone())],
-            (_, _, Some(_), _) if said.is_some() => said.into_iter().collect(),
+            (None, ..) if is_said => said.into_iter().collect(),
             (_, _, Some(closed), content) => {
                 let value = match content {
                     // Along k, out of the page, whichever way the answer counts.
@@ -469,7 +469,10 @@ impl<'a> Desk<'a> {
         let mut all = Vec::new();
         for (closed, value) in &pairs {
             let closed = self.put_in(closed, printed)?;
-            shown.push(self.say(&closed));
+            shown.push(match is_said {
+                true => self.tidy(&closed),
+                false => self.say(&closed),
+            });
             all.push((closed, self.put_in(value, printed)?));
         }
         shown.truncate(if pairs.len() == 3 { 2 } else { 1 });
@@ -505,8 +508,9 @@ impl<'a> Desk<'a> {
         Ok(())
     }
 
-    /// `cos(alpha) = …` says what alpha is: the left side as it is in truth, and the right one.
-    fn said_of(&self, name: &Symbol, content: &Content) -> Option<(Expr, Expr)> {
+    /// `cos(alpha) = …` and `e = sqrt(H/h)` say what alpha and H are: both sides with the item, or the parameter that it gives,
+    /// as that is in truth.
+    fn said_of(&self, item: &Symbol, content: &Content) -> Option<(Expr, Expr)> {
         let Content::Relations(sides, signs) = content else {
             return None;
         };
@@ -514,12 +518,18 @@ impl<'a> Desk<'a> {
             return None;
         };
         let (left, right) = (left.expr()?, right.expr()?);
-        let truth = self.closed.get(name).filter(|_| left.mentions(name))?;
-        let there = |e: &Expr| {
-            let value = e.put(name, truth);
-            tidy(&value, &self.scene.domains).unwrap_or(value)
+        let (name, truth) = match self.bounds.get(item) {
+            Some((of, _, value)) => (of.as_symbol()?, value),
+            None => (item, self.closed.get(item)?),
         };
-        Some((there(left), right.put(name, truth)))
+        if left.as_symbol().is_some_and(|s| s == name || s == item) {
+            return None;
+        }
+        let there = |e: &Expr| e.put(name, truth).put(item, truth);
+        let spoken = [left, right]
+            .iter()
+            .any(|e| e.mentions(name) || e.mentions(item));
+        spoken.then(|| (there(left), there(right)))
     }
 
     fn equation(&self, printed: &Printed, text: &str, finding: &mut Finding) -> Result<(), String> {
