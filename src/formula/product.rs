@@ -110,7 +110,8 @@ impl Parser<'_> {
         let usual = self.lexer.usual_slash(self.arguments > 0);
         let from = above.last().map_or(first.start, |(_, w)| w.start);
         let middle = first.end;
-        let parted = half || self.peek()?.spaced;
+        let spaced = self.peek()?.spaced;
+        let parted = half || spaced;
         let product = if parted {
             first
         } else {
@@ -118,6 +119,15 @@ impl Parser<'_> {
         };
         let (below, rest) = match (parted || self.starts_factor()?, usual) {
             (true, true) => (product, Some(self.group()?)),
+            // `1/2π √(k/m)`: what a space parts from it does not stand below either way.
+            (true, false) if !spaced => {
+                let (below, vector) = vector_above(self.group_until(Some(product), true)?);
+                let rest = match vector {
+                    None if self.starts_factor()? => Some(self.group()?),
+                    vector => vector,
+                };
+                (below, rest)
+            }
             (true, false) => vector_above(self.group_from(Some(product))?),
             (false, true) => vector_above(product),
             (false, false) => first_alone(product),

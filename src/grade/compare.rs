@@ -8,7 +8,7 @@ use super::{
     Apart, Diagnosis, Key, Options, Proof, Strength, Tolerance, Verdict, number, partial, relation,
     several, show, unit,
 };
-use crate::dimension::Dimension;
+use crate::dimension::{self, Dimension};
 use crate::domain::Sample;
 use crate::equality::{self};
 use crate::expr::{Expr, Node, Symbol, ratio};
@@ -390,7 +390,7 @@ fn nameless(
     let mut finding = values(&plain, expected, first);
     // `KE = mv²/2`: letters that stand nowhere else are a name of the value.
     if let [name, value] = sides
-        && name.expr().is_some_and(|e| is_word(ctx, e))
+        && name.expr().is_some_and(|e| is_word(ctx, e, expected))
         && strangers(ctx, std::slice::from_ref(value)).is_empty()
     {
         finding = values(&plain, expected, value);
@@ -412,9 +412,10 @@ fn close(ctx: &Context, expected: &Content, side: &Content) -> bool {
     share().and_then(near) == Some(true)
 }
 
-/// Whether letters side by side, none of them of the question, are a name such as `KE`; so are the letters of a velocity
-/// with an index, `vf` and `vx`, and what is made of two names.
-fn is_word(ctx: &Context, e: &Expr) -> bool {
+/// Whether letters side by side, none of them of the question, are a name such as `KE`, `pe` or `Fnet`, or a product that
+/// measures what is asked, as `Iω` does for `m v l/2`; so are the letters of a velocity with an index, `vf` and `vx`, and what
+/// is made of two names.
+fn is_word(ctx: &Context, e: &Expr, expected: &Content) -> bool {
     let free = |name: &Symbol| !declared_symbol(ctx, name);
     if of_two_names(e, &free) {
         return true;
@@ -426,9 +427,36 @@ fn is_word(ctx: &Context, e: &Expr) -> bool {
     let index = |name: &Symbol| free(name) && matches!(&**name, "f" | "i" | "x" | "y");
     let velocity = |name: &Symbol| matches!(&**name, "v" | "u" | "V");
     letters.is_some_and(|letters| {
-        letters.iter().all(|name| free(name))
+        let capital = |name: &&Symbol| name.starts_with(char::is_uppercase);
+        let energy = || letters.iter().any(|name| &***name == "e");
+        let word = || letters.len() > 2 || energy() || letters.iter().all(capital);
+        let measured = |e: &Expr| dimension::of(e, &usual).ok().flatten();
+        let asked = expected.expr().filter(|e| !e.is_constant());
+        let fits = match asked.map(|asked| [e, asked].map(measured)) {
+            Some([Some(mine), Some(asked)]) => mine == asked,
+            Some(_) => word(),
+            None => true,
+        };
+        fits && letters.iter().all(|name| free(name))
             || matches!(letters.as_slice(), [a, b] if velocity(a) && index(b) || velocity(b) && index(a))
     })
+}
+
+/// What a letter of mechanics nearly always measures.
+fn usual(name: &str) -> Option<Dimension> {
+    let (letter, _) = name.split_once('_').unwrap_or((name, ""));
+    let [mass, length, time] = match letter.trim_end_matches(|c: char| c.is_ascii_digit()) {
+        "m" | "M" => [1, 0, 0],
+        "h" | "l" | "L" | "d" | "r" | "R" | "x" | "s" => [0, 1, 0],
+        "t" => [0, 0, 1],
+        "v" | "u" => [0, 1, -1],
+        "a" | "g" => [0, 1, -2],
+        "omega" => [0, 0, -1],
+        "F" => [1, 1, -2],
+        "I" => [1, 2, 0],
+        _ => return None,
+    };
+    Some(Dimension::new(mass, length, time))
 }
 
 /// Whether a formula is the difference, the sum or the quotient of two names, as in `E_1 − E_2` and `K_2/K_1`.

@@ -305,8 +305,8 @@ fn mended(key: &Key, text: &str, fault: Fault) -> Result<Reading, Fault> {
     named.ok_or(fault)
 }
 
-/// Words behind a formula for a direction, each with its sense along x and y or about the axis out of the page.
-const SENSES: [(&str, [i32; 3]); 21] = [
+/// Words and arrows behind a formula for a direction, each with its sense along x and y or about the axis out of the page.
+const SENSES: [(&str, [i32; 3]); 31] = [
     ("counterclockwise", [0, 0, 1]),
     ("anticlockwise", [0, 0, 1]),
     ("clockwise", [0, 0, -1]),
@@ -328,6 +328,16 @@ const SENSES: [(&str, [i32; 3]); 21] = [
     ("westward", [-1, 0, 0]),
     ("northward", [0, 1, 0]),
     ("southward", [0, -1, 0]),
+    ("↺", [0, 0, 1]),
+    ("↻", [0, 0, -1]),
+    ("→", [1, 0, 0]),
+    ("←", [-1, 0, 0]),
+    ("↑", [0, 1, 0]),
+    ("↓", [0, -1, 0]),
+    ("\\rightarrow", [1, 0, 0]),
+    ("\\leftarrow", [-1, 0, 0]),
+    ("\\uparrow", [0, 1, 0]),
+    ("\\downarrow", [0, -1, 0]),
 ];
 
 /// A formula without the direction in words behind it, and that direction: `9.31 rad/s clockwise`, `5 N (to the left)`.
@@ -336,7 +346,8 @@ pub(super) fn sense(text: &str) -> Option<(&str, [i32; 3])> {
     SENSES.into_iter().find_map(|(word, sense)| {
         let at = said.len().checked_sub(word.len())?;
         let (before, end) = said.split_at_checked(at)?;
-        let apart = before.ends_with([' ', '(', '~', ',', '{']);
+        let apart =
+            before.ends_with([' ', '(', '~', ',', '{']) || !word.starts_with(char::is_alphabetic);
         if !apart || !end.eq_ignore_ascii_case(word) {
             return None;
         }
@@ -425,7 +436,7 @@ fn unit_apart(key: &Key, text: &str) -> Option<Reading> {
         })
 }
 
-/// `dv = a dt` for `a = dv/dt`, and `F = dp/dt` for `F dt = dp`: the derivative by the time is the quotient of the
+/// `x''` for `\ddot x`; `dv = a dt` for `a = dv/dt`, and `F = dp/dt` for `F dt = dp`: the derivative by the time is the quotient of the
 /// differentials, and an answer is put in the terms of its key.
 pub(super) fn differentials(key: &Key, reading: &mut Reading) {
     let (known, mine) = (key.reading.symbols(), reading.symbols());
@@ -441,6 +452,16 @@ pub(super) fn differentials(key: &Key, reading: &mut Reading) {
                     false => same.insert(name.clone(), &change / &dt),
                 };
             }
+        }
+    }
+    for name in mine.iter().filter(|name| !known.contains(*name)) {
+        let dotted = match name.split_once('\'') {
+            Some((base, "")) => format!("{base}_dot"),
+            Some((base, "'")) => format!("{base}_ddot"),
+            _ => continue,
+        };
+        if known.contains(&*dotted) {
+            same.insert(name.clone(), Expr::symbol(&dotted));
         }
     }
     if !same.is_empty() {

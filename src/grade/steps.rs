@@ -115,12 +115,10 @@ const CONDITION: &str = "CONDITION";
 pub const MAX_LINES: usize = 400;
 
 /// Checks a worked solution. An acceleration that it speaks of and nobody asks for is the scene's, counted the way in which
-/// fewest of its lines are wrong; where none of them fits better, it is whatever the solution says.
+/// fewest of its lines are wrong; where there may be others and none fits better, it is whatever the solution says.
 pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
-    let meant = names::accelerations(sheet, text).into_iter().map(Some);
-    let worked = meant
-        .chain([None])
-        .map(|a| check_with(sheet, text, options, a));
+    let meant = names::accelerations(sheet, text).into_iter();
+    let worked = meant.map(|a| check_with(sheet, text, options, a));
     let slips = |worked: &Worked| {
         let wrong = |line: &&Line| line.status == Status::Wrong;
         worked.lines.iter().filter(wrong).count()
@@ -397,7 +395,10 @@ impl<'a> Desk<'a> {
             // `(m+M) V`, `(m+M) g h`: a letter that is said further down, or is a quantity first, is no unit.
             Ok(reading) if names::behind(text, &reading).is_some() => {
                 let unit = names::behind(text, &reading).and_then(|(from, to)| text.get(from..to));
-                let letter = unit.is_some_and(names::is_quantity_first);
+                // `v² = 2 a s` speaks of a way, `t = v/(μ g) s` of seconds.
+                let solved = names::named(text).is_some();
+                let letter = unit
+                    .is_some_and(|unit| names::is_quantity_first(unit) || unit == "s" && !solved);
                 match self.looked_ahead(text) {
                     Some(reading) => reading,
                     None if letter && self.new_name(text).is_some() => {

@@ -4,6 +4,7 @@
 //! kinetic energy by work, rolling. What no question asks for stands as its value.
 
 use super::{StageTold, Told};
+use crate::answer::Answer;
 use crate::expr::{Expr, Symbol, Vector, dot};
 use crate::scene::{Ask, EnergyWhen, Question, Scene, SlideEnd, StageKind};
 
@@ -18,6 +19,8 @@ enum Moment {
 struct Motion<'a> {
     scene: &'a Scene,
     told: &'a StageTold,
+    /// All answers.
+    answers: &'a [Answer],
     /// The motion or impact it goes on from.
     before: Option<&'a StageTold>,
 }
@@ -34,6 +37,7 @@ pub fn lent(scene: &Scene, told: &Told) -> Vec<Expr> {
         let motion = Motion {
             scene,
             told: stage,
+            answers: &told.answers,
             before: parent.and_then(|parent| told.stages.get(parent)),
         };
         motion.laws()
@@ -80,9 +84,7 @@ impl Motion<'_> {
             StageKind::Linkage(_) => vec![self.change(&self.all_bodies()) - self.work()],
             _ => Vec::new(),
         };
-        if let StageKind::Turn(_) | StageKind::Linkage(_) = self.told.placed.kind {
-            laws.extend(self.in_step());
-        }
+        laws.extend(self.in_step());
         let energies = self.asked(self.told).filter_map(|q| match &q.ask {
             Ask::Energy { when, of: None } => Some((Expr::symbol(&q.name), *when)),
             _ => None,
@@ -102,24 +104,25 @@ impl Motion<'_> {
         (0..self.scene.bodies.len()).collect()
     }
 
-    /// Where one coordinate tells where all bodies are, the speeds and spins asked for at one moment grow in step.
+    /// Where one coordinate tells where all bodies are, the speeds and spins asked for at one moment grow in step, and so do the
+    /// way and the angle of a body that rolls.
     fn in_step(&self) -> Vec<Expr> {
-        let after = &self.told.after;
-        let value = |q: &Question| match &q.ask {
-            Ask::Velocity {
-                body,
-                point: None,
-                along: Some(along),
-            } => Some(dot(&after.velocity[*body], along)),
-            Ask::Spin { body, clockwise } => Some(match clockwise {
-                true => -&after.spin[*body],
-                false => after.spin[*body].clone(),
-            }),
-            _ => None,
+        let (rates, ways) = match &self.told.placed.kind {
+            StageKind::Turn(_) | StageKind::Linkage(_) => (true, false),
+            StageKind::Slide(slide) => (false, slide.rolling),
+            _ => (false, false),
         };
-        let asked = self.asked(self.told);
+        let value = |q: &Question| {
+            let answer = self.answers.iter().find(|a| a.name == q.name)?;
+            answer.formula().filter(|value| !value.is_zero()).cloned()
+        };
+        let asked = self.asked(self.told).filter(|q| match q.ask {
+            Ask::Velocity { along: Some(_), .. } | Ask::Spin { .. } => rates,
+            Ask::Distance | Ask::Angle { .. } => ways,
+            _ => false,
+        });
         let asked = asked.filter_map(|q| Some((Expr::symbol(&q.name), value(q)?)));
-        let asked: Vec<_> = asked.filter(|(_, value)| !value.is_zero()).collect();
+        let asked: Vec<(Expr, Expr)> = asked.collect();
         let pairs = asked.windows(2);
         pairs
             .map(|p| &p[0].0 * &p[1].1 - &p[1].0 * &p[0].1)

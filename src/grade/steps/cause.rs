@@ -130,7 +130,7 @@ impl Desk<'_> {
                 let symbols = one.symbols();
                 let results = symbols.iter().filter(|n| self.is_found(n)).count();
                 let laws = match results {
-                    1 => self.unwritten(),
+                    1 => self.unwritten(one),
                     _ => Vec::new(),
                 };
                 let without = |j: usize| -> Vec<&Expr> {
@@ -244,14 +244,17 @@ impl Desk<'_> {
         of_them.map(|a| Symbol::from(a.name.as_str())).collect()
     }
 
-    /// The laws that hold in truth: those of the impact, and of the motions of a story.
-    fn unwritten(&self) -> Vec<Expr> {
+    /// The laws that hold in truth: those of the impact, and of the motions of a story; and what is supposed of a parameter that
+    /// a line speaks of.
+    fn unwritten(&self, line: &Expr) -> Vec<Expr> {
         let none = BTreeMap::new();
         let is_true = |law: &Expr| self.all_zero(std::slice::from_ref(law), &none) == Some(true);
         let motions = self.sheet.laws.iter().filter(|law| is_true(law));
         let mut all = self.of_impact();
         all.extend_from_slice(&self.linked);
         all.extend(motions.take(MOST_LAWS).cloned());
+        let sought = self.sought.iter().filter(|s| line.mentions(&s.parameter));
+        all.extend(sought.filter_map(|s| s.condition.clone()));
         all
     }
 

@@ -30,7 +30,7 @@ pub(super) struct Sought {
     /// The parameter.
     pub parameter: Symbol,
     /// What is to be zero with it; `None` where something is to be as large as can be.
-    condition: Option<Expr>,
+    pub condition: Option<Expr>,
     /// The value, where the scene's answer gives it.
     value: Option<Expr>,
 }

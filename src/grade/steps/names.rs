@@ -13,7 +13,7 @@ use crate::domain::Domains;
 use crate::equality::{self};
 use crate::expr::{Expr, Function, Symbol, dot, ratio};
 use crate::formula::{self, Content, Reading, Remark, Symbols};
-use crate::scene::{Ask, Body};
+use crate::scene::{Ask, Body, StageKind};
 
 /// Most names a student may introduce.
 const MOST_NAMES: usize = 100;
@@ -69,13 +69,13 @@ pub(super) fn behind(text: &str, reading: &Reading) -> Option<(usize, usize)> {
 pub(super) const ACCELERATION: &str = "a";
 
 /// The accelerations that the letter a of a worked solution may stand for, counted either way: those of the scene, where it
-/// has no such name itself and the solution says that of nothing else.
-pub(super) fn accelerations(sheet: &Sheet, text: &str) -> Vec<Expr> {
+/// has no such name itself and the solution says that of nothing else. `None` stands for whatever the solution says it is.
+pub(super) fn accelerations(sheet: &Sheet, text: &str) -> Vec<Option<Expr>> {
     let scene = &sheet.scene;
     let asked = sheet.derivation.answers.iter().map(|answer| &*answer.name);
     let mut taken = scene.parameters.iter().map(|p| &*p.name).chain(asked);
-    if taken.any(|name| name == ACCELERATION) {
-        return Vec::new();
+    if taken.any(|name| name == ACCELERATION) || sheet.accelerations.is_empty() {
+        return vec![None];
     }
     let mut symbols = Symbols::open();
     for p in &scene.parameters {
@@ -112,19 +112,26 @@ pub(super) fn accelerations(sheet: &Sheet, text: &str) -> Vec<Expr> {
             fits &= rest.iter().all(is_rate);
         }
     }
-    let both = sheet
-        .accelerations
-        .iter()
-        .flat_map(|value| [value.clone(), -value]);
-    both.take(if used && fits { MOST_WAYS } else { 0 })
-        .collect()
+    if !(used && fits) {
+        return vec![None];
+    }
+    // Bodies that turn, fall or press a spring have others.
+    let steady = |kind: &StageKind| match kind {
+        StageKind::Impact { .. } => true,
+        StageKind::Slide(slide) => slide.spring.is_none() && slide.on.is_none(),
+        _ => false,
+    };
+    let all = scene.stages.iter().all(|stage| steady(&stage.kind));
+    let each = sheet.accelerations.iter();
+    let both = each.flat_map(|value| [value.clone(), -value].map(Some));
+    both.take(MOST_WAYS).chain((!all).then_some(None)).collect()
 }
 
-/// Whether a letter behind a formula is a quantity first: a speed V rather than volts, a height h rather than hours.
+/// Whether a letter behind a formula is a quantity first: a speed V rather than volts, a time t rather than tonnes.
 pub(super) fn is_quantity_first(unit: &str) -> bool {
     matches!(
         unit.trim(),
-        "V" | "h" | "A" | "C" | "F" | "H" | "K" | "L" | "T" | "l" | "d" | "W"
+        "V" | "h" | "t" | "A" | "C" | "F" | "H" | "K" | "L" | "T" | "l" | "d" | "W"
     )
 }
 
