@@ -92,12 +92,13 @@ impl Desk<'_> {
             let rules = rules.iter();
             rules.fold(e.clone(), |e, (name, root)| e.put(name, root))
         };
-        let follows = |causes: &[usize], laws: &[&Expr], bound_first: bool| {
+        let follows = |causes: &[usize], laws: &[&Expr], again: bool| {
             let hangs = |c: &Option<usize>| c.is_some_and(|c| causes.contains(&c));
             let wrong = self.stated.iter().filter(|(c, _)| hangs(c));
             let right = self.stated.iter().filter(|(c, _)| c.is_none());
             let said = wrong.clone().chain(right).map(|(_, line)| line);
-            // A balance of energies speaks of several squares until what binds them is put in.
+            // A balance of energies speaks of several squares until what binds them is put in, or is first solved for what
+            // the equation is about: that is tried again.
             let found = |e: &Expr| {
                 let mut names = e.symbols();
                 names.retain(|name| self.is_found(name));
@@ -106,24 +107,31 @@ impl Desk<'_> {
             let spoken: BTreeSet<Symbol> = wrong.clone().flat_map(|(_, e)| found(e)).collect();
             let (binding, others): (Vec<&Expr>, Vec<&Expr>) = laws.iter().partition(|law| {
                 let names = found(law);
-                bound_first && names.len() > 1 && names.is_subset(&spoken)
+                again && names.len() > 1 && names.is_subset(&spoken)
             });
             let mut rules: Vec<(Symbol, Expr)> = Vec::new();
             for line in binding.into_iter().chain(said).chain(others) {
                 let line = reduced(line, &rules);
                 // What says nothing new, or contradicts those before, gives no rule.
                 let symbols = line.symbols();
-                let names = || symbols.iter().filter(|n| self.is_found(n));
+                let mut found: Vec<&Symbol> = symbols.iter().filter(|n| self.is_found(n)).collect();
+                found.sort_by_key(|name| again && !used.contains(*name));
                 let ways = [solve_for, angle_in, size_in, under_root];
                 let rule = ways.iter().find_map(|way| {
-                    names().find_map(|name| Some((name.clone(), way(&line, name, domains)?)))
+                    found
+                        .iter()
+                        .find_map(|n| Some(((*n).clone(), way(&line, n, domains)?)))
                 });
                 rules.extend(rule);
             }
             equality::vanishes(&reduced(one, &rules), domains)
         };
-        let mut all = causes.iter().copied();
-        let found = all.find(|cause| follows(&[*cause], &[], false));
+        let orders = |again: usize| {
+            let ways = [false, true].into_iter().take(1 + again);
+            ways.flat_map(|again| causes.iter().map(move |cause| (*cause, again)))
+        };
+        let found = orders(1).find(|(cause, again)| follows(&[*cause], &[], *again));
+        let found = found.map(|(cause, _)| cause);
         found
             .or_else(|| {
                 // The wrong line stands in place of one law; the others may be used for a result without being written.
@@ -139,13 +147,9 @@ impl Desk<'_> {
                 };
                 // Of a story the laws of impacts are not among them, and it may stand in place of one of those.
                 let others = usize::from(!self.sheet.scene.stages.is_empty());
-                let orders = [false, true]
-                    .into_iter()
-                    .take(1 + usize::from(!laws.is_empty()));
-                let mut ways = orders.flat_map(|first| causes.iter().map(move |c| (*c, first)));
-                let found = ways.find(|(cause, first)| {
+                let found = orders(usize::from(!laws.is_empty())).find(|(cause, again)| {
                     let mut one = 0..laws.len() + others;
-                    one.any(|j| follows(&[*cause], &without(j), *first))
+                    one.any(|j| follows(&[*cause], &without(j), *again))
                 });
                 found.map(|(cause, _)| cause)
             })
