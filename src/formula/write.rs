@@ -274,7 +274,9 @@ impl Writer<'_> {
             },
             _ => false,
         };
-        if self.style == Style::Plain || !bare {
+        // A quotient behind an inverse function belongs to it: `atan v/c` is read as that of v/c.
+        let inverse = matches!(function, Function::Asin | Function::Acos | Function::Atan);
+        if self.style == Style::Plain || !bare || inverse && self.style == Style::Unicode {
             return self.bracketed(argument);
         }
         let greek = argument
