@@ -362,7 +362,9 @@ pub(super) fn field<T: Read>(
             if absent.is_none() && is_sound(node.span, faults) {
                 let fault = Fault::new(node.span, format!("the field `{name}` is missing"));
                 let fault = fault.shown_at(node.span.opening());
-                faults.push(match super::meant::missing(name) {
+                let told = || meaning(name).map(|meaning| format!("`{name}`: {meaning}"));
+                let hint = super::meant::missing(name).map(String::from);
+                faults.push(match hint.or_else(told) {
                     Some(hint) => fault.hint(hint),
                     None => fault,
                 });
