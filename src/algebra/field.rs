@@ -339,6 +339,15 @@ impl Field {
         self.complete
     }
 
+    /// The normal form, unless it rests on a sign that was only seen at sample points.
+    pub fn proved(&mut self, e: &Expr) -> Result<Option<Element>, Stop> {
+        let before = self.assumed.len();
+        let element = self.element(e)?;
+        let proved = self.assumed.len() == before;
+        self.assumed.truncate(before);
+        Ok(proved.then_some(element))
+    }
+
     /// Signs that were only seen at sample points and not proved.
     pub fn assumptions(&self) -> Vec<Assumption> {
         let assumed = self.assumed.iter().map(|x| self.expr(x));

@@ -75,22 +75,27 @@ const MOST_WRITTEN: [usize; 2] = [500, 20];
 pub fn tidy(e: &Expr, domains: &Domains) -> Result<Expr, Stop> {
     let (field, x) = Field::of(domains, e)?;
     let [most, times] = MOST_WRITTEN;
-    Ok(match x.num.len() > most.max(times * e.size()) {
-        true => e.clone(),
-        false => field.expr(&x),
+    // A sign that was only seen at points changes no form unsaid.
+    let proved = field.assumptions().is_empty();
+    Ok(match proved && x.num.len() <= most.max(times * e.size()) {
+        true => field.expr(&x),
+        false => e.clone(),
     })
 }
 
 /// The sign of an expression, where it has one on the whole domain.
 pub fn sign(e: &Expr, domains: &Domains) -> Option<Sign> {
     let (field, x) = Field::of(domains, e).ok()?;
-    field.sign(&x)
+    field.sign(&x).filter(|_| field.assumptions().is_empty())
 }
 
 /// A quotient as a person would write it.
 pub fn quotient(a: &Expr, b: &Expr, domains: &Domains) -> Result<Expr, Stop> {
     let (field, x, y) = Field::pair(domains, a, b)?;
-    Ok(field.expr(&field.div(&x, &y)?))
+    Ok(match field.assumptions().is_empty() {
+        true => field.expr(&field.div(&x, &y)?),
+        false => a / b,
+    })
 }
 
 /// A sign that holds at every point of the domain.

@@ -232,14 +232,15 @@ impl Forms {
         Forms { field }
     }
 
+    /// The form to print; as it is, where another form rests on a sign that was only seen at points.
     fn tidy(&mut self, e: &Expr) -> Result<Expr, Stop> {
-        let element = self.field.element(e)?;
-        Ok(self.field.expr(&element))
+        let proved = self.field.proved(e)?;
+        Ok(proved.map_or_else(|| e.clone(), |element| self.field.expr(&element)))
     }
 
     fn sign(&mut self, e: &Expr) -> Result<Option<Sign>, Stop> {
-        let element = self.field.element(e)?;
-        Ok(self.field.sign(&element))
+        let proved = self.field.proved(e)?;
+        Ok(proved.and_then(|element| self.field.sign(&element)))
     }
 
     /// The directions of friction that the domain allows.
@@ -496,15 +497,7 @@ impl Forms {
         Ok(match self.sign(&x)? {
             Some(sign) if sign.is_not_negative() => x,
             Some(_) => self.tidy(&-x)?,
-            None => {
-                let bars = Expr::call(Function::Abs, x);
-                let tidied = self.tidy(&bars)?;
-                // A sign that was only seen at points takes no bars away.
-                match self.field.assumptions().is_empty() {
-                    true => tidied,
-                    false => bars,
-                }
-            }
+            None => self.tidy(&Expr::call(Function::Abs, x))?,
         })
     }
 

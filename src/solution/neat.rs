@@ -89,9 +89,9 @@ fn whole(number: &crate::expr::Rational) -> Option<i64> {
 pub(super) fn tidied(scene: &Scene, e: &Expr) -> Expr {
     let mut field = Field::new(&scene.domains);
     field.prepare([e]);
-    match field.element(e) {
-        Ok(x) => field.expr(&x),
-        Err(_) => e.clone(),
+    match field.proved(e) {
+        Ok(Some(x)) => field.expr(&x),
+        _ => e.clone(),
     }
 }
 

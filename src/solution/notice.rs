@@ -106,7 +106,7 @@ impl Writer<'_> {
 
     /// The normal form, unless a limit is met.
     fn normal(&mut self, e: &Expr) -> Option<Expr> {
-        let element = self.field.element(e).ok()?;
+        let element = self.field.proved(e).ok()??;
         Some(self.field.expr(&element))
     }
 
@@ -418,7 +418,7 @@ impl Writer<'_> {
         let at = e.substitute(&BTreeMap::from([(name.clone(), value.clone())]));
         let mut field = Field::new(&self.scene.domains);
         field.prepare([&at]);
-        let element = field.element(&at).ok()?;
+        let element = field.proved(&at).ok()??;
         Some(field.expr(&element))
     }
 }

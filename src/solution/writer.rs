@@ -194,9 +194,9 @@ impl<'a> Writer<'a> {
 
     /// An expression as a person would write it; as it is where a limit of the algebra is met.
     pub(super) fn tidy(&mut self, e: &Expr) -> Expr {
-        match self.field.element(e) {
-            Ok(element) => self.field.expr(&element),
-            Err(_) => e.clone(),
+        match self.field.proved(e) {
+            Ok(Some(element)) => self.field.expr(&element),
+            _ => e.clone(),
         }
     }
 
