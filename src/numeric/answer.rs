@@ -201,7 +201,10 @@ pub fn answer<T: Number>(
             }
             if *when != EnergyWhen::Before {
                 let bodies = (0..given.bodies.len()).filter(|i| of.is_none_or(|b| b == *i));
-                determined(motion, &bodies.flat_map(motion_of).collect::<Vec<_>>())?;
+                // What has no inertia and is struck by nothing has no energy, however it turns.
+                let idle = |u: &Unknown| matches!(u, Unknown::Spin(b) if given.bodies[*b].inertia.is_zero() && !given.is_struck(*b));
+                let needs = bodies.flat_map(motion_of).filter(|u| !idle(u));
+                determined(motion, &needs.collect::<Vec<_>>())?;
             }
             Ok(Answer::Scalar(match when {
                 EnergyWhen::Before => energy_before(given, *of),

@@ -23,6 +23,14 @@ pub struct Given<T> {
     pub known: Vec<GivenKnown<T>>,
 }
 
+impl<T> Given<T> {
+    /// Whether an impulse other than that of a hinge can act on a body.
+    pub fn is_struck(&self, body: usize) -> bool {
+        let touches = |c: &GivenContact<T>| c.joint.bodies.contains(&body);
+        self.contacts.iter().any(touches) || self.blows.iter().any(|blow| blow.body == body)
+    }
+}
+
 /// Which unknowns a body has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Freedom {

@@ -81,7 +81,7 @@ pub(in crate::scene) fn spread(file: &mut SceneFile) {
 }
 
 fn given(hinges: Option<&Map<HingeFile>>) -> Hinges {
-    let all = entries(hinges).into_iter();
+    let all = entries(hinges);
     all.map(|(name, hinge)| (name.clone(), hinge.clone()))
         .collect()
 }
@@ -100,7 +100,7 @@ fn moving(stage: &StageFile) -> Vec<&Text> {
 }
 
 fn is_fixed(bodies: &Map<BodyFile>, name: &Text) -> bool {
-    let all = entries(Some(bodies)).into_iter();
+    let all = entries(Some(bodies));
     let mut named = all.filter(|(other, _)| other.text == name.text);
     named.any(|(_, body)| matches!(body.shape, ShapeName::Fixed))
 }
