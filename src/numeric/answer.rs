@@ -201,8 +201,15 @@ pub fn answer<T: Number>(
             }
             if *when != EnergyWhen::Before {
                 let bodies = (0..given.bodies.len()).filter(|i| of.is_none_or(|b| b == *i));
-                // What has no inertia and is struck by nothing has no energy, however it turns.
-                let idle = |u: &Unknown| matches!(u, Unknown::Spin(b) if given.bodies[*b].inertia.is_zero() && !given.is_struck(*b));
+                // What has no inertia and is struck by nothing has no energy, however it moves.
+                let idle = |u: &Unknown| {
+                    let (b, inertia) = match u {
+                        Unknown::Spin(b) => (*b, &given.bodies[*b].inertia),
+                        Unknown::Velocity(b, _) => (*b, &given.bodies[*b].mass),
+                        _ => return false,
+                    };
+                    inertia.is_zero() && !given.is_struck(b)
+                };
                 let needs = bodies.flat_map(motion_of).filter(|u| !idle(u));
                 determined(motion, &needs.collect::<Vec<_>>())?;
             }
