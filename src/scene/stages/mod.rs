@@ -166,7 +166,7 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     }
 }
 
-/// A story that begins with a linkage begins with the bodies where the first value of its coordinate puts them.
+/// A story that begins with a linkage begins with the bodies and points where the first value of its coordinate puts them.
 fn begin(scene: &mut Scene) {
     let Some(Stage {
         kind: StageKind::Linkage(linkage),
@@ -178,11 +178,14 @@ fn begin(scene: &mut Scene) {
     let linkage = linkage.clone();
     let mut put = |e: &mut Expr| *e = linkage.at(e, &linkage.ends[0]);
     let starts = scene.stages.iter_mut().filter(|s| s.from.is_none());
-    let starts = starts.flat_map(|s| &mut s.scene.bodies);
-    for body in scene.bodies.iter_mut().chain(starts) {
-        body.place_mut(&mut put);
-        body.velocity.iter_mut().for_each(&mut put);
-        put(&mut body.spin);
+    let starts = starts.map(|s| (&mut s.scene.bodies, &mut s.scene.points));
+    for (bodies, points) in starts.chain([(&mut scene.bodies, &mut scene.points)]) {
+        for body in bodies {
+            body.place_mut(&mut put);
+            body.velocity.iter_mut().for_each(&mut put);
+            put(&mut body.spin);
+        }
+        points.iter_mut().flat_map(|p| &mut p.at).for_each(&mut put);
     }
 }
 
