@@ -11,10 +11,10 @@ use crate::expr::{Function, Int, Rational, Symbol, ratio};
 impl Field {
     /// An opaque function: equal arguments give the same generator, and odd and even ones pull the sign out.
     pub(super) fn call(&mut self, function: Function, argument: Element) -> Result<Element, Stop> {
-        use Function::{Acos, Asin, Atan, Cos, Cosh, Exp, Ln, Sin, Sinh, Tan, Tanh};
+        use Function::{Acos, Asin, Atan, Cos, Cosh, Exp, Ln};
         if argument.num.is_zero() {
             match function {
-                Sin | Tan | Asin | Atan | Sinh | Tanh => return Ok(Element::zero()),
+                odd if odd.is_odd() => return Ok(Element::zero()),
                 Cos | Cosh | Exp => return Ok(self.integer(1)),
                 Ln => return Err(Stop::NotReal),
                 _ => {}
@@ -40,7 +40,7 @@ impl Field {
             }
             _ => {}
         }
-        let odd = matches!(function, Sin | Tan | Asin | Atan | Sinh | Tanh);
+        let odd = function.is_odd();
         let even = matches!(function, Cos | Cosh);
         let flip = (odd || even) && argument.num.leading_is_negative();
         let argument = if flip { self.neg(&argument) } else { argument };

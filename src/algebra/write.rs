@@ -223,7 +223,12 @@ impl Field {
                 let inside = self.written(&Element::from_poly(p.clone()));
                 (Expr::call(Function::Abs, inside), one)
             }
-            Kind::Call(function, x) => (Expr::call(*function, self.kept(x)), one),
+            Kind::Call(function, x) => {
+                let x = self.kept(x);
+                let flip = function.is_odd() && x.is_negative();
+                let value = Expr::call(*function, if flip { -&x } else { x });
+                (if flip { -value } else { value }, one)
+            }
             Kind::Power(base, exponent) => (self.written(base).power(self.written(exponent)), one),
         }
     }

@@ -27,6 +27,12 @@ impl Function {
         ]
     };
 
+    /// Whether a minus sign may be taken out of the argument.
+    pub fn is_odd(self) -> bool {
+        use Function::*;
+        matches!(self, Sin | Tan | Asin | Atan | Sinh | Tanh)
+    }
+
     /// The name in plain infix notation.
     pub fn name(self) -> &'static str {
         NAMES[self as usize]
