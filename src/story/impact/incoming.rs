@@ -37,8 +37,7 @@ pub(super) fn touches(
                     "where `{}` is, and whether `{name}` touches it, is open: {why}",
                     body.name
                 );
-                let hint =
-                    "end the motion before after a time or at a place that has a closed form";
+                let hint = unsaid(&why, &body.name);
                 return Err(Refused::new(&stage.name, why, hint));
             }
             if gap
@@ -68,6 +67,16 @@ pub(super) fn touches(
     );
     let hint = waits(scene, off.body, before).unwrap_or(off.hint);
     Err(Refused::new(&stage.name, why, hint))
+}
+
+/// What would close a place that is open: what is known after an impact that does not determine the motion, or another end.
+fn unsaid(why: &str, body: &str) -> String {
+    match why.ends_with(" do not determine it") {
+        true => format!(
+            "say in that impact what is known of it just after, along x and along y, as in \"after\": [{{\"velocity\": \"{body}\", \"along\": \"y\", \"is\": 0}}]"
+        ),
+        false => "end the motion before after a time or at a place that has a closed form".into(),
+    }
 }
 
 /// That a body which moves has taken no part so far, and is met where the scene has it.
