@@ -24,7 +24,7 @@ use super::{Before, Detail, Inline, Math, Part, Scope, Slot, Solution, Writer};
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol};
 use crate::formula::Sentence;
-use crate::scene::{Ask, Scene, Stage};
+use crate::scene::{Ask, Scene, Stage, StageKind};
 use crate::story::{Case, StageTold, Told, line};
 
 /// Longest condition, in characters, that is a heading.
@@ -254,6 +254,11 @@ impl Page<'_> {
         if self.solution.detail == Detail::Brief || (!full && !told.cases.is_empty()) {
             return;
         }
+        if let (Some(b), false) = (self.steady(told), full) {
+            let body = say(words::body(self.scene, b));
+            let keeps = "No force acts along the line, so {} keeps its speed.";
+            return self.solution.text(words::fill(keeps, [body]));
+        }
         // An equation of motion does without the energy.
         let is_used = told.steps.is_empty() && !self.is_of_moments(told);
         let named = told.kept.iter();
@@ -271,6 +276,20 @@ impl Page<'_> {
             1 => self.solution.text(items.remove(0)),
             _ => self.solution.push(Part::List(items)),
         }
+    }
+
+    /// The body that moves along a line with nothing to change its speed, where nobody asks for its energy.
+    fn steady(&self, told: &StageTold) -> Option<usize> {
+        let StageKind::Slide(slide) = &told.placed.kind else {
+            return None;
+        };
+        let [start, end] = told.energy.as_ref()?;
+        let alone = slide.gravity.is_none() && slide.strings.is_empty() && slide.on.is_none();
+        let alone = alone && slide.spring.is_none();
+        let is_free = alone && told.work.is_empty() && told.steps.is_empty() && start == end;
+        let mut answers = self.told.answers.iter();
+        let named = answers.any(|a| Self::is_end_energy(told, a));
+        (is_free && !named).then_some(slide.body)
     }
 
     /// Where a stage begins, if that is not where the one before it ends.

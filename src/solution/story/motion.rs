@@ -31,6 +31,9 @@ impl Page<'_> {
         if matches!(stage.kind, StageKind::Turn(_)) && told.work.is_empty() && !named {
             return self.accelerated(told);
         }
+        if self.steady(told).is_some() {
+            return;
+        }
         let mut lines: Vec<Line> = self.inertia(stage, told).into_iter().collect();
         if self.is_of_moments(told) {
             self.solution.display(lines);
