@@ -256,7 +256,8 @@ fn read_as(text: &str, symbols: &Symbols, flips: u64, held: prose::Held) -> Faul
             .is_some_and(|rest| !rest.contains("**"))
     }) {
         start += inner[start..].find("**").map_or(0, |at| at + 2);
-        inner = inner.trim_end().trim_end_matches('*');
+        let shut = inner.trim_end();
+        inner = &shut[..shut.len() - 2];
     }
     let end = inner.len();
     if let Some(last) = prose::conclusion(&inner[start..], held) {
