@@ -380,6 +380,8 @@ fn found(
         math: words::related(left, op, right),
         step: step.clone(),
     };
+    // A speed by its components, say.
+    let is_of_answers = |e: &Expr| e.symbols().iter().any(|s| scene.parameter(s).is_none());
     let mut found: Vec<Line> = Vec::new();
     for (p, relation, value) in &answer.range {
         let mut whole = line(p, relation.sign(), value, shown);
@@ -404,7 +406,7 @@ fn found(
             meaning,
         } = ask
             && with.is_empty()
-            && meaning.is_empty()
+            && (meaning.is_empty() || is_of_answers(asked))
             && asked != formula
             && asked.size() <= READABLE / 4
         {
