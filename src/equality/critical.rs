@@ -25,6 +25,8 @@ const ARGUMENTS: usize = 8;
 const SYMBOLS: usize = 6;
 /// Most points walked from.
 const STARTS: usize = 10;
+/// How often every symbol is led to where an expression is least along it.
+const ROUNDS: usize = 16;
 /// Points from which the least value of an expression is looked for.
 const DESCENTS: usize = 3;
 /// Most parts of a domain that are looked at.
@@ -283,22 +285,38 @@ pub(super) fn tested(
         if nowhere(&[-e], domains) {
             continue;
         }
-        let mut all = points(std::slice::from_ref(e), near, domains, roles);
         let starts = |count| near.iter().take(count);
-        all.extend(starts(1).flat_map(|start| corners(e, start, domains)));
-        all.extend(starts(DESCENTS).map(|start| descended(e, start, domains, roles)));
-        all.extend(starts(2).flat_map(|start| kinks(e, start, domains)));
-        all.extend(starts(1).filter_map(|start| vertex(e, start, domains)));
-        for start in near {
-            for name in free_symbols(std::slice::from_ref(e), domains, start) {
-                if let Some(domain) = along(&name, start, domains) {
-                    let far = far(domain).into_iter();
-                    all.extend(far.map(|value| start.moved(&name, value)));
-                }
-            }
-        }
-        all.retain(|at| sign_at(e, at) == Some(-1) && domains.admits(at));
-        if !all.is_empty() {
+        // What takes fewer steps first.
+        let ways: [&dyn Fn() -> Vec<Sample>; 6] = [
+            &|| {
+                starts(1)
+                    .flat_map(|start| corners(e, start, domains))
+                    .collect()
+            },
+            &|| {
+                starts(1)
+                    .filter_map(|start| vertex(e, start, domains))
+                    .collect()
+            },
+            &|| {
+                let down = |start| descended(e, start, domains, roles);
+                starts(DESCENTS).map(down).collect()
+            },
+            &|| {
+                starts(2)
+                    .flat_map(|start| kinks(e, start, domains))
+                    .collect()
+            },
+            &|| far_out(e, near, domains),
+            &|| points(std::slice::from_ref(e), near, domains, roles),
+        ];
+        let below = |at: &Sample| sign_at(e, at) == Some(-1) && domains.admits(at);
+        let mut found = ways.iter().map(|way| {
+            let mut all = way();
+            all.retain(below);
+            all
+        });
+        if let Some(all) = found.find(|all| !all.is_empty()) {
             return Err(all);
         }
         left.push(assumption.clone());
@@ -306,32 +324,53 @@ pub(super) fn tested(
     Ok(left)
 }
 
-/// The point to which going down leads: symbol by symbol to where the expression is least along the domain, first to a
-/// simple number near it and then to nearer ones.
+/// Points with each symbol of an expression led far out and near the ends of its domain.
+fn far_out(e: &Expr, near: &[Sample], domains: &Domains) -> Vec<Sample> {
+    let mut out = Vec::new();
+    for start in near {
+        for name in free_symbols(std::slice::from_ref(e), domains, start) {
+            if let Some(domain) = along(&name, start, domains) {
+                let far = far(domain).into_iter();
+                out.extend(far.map(|value| start.moved(&name, value)));
+            }
+        }
+    }
+    out
+}
+
+/// The point to which going down leads: symbol by symbol to where the expression is least along the domain, first to simple
+/// numbers near it, as often as that leads on (`cos β + sin(α + β)` is least in a valley across both), and then to nearer ones.
 fn descended(e: &Expr, start: &Sample, domains: &Domains, roles: &Roles) -> Sample {
     let mut at = start.clone();
     let names = free_symbols(std::slice::from_ref(e), domains, start);
-    let rounds = [1e-3, 1e-6, 1e-9].into_iter();
-    for (share, name) in rounds.flat_map(|share| names.iter().map(move |name| (share, name))) {
-        let here = at.doubles();
-        let Some(domain) = domains.symbols.get(name) else {
-            continue;
-        };
-        let beside = |x: f64, side: f64| {
-            let value = from_f64(x + side * share * x.abs().max(1e-2))?;
-            Some(Limit::number(value, false))
-        };
-        let role = roles.symbols.get(name).cloned().unwrap_or_default();
-        let value = lowest(e, name, &here, domain).and_then(|x| {
-            let part = Domain::new(beside(x, -1.0), beside(x, 1.0));
-            crate::domain::within(&part, domain, &role)
-        });
-        let Some(value) = value else { continue };
-        let moved = at.moved(name, value);
-        let [old, new] = [here, moved.doubles()].map(|point| e.evaluate(&point));
-        if new.is_some() && new < old {
-            at = moved;
+    let lowered = |at: &mut Sample, share: f64| {
+        let before = e.evaluate(&at.doubles());
+        for name in &names {
+            let here = at.doubles();
+            let Some(domain) = domains.symbols.get(name) else {
+                continue;
+            };
+            let beside = |x: f64, side: f64| {
+                let value = from_f64(x + side * share * x.abs().max(1e-2))?;
+                Some(Limit::number(value, false))
+            };
+            let role = roles.symbols.get(name).cloned().unwrap_or_default();
+            let value = lowest(e, name, &here, domain).and_then(|x| {
+                let part = Domain::new(beside(x, -1.0), beside(x, 1.0));
+                crate::domain::within(&part, domain, &role)
+            });
+            let Some(value) = value else { continue };
+            let moved = at.moved(name, value);
+            let [old, new] = [here, moved.doubles()].map(|point| e.evaluate(&point));
+            if new.is_some() && new < old {
+                *at = moved;
+            }
         }
+        e.evaluate(&at.doubles()) < before
+    };
+    let _ = (0..ROUNDS).all(|_| lowered(&mut at, 1e-3));
+    for share in [1e-6, 1e-9] {
+        lowered(&mut at, share);
     }
     at
 }

@@ -504,7 +504,13 @@ impl Search<'_> {
     /// The verdict of a proof, unless a sign that it took for granted fails.
     fn tested(&mut self, assumptions: Vec<Assumption>, ground: Ground) -> Option<Equality> {
         let near = samples(self.roles, self.domains, FIRST + 2);
-        match critical::tested(&assumptions, &near, self.domains, self.roles) {
+        let tested = critical::tested(&assumptions, &near, self.domains, self.roles);
+        // A sign that was not put to the test is not to be taken for granted.
+        if tested.as_ref().is_ok_and(|left| !left.is_empty()) && effort::spent() {
+            let limit = Stop::TooLarge("steps").to_string();
+            return Some(self.undecided(Reason::Limit(limit)));
+        }
+        match tested {
             Ok(assumptions) => {
                 let pair = (self.a, self.b);
                 Some(gap::same(
