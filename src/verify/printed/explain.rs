@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use num_traits::Signed;
 
+use super::Finding;
+use super::desk::Desk;
 use super::number::{last_place, number_of};
-use super::{Desk, Finding};
 use crate::algebra;
 use crate::dimension;
 use crate::equality::{self, Equality};

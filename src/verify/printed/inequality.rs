@@ -1,6 +1,7 @@
 //! Printed inequalities: claims about the whole domain, and bounds of a quantity.
 
-use super::{Desk, Finding};
+use super::Finding;
+use super::desk::Desk;
 use crate::domain::{roles, samples};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Relation};

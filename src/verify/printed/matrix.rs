@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::{Desk, Finding};
+use super::Finding;
+use super::desk::Desk;
 use crate::domain::Domain;
 use crate::expr::{Expr, Symbol};
 use crate::scene::Printed;

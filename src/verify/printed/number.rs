@@ -2,7 +2,8 @@
 
 use num_traits::Signed;
 
-use super::{Desk, Finding, remainder};
+use super::desk::Desk;
+use super::{Finding, remainder};
 use crate::dimension::{self, Dimension};
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Point, Rational, ratio};
@@ -150,4 +151,28 @@ pub(super) fn last_place(text: &str) -> i32 {
         .collect();
     let after = digits.split_once('.').map_or(0, |(_, d)| d.len());
     -(after as i32)
+}
+
+/// The components of a vector in numbers, each with the unit behind all: `[-1.84, 3.12] N s`.
+pub(super) fn numbers(text: &str) -> Option<[String; 2]> {
+    let (inside, unit) = text
+        .trim()
+        .strip_prefix(['[', '('])?
+        .split_once([']', ')'])?;
+    let (x, y) = inside.split_once(',')?;
+    let number = |part: &str| {
+        let text = format!("{} {}", part.trim(), unit.trim());
+        let read = formula::read(&text, &Symbols::strict()).ok()?;
+        read.literal.map(|_| text)
+    };
+    Some([number(x)?, number(y)?])
+}
+
+/// The decimal number in its unit that is printed by itself, or as the bound of something: rounded, like every decimal.
+pub(super) fn decimal_in(text: &str) -> Option<&str> {
+    let mut sides = text.split(['<', '>', '=', '≤', '≥']).map(str::trim);
+    sides.find(|side| {
+        side.contains('.')
+            && formula::read(side, &Symbols::strict()).is_ok_and(|r| r.literal.is_some())
+    })
 }

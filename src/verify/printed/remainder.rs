@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 
 use num_traits::{Signed, Zero};
 
-use super::{Desk, Finding};
+use super::Finding;
+use super::desk::Desk;
 use crate::algebra::Field;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Rational};
