@@ -269,7 +269,9 @@ impl Desk<'_> {
         let spoken = [left, right]
             .iter()
             .any(|e| e.mentions(name) || e.mentions(item));
-        spoken.then(|| (there(left), there(right)))
+        // What holds whatever the item is says nothing of it.
+        let is_empty = || equality::identical(left, right, &self.scene.domains);
+        (spoken && !is_empty()).then(|| (there(left), there(right)))
     }
 
     fn equation(&self, printed: &Printed, text: &str, finding: &mut Finding) -> Result<(), String> {
