@@ -295,13 +295,7 @@ impl<'a> Desk<'a> {
             ["×", "\\times"].iter().any(|sign| text.contains(sign)) && text.contains("r_");
         let is_vector =
             |name: &Symbol| crossed && self.spins.values().any(|(spin, _)| spin == name);
-        for p in &self.sheet.scene.parameters {
-            symbols.declare_as(
-                p.name.clone(),
-                p.latex.as_deref(),
-                Some(p.dimension.clone()),
-            );
-        }
+        self.sheet.scene.declare_parameters(&mut symbols);
         for q in &self.sheet.scene.questions {
             let known = self.closed.contains_key(q.name.as_str());
             let spin = is_vector(&Symbol::from(q.name.as_str()));

@@ -118,13 +118,7 @@ pub fn shortened(text: &str, most: usize) -> String {
 /// read as they stand.
 pub fn symbols_of(scene: &Scene) -> Symbols {
     let mut symbols = Symbols::open();
-    for p in &scene.parameters {
-        symbols.declare_as(
-            p.name.clone(),
-            p.latex.as_deref(),
-            Some(p.dimension.clone()),
-        );
-    }
+    scene.declare_parameters(&mut symbols);
     for q in &scene.questions {
         symbols.declare_as(q.name.as_str(), q.latex.as_deref(), None);
     }

@@ -41,6 +41,7 @@ use std::collections::BTreeMap;
 use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, Vector, minus};
+use crate::formula::Symbols;
 use crate::formula::near::nearest;
 
 pub use ask::{Ask, EnergyWhen, ImpulseAt, PlotAsk, Question};
@@ -309,6 +310,14 @@ impl Scene {
     /// The parameter of this name.
     pub fn parameter(&self, name: &str) -> Option<&Parameter> {
         self.parameters.iter().find(|p| *p.name == *name)
+    }
+
+    /// Declares the parameters, each with its LaTeX and its dimension, as names of formulas.
+    pub fn declare_parameters(&self, symbols: &mut Symbols) {
+        for p in &self.parameters {
+            let dimension = Some(p.dimension.clone());
+            symbols.declare_as(p.name.clone(), p.latex.as_deref(), dimension);
+        }
     }
 
     /// The question of this name.

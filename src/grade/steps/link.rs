@@ -269,10 +269,8 @@ impl Desk<'_> {
             let (field, line, condition) = Field::pair(&domains, line, condition).ok()?;
             Some(field.expr(&field.div(&line, &condition).ok()?))
         };
-        let given = |name: &Symbol| {
-            let mut parameters = self.sheet.scene.parameters.iter();
-            parameters.any(|p| p.name == *name) && !self.is_found(name)
-        };
+        let given =
+            |name: &Symbol| self.sheet.scene.parameter(name).is_some() && !self.is_found(name);
         factor().is_some_and(|k| !k.is_zero() && k.symbols().iter().all(given))
     }
 

@@ -78,18 +78,9 @@ pub(super) fn accelerations(sheet: &Sheet, text: &str) -> Vec<Option<Expr>> {
         return vec![None];
     }
     let mut symbols = Symbols::open();
-    for p in &scene.parameters {
-        symbols.declare_as(
-            p.name.clone(),
-            p.latex.as_deref(),
-            Some(p.dimension.clone()),
-        );
-    }
+    scene.declare_parameters(&mut symbols);
     let rate = Dimension::new(0, 1, -2);
-    let of = |name: &str| {
-        let mut parameters = scene.parameters.iter();
-        Some(parameters.find(|p| *p.name == *name)?.dimension.clone())
-    };
+    let of = |name: &str| Some(scene.parameter(name)?.dimension.clone());
     let is_rate = |side: &Content| match side.expr().map(|e| dimension::of(e, &of)) {
         Some(Ok(Some(found))) => found == rate,
         _ => true,

@@ -175,10 +175,7 @@ impl<'a> Desk<'a> {
 
     pub(super) fn symbols(&self, printed: &Printed) -> Symbols {
         let mut symbols = Symbols::strict();
-        for p in &self.scene.parameters {
-            let dimension = Some(p.dimension.clone());
-            symbols.declare_as(p.name.clone(), p.latex.as_deref(), dimension);
-        }
+        self.scene.declare_parameters(&mut symbols);
         for name in self.closed.keys() {
             let latex = name.contains('^').then(|| formula::latex_name(name));
             let dimension = self.dimensions.get(name).cloned();
