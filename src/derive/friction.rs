@@ -5,18 +5,21 @@
 //! that holds on the whole domain is not listed, a mode with one that never holds is left out; which case given values pick
 //! is told by `verify`.
 
-use std::collections::BTreeSet;
+mod directions;
+mod space;
+mod thresholds;
 
 use super::Stop;
-use super::work::Work;
+use space::contact_space;
+use thresholds::{of_parameters, thresholds};
+
 use crate::algebra::{Field, Sign};
-use crate::expr::{Expr, Function, Node, Symbol, Vector, cross, dot, minus};
+use crate::expr::{Expr, Function, Node, Vector};
 use crate::formula::Relation;
-use crate::laws::Affine;
 use crate::laws::friction::{Closing, ModeLaw, Side, When, modes, side, stopping_ratio};
 use crate::scene::{
-    ALONE, Ask, Body, Condition, ContactLaw, ContactSpace, Decided, Friction, FrictionEvent,
-    Hypothesis, Mode, Question, Scene, beside_friction,
+    ALONE, Condition, ContactLaw, ContactSpace, Decided, Friction, Hypothesis, Mode, Question,
+    Scene, beside_friction,
 };
 
 /// Everything known of a contact with friction before values are given.
@@ -323,89 +326,6 @@ impl Forms {
         })
     }
 
-    /// Joins the cases of both directions where they are the same, and finds where the conditions say the direction.
-    fn without_directions(&mut self, table: &mut Table) -> Result<(), Stop> {
-        if table.side.of.is_zero() {
-            return Ok(());
-        }
-        let (along, mut against): (Vec<Case>, Vec<Case>) = std::mem::take(&mut table.cases)
-            .into_iter()
-            .partition(|case| case.direction != Direction::Asked(-1));
-        for mut one in along {
-            let like = |other: &Case| {
-                other.mode == one.mode && other.conditions.len() == one.conditions.len()
-            };
-            if one.direction == Direction::Asked(1)
-                && let Some(i) = against.iter().position(like)
-            {
-                match self.turned(&one, &against[i], &table.side)? {
-                    Some(Direction::Either) => {
-                        let other = against.remove(i);
-                        self.join(&mut one, other.conditions, table.contact)?;
-                    }
-                    Some(_) => {
-                        one.direction = Direction::Follows(1);
-                        against[i].direction = Direction::Follows(-1);
-                    }
-                    None => {}
-                }
-            }
-            table.cases.push(one);
-        }
-        table.cases.extend(against);
-        Ok(())
-    }
-
-    /// Compares a case with that of the other direction: whether they are the same, or the conditions of each say its
-    /// direction. Conditions of the two, one by one, must differ by a factor of known sign times what decides the direction.
-    fn turned(&mut self, one: &Case, other: &Case, side: &Side) -> Result<Option<Direction>, Stop> {
-        let (mut same, mut told) = (true, false);
-        for (a, b) in one.conditions.iter().zip(&other.conditions) {
-            let [[a], [b]] = [&a.when, &b.when].map(Vec::as_slice) else {
-                return Ok(None);
-            };
-            let gap = self.sign(&((&b.of - &a.of) / &side.of))?;
-            same &= gap.is_some_and(Sign::is_not_negative);
-            // Not both hold, and the one that does is on its own side.
-            told |= gap == Some(Sign::Negative)
-                && (self.sign(&(&a.of + &b.of))?)
-                    .is_some_and(|sum| impossible(sum, a.strict || b.strict));
-        }
-        for (p, q) in one.impulse.iter().zip(&other.impulse) {
-            same = same && self.tidy(&(p - q))?.is_zero();
-        }
-        Ok(match (same, told) {
-            (true, _) => Some(Direction::Either),
-            (false, true) => Some(one.direction),
-            (false, false) => None,
-        })
-    }
-
-    /// A case that holds either way, under its conditions for both: those of opposite right sides become one.
-    fn join(&mut self, one: &mut Case, others: Vec<Bound>, contact: usize) -> Result<(), Stop> {
-        one.direction = Direction::Either;
-        let mut joined = Vec::new();
-        for (mut bound, other) in std::mem::take(&mut one.conditions).into_iter().zip(others) {
-            let alike = bound.left == other.left && bound.relation == other.relation;
-            let is_lower = matches!(bound.relation, Relation::Greater | Relation::GreaterEqual);
-            let sum = self.tidy(&(&bound.right + &other.right))?;
-            if alike && is_lower && sum.is_zero() && !bound.right.is_zero() {
-                bound.when.extend(other.when);
-                bound.right = self.size(&bound.right)?;
-                joined.push(bound);
-            } else {
-                joined.extend([bound, other]);
-            }
-        }
-        one.conditions = joined;
-        let told = one.conditions.iter();
-        let told = told.map(|b| (b.left.clone(), b.relation, b.right.clone()));
-        if let ContactLaw::Decided(decided) = &mut one.scene.contacts[contact].law {
-            decided.when = told.collect();
-        }
-        Ok(())
-    }
-
     /// An expression of the same sign, as short as its factors allow.
     fn without_positive_factors(&mut self, e: &Expr) -> Result<Expr, Stop> {
         let Node::Product(factors) = e.node() else {
@@ -552,199 +472,5 @@ impl Forms {
                 half * (one + other + Expr::call(Function::Abs, gap))
             }
         })
-    }
-}
-
-/// The questions that need no answer of a case.
-fn of_parameters(scene: &Scene, asked: Vec<Question>) -> Vec<Question> {
-    let mut known: BTreeSet<Symbol> = scene.parameters.iter().map(|p| p.name.clone()).collect();
-    known.insert("pi".into());
-    let mut out = Vec::new();
-    for question in asked {
-        let formulas = question.ask.formulas();
-        if !formulas.is_empty() && formulas.iter().all(|e| e.symbols().is_subset(&known)) {
-            known.insert(question.name.as_str().into());
-            out.push(question);
-        }
-    }
-    out
-}
-
-/// The questions, with thresholds of friction as formulas.
-fn thresholds(scene: &Scene, table: &Table, forms: &mut Forms) -> Result<Vec<Question>, Stop> {
-    let mut out = scene.questions.clone();
-    for question in &mut out {
-        if let Ask::Friction { event, .. } = question.ask {
-            let formula = threshold(table, forms, event)?;
-            question.ask = Ask::Value {
-                formula,
-                with: Vec::new(),
-                meaning: String::from(match event {
-                    FrictionEvent::Sticks => "least coefficient of friction with which it sticks",
-                    FrictionEvent::Slides => "largest coefficient of friction with which it slides",
-                    FrictionEvent::Jams => "least coefficient of friction with which it jams",
-                }),
-            };
-        }
-    }
-    Ok(out)
-}
-
-/// The coefficient of friction from which, or up to which, something happens.
-fn threshold(table: &Table, forms: &mut Forms, event: FrictionEvent) -> Result<Expr, Stop> {
-    // A contact that would stick already in compression does so a fortiori by the end of restitution, and a law with a path
-    // asks no more friction of it; so the latest way to stick has the least coefficient.
-    use Mode::{InsideCone, OnCone, Slides, Sticks, SticksInCompression, SticksInRestitution};
-    const STICKING: &[Mode] = &[SticksInRestitution, SticksInCompression, Sticks, InsideCone];
-    let (what, modes) = match event {
-        FrictionEvent::Sticks => ("sticks", STICKING),
-        FrictionEvent::Slides => ("slides", &[Slides, OnCone] as &[Mode]),
-        FrictionEvent::Jams => ("jams", &[] as &[Mode]),
-    };
-    let none = || {
-        Stop::NoThreshold(format!(
-            "no coefficient of friction separates where the contact {what} on the whole domain\nhint: give values, or narrow the domain"
-        ))
-    };
-    if event == FrictionEvent::Jams {
-        return table.jamming.clone().ok_or_else(none);
-    }
-    let of_mode = |mode: &Mode| -> Vec<&Case> {
-        let all = table.cases.iter();
-        all.filter(|case| case.mode == *mode).collect()
-    };
-    let cases = modes.iter().map(of_mode).find(|cases| !cases.is_empty());
-    let upward = event == FrictionEvent::Sticks;
-    let mut bounds = Vec::new();
-    for case in cases.iter().flatten() {
-        let bound = bound(table, forms, case, upward)?;
-        bounds.push((case.direction, bound.ok_or_else(none)?));
-    }
-    match bounds.as_slice() {
-        [(Direction::Only(_) | Direction::Either, bound)] => Ok(bound.clone()),
-        // Either way the same, but for the sign that the direction of slip has.
-        [(_, one), (_, other)] if forms.tidy(&(one + other))?.is_zero() => forms.size(one),
-        _ => Err(none()),
-    }
-}
-
-/// The least coefficient of friction of a case, or the largest; `None` where it has none.
-fn bound(table: &Table, forms: &mut Forms, case: &Case, up: bool) -> Result<Option<Expr>, Stop> {
-    let mut bound: Option<Expr> = None;
-    for condition in &case.conditions {
-        if condition.left != table.law.mu {
-            return Ok(None);
-        }
-        // No condition is an equation.
-        if condition.relation.is_below() != up {
-            bound = Some(match bound {
-                None => condition.right.clone(),
-                Some(other) => forms.larger(&other, &condition.right)?,
-            });
-        }
-    }
-    Ok(bound)
-}
-
-/// What a contact feels of its bodies: a, b, c and the relative velocity before, along t and n.
-fn contact_space(
-    scene: &Scene,
-    contact: usize,
-    [t, n]: [&Vector; 2],
-) -> Result<ContactSpace, Stop> {
-    let bodies = scene.contacts[contact].bodies;
-    let before = scene.contacts[contact].relative_velocity(scene);
-    let is_free = scene.contacts.len() == 1 && is_free(scene, bodies);
-    let [a, b, c] = match is_free {
-        true => [(t, t), (t, n), (n, n)].map(|(d, e)| inverse_mass(scene, contact, d, e)),
-        false => eliminated(scene, contact, [t, n])?,
-    };
-    Ok(ContactSpace {
-        a,
-        b,
-        c,
-        tangential: dot(&before, t),
-        normal: dot(&before, n),
-    })
-}
-
-/// Whether both bodies answer the impulse by themselves.
-fn is_free(scene: &Scene, bodies: [usize; 2]) -> bool {
-    let hinged = |b: usize| scene.hinges.iter().any(|h| h.bodies.contains(&b));
-    let massive =
-        |b: &Body| b.is_fixed() || !b.mass.is_zero() && (b.is_particle() || !b.inertia.is_zero());
-    let answers = |&b: &usize| !hinged(b) && massive(&scene.bodies[b]);
-    bodies.iter().all(answers)
-}
-
-/// Σ d·e/m + (r × d)(r × e)/I over both bodies.
-fn inverse_mass(scene: &Scene, contact: usize, d: &Vector, e: &Vector) -> Expr {
-    let contact = &scene.contacts[contact];
-    let mut terms = Vec::new();
-    for body in contact.bodies.map(|b| &scene.bodies[b]) {
-        if body.is_fixed() {
-            continue;
-        }
-        terms.push(dot(d, e) / &body.mass);
-        if !body.is_particle() {
-            let r = minus(&contact.at, &body.center);
-            terms.push(cross(&r, d) * cross(&r, e) / &body.inertia);
-        }
-    }
-    Expr::sum(terms)
-}
-
-/// The same by exact elimination, for bodies with hinges: everything at rest, one unit of impulse along t, then along n.
-fn eliminated(scene: &Scene, contact: usize, [t, n]: [&Vector; 2]) -> Result<[Expr; 3], Stop> {
-    let mut probe = scene.clone();
-    for body in &mut probe.bodies {
-        body.velocity = [Expr::zero(), Expr::zero()];
-        body.spin = Expr::zero();
-    }
-    probe.questions.clear();
-    let mut found = Vec::with_capacity(3);
-    let Some((_, law)) = scene.friction() else {
-        return Err(Stop::Limit(String::from("a contact without friction")));
-    };
-    for (unit, seen) in [(t, vec![t, n]), (n, vec![n])] {
-        let outright = |axis: usize| {
-            let mut impulse = [Expr::zero(), Expr::zero()];
-            impulse[axis] = Expr::one();
-            Condition {
-                impulse,
-                velocity: [Expr::zero(), Expr::zero()],
-                right: unit[axis].clone(),
-                words: "one unit of impulse",
-            }
-        };
-        probe.contacts[contact].law = ContactLaw::Decided(Box::new(Decided {
-            law: law.clone(),
-            mode: Mode::GivenRatio,
-            when: Vec::new(),
-            conditions: [outright(0), outright(1)],
-        }));
-        let mut work = Work::new(&probe)?;
-        let at = &probe.contacts[contact].at;
-        let [one, two] = probe.contacts[contact]
-            .bodies
-            .map(|b| work.reduced.velocity_of(&work.g, b, at));
-        for along in seen {
-            let relative = [0, 1].map(|axis| two[axis].minus(&one[axis]).times(&along[axis]));
-            let form = relative[0].plus(&relative[1]);
-            found.push(value(&mut work, &form)?);
-        }
-    }
-    let [a, b, c] = [0, 1, 2].map(|i| found[i].clone());
-    Ok([a, b, c])
-}
-
-fn value(work: &mut Work<'_>, form: &Affine<Expr>) -> Result<Expr, Stop> {
-    let needed = work.unknowns_in(form)?;
-    work.determine(&needed, None)?;
-    match work.element_of(form)? {
-        Some(value) => Ok(work.field.expr(&value)),
-        None => Err(Stop::Limit(String::from(
-            "how the contact yields, which its joints leave open",
-        ))),
     }
 }

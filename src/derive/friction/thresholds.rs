@@ -1,0 +1,103 @@
+//! The coefficient of friction from which, or up to which, something happens, out of the table of cases.
+
+use std::collections::BTreeSet;
+
+use super::super::Stop;
+use super::{Case, Direction, Forms, Table};
+use crate::expr::{Expr, Symbol};
+use crate::scene::{Ask, FrictionEvent, Mode, Question, Scene};
+
+/// The questions that need no answer of a case.
+pub(super) fn of_parameters(scene: &Scene, asked: Vec<Question>) -> Vec<Question> {
+    let mut known: BTreeSet<Symbol> = scene.parameters.iter().map(|p| p.name.clone()).collect();
+    known.insert("pi".into());
+    let mut out = Vec::new();
+    for question in asked {
+        let formulas = question.ask.formulas();
+        if !formulas.is_empty() && formulas.iter().all(|e| e.symbols().is_subset(&known)) {
+            known.insert(question.name.as_str().into());
+            out.push(question);
+        }
+    }
+    out
+}
+
+/// The questions, with thresholds of friction as formulas.
+pub(super) fn thresholds(
+    scene: &Scene,
+    table: &Table,
+    forms: &mut Forms,
+) -> Result<Vec<Question>, Stop> {
+    let mut out = scene.questions.clone();
+    for question in &mut out {
+        if let Ask::Friction { event, .. } = question.ask {
+            let formula = threshold(table, forms, event)?;
+            question.ask = Ask::Value {
+                formula,
+                with: Vec::new(),
+                meaning: String::from(match event {
+                    FrictionEvent::Sticks => "least coefficient of friction with which it sticks",
+                    FrictionEvent::Slides => "largest coefficient of friction with which it slides",
+                    FrictionEvent::Jams => "least coefficient of friction with which it jams",
+                }),
+            };
+        }
+    }
+    Ok(out)
+}
+
+/// The coefficient of friction from which, or up to which, something happens.
+fn threshold(table: &Table, forms: &mut Forms, event: FrictionEvent) -> Result<Expr, Stop> {
+    // A contact that would stick already in compression does so a fortiori by the end of restitution, and a law with a path
+    // asks no more friction of it; so the latest way to stick has the least coefficient.
+    use Mode::{InsideCone, OnCone, Slides, Sticks, SticksInCompression, SticksInRestitution};
+    const STICKING: &[Mode] = &[SticksInRestitution, SticksInCompression, Sticks, InsideCone];
+    let (what, modes) = match event {
+        FrictionEvent::Sticks => ("sticks", STICKING),
+        FrictionEvent::Slides => ("slides", &[Slides, OnCone] as &[Mode]),
+        FrictionEvent::Jams => ("jams", &[] as &[Mode]),
+    };
+    let none = || {
+        Stop::NoThreshold(format!(
+            "no coefficient of friction separates where the contact {what} on the whole domain\nhint: give values, or narrow the domain"
+        ))
+    };
+    if event == FrictionEvent::Jams {
+        return table.jamming.clone().ok_or_else(none);
+    }
+    let of_mode = |mode: &Mode| -> Vec<&Case> {
+        let all = table.cases.iter();
+        all.filter(|case| case.mode == *mode).collect()
+    };
+    let cases = modes.iter().map(of_mode).find(|cases| !cases.is_empty());
+    let upward = event == FrictionEvent::Sticks;
+    let mut bounds = Vec::new();
+    for case in cases.iter().flatten() {
+        let bound = bound(table, forms, case, upward)?;
+        bounds.push((case.direction, bound.ok_or_else(none)?));
+    }
+    match bounds.as_slice() {
+        [(Direction::Only(_) | Direction::Either, bound)] => Ok(bound.clone()),
+        // Either way the same, but for the sign that the direction of slip has.
+        [(_, one), (_, other)] if forms.tidy(&(one + other))?.is_zero() => forms.size(one),
+        _ => Err(none()),
+    }
+}
+
+/// The least coefficient of friction of a case, or the largest; `None` where it has none.
+fn bound(table: &Table, forms: &mut Forms, case: &Case, up: bool) -> Result<Option<Expr>, Stop> {
+    let mut bound: Option<Expr> = None;
+    for condition in &case.conditions {
+        if condition.left != table.law.mu {
+            return Ok(None);
+        }
+        // No condition is an equation.
+        if condition.relation.is_below() != up {
+            bound = Some(match bound {
+                None => condition.right.clone(),
+                Some(other) => forms.larger(&other, &condition.right)?,
+            });
+        }
+    }
+    Ok(bound)
+}
