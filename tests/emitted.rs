@@ -8,7 +8,6 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-use carom::derive;
 use carom::dimension::Dimension;
 use carom::domain::Limit;
 use carom::emit::{Function, Heading, Language, Style, file, functions};
@@ -18,11 +17,14 @@ use carom::formula::{Symbols, read_expr};
 use carom::interval::{Big, Enclosure, Outcome, evaluate};
 use carom::numeric::{Correct, correct};
 use carom::scene::{self, Scene};
+use carom::worked;
 
 /// A scene with its functions, and for each function some arguments.
 struct Case {
     name: String,
     scene: Scene,
+    /// Whether it is one impact, without stages.
+    lone: bool,
     functions: Vec<Function>,
     arguments: Vec<Vec<Vec<f64>>>,
     /// How many points of each function do not cancel.
@@ -38,8 +40,15 @@ fn cases() -> &'static [Case] {
     CASES.get_or_init(read_cases)
 }
 
+const FOLDERS: [&str; 4] = [
+    "derivations/book",
+    "derivations/more",
+    "derivations/problems",
+    "tests/stories/scenes",
+];
+
 fn read_cases() -> Vec<Case> {
-    let mut files: Vec<PathBuf> = ["derivations/book", "derivations/more"]
+    let mut files: Vec<PathBuf> = FOLDERS
         .iter()
         .flat_map(|folder| fs::read_dir(folder).expect("a folder"))
         .map(|entry| entry.expect("an entry").path())
@@ -49,7 +58,14 @@ fn read_cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for path in files {
         let scene = scene::read(&fs::read_to_string(&path).expect("a file")).expect("a scene");
-        let derivation = derive::derive(&scene).expect("closed forms");
+        let lone = !scene.has_stages();
+        // What contradicts itself, and what friction leaves in cases, has no code.
+        let Ok(worked) = worked::out(&scene) else {
+            continue;
+        };
+        let Ok((scene, derivation)) = worked.sheet() else {
+            continue;
+        };
         let (functions, _) = functions(&scene, &derivation);
         let mut dice = Dice(17);
         let mut plain = Vec::new();
@@ -63,22 +79,27 @@ fn read_cases() -> Vec<Case> {
                     .take(USUAL)
                     .collect();
                 assert_eq!(points.len(), USUAL, "{}", f.formula);
-                let cancelling = nearly_cancelling(&points, f);
-                let far: Vec<Vec<f64>> = points.iter().filter_map(|x| dice.far(f, x)).collect();
+                // The formula of a stage may have poles and roots that come together: ordinary points only.
+                let cancelling = if lone {
+                    nearly_cancelling(&points, f)
+                } else {
+                    Vec::new()
+                };
+                let far = points.iter().filter_map(|x| dice.far(f, x));
+                let far: Vec<Vec<f64>> = if lone { far.collect() } else { Vec::new() };
                 points.extend(far);
                 plain.push(points.len());
                 points.extend(cancelling);
                 points
             })
             .collect();
-        let name = path
-            .file_stem()
-            .expect("a name")
-            .to_string_lossy()
-            .replace('-', "_");
+        let parts = path.with_extension("");
+        let parts = parts.iter().map(|part| part.to_string_lossy());
+        let name = parts.collect::<Vec<_>>().join("_").replace('-', "_");
         cases.push(Case {
             name,
             scene,
+            lone,
             functions,
             arguments,
             plain,
@@ -277,7 +298,17 @@ fn hold(cases: &[Case], language: &str, output: &str) {
             for (i, x) in points.iter().enumerate() {
                 let value = values.next().expect("a value for every call");
                 let truth = truth(f, x).expect("a value");
-                let bound = f.bound.expect("no scene has a function without a bound");
+                // Through an arc or a logarithm no bound is stated: an ordinary point is right to six digits.
+                let Some(bound) = f.bound else {
+                    let near = (value - truth).abs() <= 1e-6 * truth.abs();
+                    assert!(
+                        near || i >= *plain,
+                        "{language}, {} {} at {x:?}: {value:e}, not {truth:e}",
+                        case.name,
+                        f.name
+                    );
+                    continue;
+                };
                 // What cancels to neighbouring doubles cancels by 2⁵³, times the number of terms.
                 let cancels = if i < *plain { 1e4 } else { 2f64.powi(56) };
                 cancelled += usize::from(i >= *plain);
@@ -363,6 +394,12 @@ fn rust_compiles_without_remarks_and_keeps_its_bound() {
 
 /// What emitted code asks of the crate `libm`, by the standard library.
 const LIBM: &str = "pub fn sqrt(x: f64) -> f64 { x.sqrt() }
+pub fn log(x: f64) -> f64 { x.ln() }
+pub fn exp(x: f64) -> f64 { x.exp() }
+pub fn tan(x: f64) -> f64 { x.tan() }
+pub fn asin(x: f64) -> f64 { x.asin() }
+pub fn acos(x: f64) -> f64 { x.acos() }
+pub fn atan(x: f64) -> f64 { x.atan() }
 pub fn sin(x: f64) -> f64 { x.sin() }
 pub fn cos(x: f64) -> f64 { x.cos() }
 pub fn round(x: f64) -> f64 { x.round() }
@@ -514,7 +551,8 @@ fn the_formula_in_the_comment_is_what_the_independent_solver_finds() {
     let mut compared = 0;
     for case in cases() {
         // No double but 0 and 1 is part of a unit vector, so those scenes have no such point.
-        if !case.scene.domains.unit_vectors.is_empty() {
+        // The solver of one impact knows no stages: they are followed elsewhere.
+        if !case.scene.domains.unit_vectors.is_empty() || !case.lone {
             continue;
         }
         for (f, points) in case.functions.iter().zip(&case.arguments) {
@@ -543,11 +581,9 @@ fn the_formula_in_the_comment_is_what_the_independent_solver_finds() {
                         .map(move |(i, c)| (name(i), c.clone()))
                         .collect::<Vec<_>>()
                 });
-                let (_, solved) = numbers
-                    .into_iter()
-                    .find(|(name, _)| *name == f.name)
-                    .expect("the same names");
-                if let Correct::Rounded(v, _) = solved {
+                // What is asked about an answer, such as a threshold, the solver does not find.
+                let solved = numbers.into_iter().find(|(name, _)| *name == f.name);
+                if let Some((_, Correct::Rounded(v, _))) = solved {
                     compared += 1;
                     assert!(
                         (v - truth).abs() <= 2f64.powi(-52) * truth.abs(),
@@ -630,7 +666,7 @@ fn one_struct_in_and_one_out_gives_what_the_functions_give() {
     let picked = || {
         let all = cases()
             .iter()
-            .filter(|c| c.functions.iter().any(|f| !f.arguments.is_empty()));
+            .filter(|c| c.lone && c.functions.iter().any(|f| !f.arguments.is_empty()));
         all.step_by(5)
     };
     for case in picked().filter(|_| is_there("rustc")) {

@@ -51,6 +51,20 @@ fn angle_call(e: &Expr) -> Option<(Function, &Expr)> {
     }
 }
 
+/// acos(1 − u) as 2 asin √(u/2), which keeps its digits where u is small and 1 − u has lost them.
+fn half_angle(e: &Expr) -> Option<Expr> {
+    let Node::Call(Function::Acos, cosine) = e.node() else {
+        return None;
+    };
+    let Node::Sum(terms) = cosine.node() else {
+        return None;
+    };
+    let rest: Vec<Expr> = terms.iter().filter(|t| !t.is_one()).map(|t| -t).collect();
+    let half = Expr::ratio(1, 2) * Expr::sum(rest.iter().cloned());
+    let is_one_less = rest.len() < terms.len();
+    is_one_less.then(|| Expr::from(2) * Expr::call(Function::Asin, half.sqrt()))
+}
+
 /// Whether every value is ≥ 0 (`Some(true)`), every value ≤ 0 (`Some(false)`), or neither is known.
 pub type Signs = BTreeMap<Symbol, bool>;
 
@@ -158,6 +172,9 @@ impl<'a> Builder<'a> {
     fn value(&mut self, e: &Expr, wide: bool) -> Option<usize> {
         if let Some(known) = self.known[usize::from(wide)].get(e) {
             return Some(*known);
+        }
+        if let Some(same) = half_angle(e) {
+            return self.value(&same, wide);
         }
         let rounded = |v: Dd| if wide { v } else { Dd::exact(v.high) };
         let step = match e.node() {

@@ -315,8 +315,17 @@ impl<'a> Writer<'a> {
 
     fn library(&self, name: &str, argument: &str, holds: Holds) -> String {
         match holds == Holds::Atom || self.language != Language::Rust {
-            true => self.dialect().library(name, argument),
+            true => self.dialect().library(name, &self.receiver(argument)),
             false => self.dialect().library(name, &format!("({argument})")),
+        }
+    }
+
+    /// What stands before the name of a method of Rust, where a bare number has no type yet.
+    fn receiver(&self, atom: &str) -> String {
+        let bare = atom.starts_with(|c: char| c.is_ascii_digit()) && atom.parse::<f64>().is_ok();
+        match bare && self.language == Language::Rust {
+            true => format!("{atom}_f64"),
+            false => atom.to_string(),
         }
     }
 
@@ -421,7 +430,7 @@ impl<'a> Writer<'a> {
             Op::Power(a, b) => {
                 // A method stands behind a bracket, and so does an operator; what a call takes needs none.
                 let [base, exponent] = match self.language {
-                    Language::Rust => [right(a), text(b).to_string()],
+                    Language::Rust => [self.receiver(&right(a)), text(b).to_string()],
                     Language::C | Language::NoStd => [a, b].map(|i| text(i).to_string()),
                     Language::Python | Language::NumPy => [right(a), right(b)],
                 };
