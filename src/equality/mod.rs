@@ -528,11 +528,27 @@ impl Search<'_> {
         }
     }
 
+    /// A point where a sign fails that a proof would take for granted, of formulas that differ for certain.
+    fn where_a_proof_would_fail(&mut self) -> Option<Counterexample> {
+        if !self.apart {
+            return None;
+        }
+        let Proof::Equal(assumptions, _) = proof::compare(self.a, self.b, self.domains) else {
+            return None;
+        };
+        let near = samples(self.roles, self.domains, FIRST + 2);
+        let tested = critical::tested(&assumptions, &near, self.domains, self.roles);
+        self.probe.points(&tested.err()?, &mut self.tally)
+    }
+
     /// More points and more digits, where no proof was found.
     fn after_proof(&mut self, proof: Proof) -> Equality {
         // Of formulas that differ for certain it is worth looking longer for a point that can be shown.
         let patience = if self.apart { PATIENCE } else { 1 };
         if let Some(found) = self.extend(patience * self.size.points()) {
+            return self.different(found);
+        }
+        if let Some(found) = self.where_a_proof_would_fail() {
             return self.different(found);
         }
         if let Proof::Unequal { folded, .. } = &proof

@@ -115,7 +115,8 @@ fn logarithms(n: &Normal, domains: &Domains) -> Option<Undone> {
     }
     let below = logs.iter().fold(Int::one(), |l, (k, _)| l.lcm(k.denom()));
     let above = logs.iter().fold(Int::zero(), |g, (k, _)| g.gcd(k.numer()));
-    if logs.is_empty() {
+    // Without logarithms, and where each has the factor 0, there is nothing to undo.
+    if above.is_zero() {
         return None;
     }
     let scale = Rational::new(below, above);
