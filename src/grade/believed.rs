@@ -12,8 +12,8 @@ use std::collections::BTreeMap;
 
 use super::Diagnosis;
 use super::belief::{BELIEFS, Belief, Slip};
-use crate::algebra::tidy;
-use crate::expr::{Expr, Point, Rational, Symbol};
+use crate::equality::identical;
+use crate::expr::{Expr, Point, Rational, Symbol, effort};
 use crate::numeric;
 use crate::scene::{Ask, Scene};
 use others::other_quantities;
@@ -23,6 +23,8 @@ pub use story::Story;
 
 /// Points at which every belief is tried.
 const POINTS: u64 = 4;
+/// Steps within which a belief is solved with symbols, or two wrong answers are told to be one.
+const MOST_STEPS: u64 = 500_000;
 /// Pairs of beliefs are searched while there are no more of them than this.
 const PAIRS: usize = 6_000;
 /// Beliefs and quantities named at most.
@@ -117,7 +119,8 @@ pub fn answers(asked: &Written) -> Vec<Believed> {
     let mut out = Vec::new();
     for belief in BELIEFS {
         for slip in (belief.slips)(asked.scene) {
-            let Some(values) = formula::formulas(asked, &slip) else {
+            let solved = || formula::formulas(asked, &slip).filter(|_| !effort::spent());
+            let Some(values) = effort::within(MOST_STEPS, solved) else {
                 continue;
             };
             let is_known = |other: &Vec<Expr>| {
@@ -137,9 +140,9 @@ pub fn answers(asked: &Written) -> Vec<Believed> {
     out
 }
 
-/// Whether two closed forms are one function, as far as the normal form tells.
+/// Whether two closed forms are proved to be one function.
 fn is_same(asked: &Written, a: &Expr, b: &Expr) -> bool {
-    tidy(&(a - b), &asked.scene.domains).is_ok_and(|gap| gap.is_zero())
+    effort::within(MOST_STEPS, || identical(a, b, &asked.scene.domains))
 }
 
 /// The beliefs that give exactly the written answer, single ones before pairs where these are evidence.

@@ -95,9 +95,10 @@ pub(in crate::grade) fn formulas(written: &Written, slip: &Slip) -> Option<Vec<E
         }
         _ => outcome::outcome(written, slip, &point, |s| solved(s, domains))?,
     };
-    let tidy = |value: Symbolic| {
-        let value = algebra::tidy(&value.0, domains).ok();
-        value.filter(|e| e.size() <= LARGEST)
+    let tidy = |Symbolic(value): Symbolic| {
+        let may_be_short = value.size() <= 4 * LARGEST;
+        let value = may_be_short.then(|| algebra::tidy(&value, domains));
+        value?.ok().filter(|e| e.size() <= LARGEST)
     };
     let values: Vec<Expr> = values.into_iter().map(tidy).collect::<Option<_>>()?;
     meets_doubles(written, slip, &values).then_some(values)
@@ -125,7 +126,7 @@ fn solved(system: &System<Symbolic>, domains: &Domains) -> Option<Solution<Symbo
         return None;
     }
     let unique: Vec<bool> = found.values.iter().map(Option::is_some).collect();
-    let value = |v: &Option<_>| v.as_ref().map_or_else(Expr::zero, |v| field.expr(v));
+    let value = |v: &Option<_>| v.as_ref().map_or_else(Expr::zero, |v| field.stored(v));
     Some(Solution {
         values: found.values.iter().map(|v| Symbolic(value(v))).collect(),
         unique,
