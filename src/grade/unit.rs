@@ -72,8 +72,20 @@ pub(super) fn of_relations(key: &Key, reading: &Reading, finding: &mut Finding) 
     if finding.verdict != Verdict::Equivalent || known.is_empty() {
         return;
     }
+    // Expected relations that mix dimensions themselves demand no unit.
+    let clash =
+        clash(&reading.content, &known).filter(|_| clash(&key.reading.content, &known).is_none());
+    let Some(parts) = clash else { return };
+    *finding = match parts.iter().position(Dimension::is_none) {
+        Some(bare) => missing(&parts[1 - bare].si()),
+        None => wrong(&parts[0], &parts[1], &parts[1].si(), false),
+    };
+}
+
+/// Two dimensions that relations set against each other, `known` being those of names.
+fn clash(content: &Content, known: &BTreeMap<String, Dimension>) -> Option<[Dimension; 2]> {
     let mut clash = None;
-    each_chain(&reading.content, &mut |sides| {
+    each_chain(content, &mut |sides| {
         let dimension = |side: &Content| match side {
             Content::Quantity(q) => Some(q.unit.dimension.clone()),
             other => dimension::of(other.expr()?, &|name| known.get(name).cloned()).ok()?,
@@ -96,11 +108,7 @@ pub(super) fn of_relations(key: &Key, reading: &Reading, finding: &mut Finding) 
             .or(apart)
             .or_else(|| sides.iter().find_map(sum));
     });
-    let Some(parts) = clash else { return };
-    *finding = match parts.iter().position(Dimension::is_none) {
-        Some(bare) => missing(&parts[1 - bare].si()),
-        None => wrong(&parts[0], &parts[1], &parts[1].si(), false),
-    };
+    clash
 }
 
 /// The sides of every chain of relations in a content.
