@@ -145,7 +145,7 @@ impl Desk<'_> {
     }
 
     /// Whether what a line says of one value of a parameter is so: `For θ = 0: ω = 3v/(2l)`. Nothing later hangs on it.
-    pub(super) fn in_case(&self, text: &str) -> Option<Status> {
+    pub(super) fn in_case(&mut self, text: &str) -> Option<Status> {
         let (given, behind) = supposition(text)?;
         let [read, then] = [given, behind].map(|part| formula::read(part, &self.symbols(part)));
         let (Content::Relations(sides, signs), then) = (read.ok()?.content, then.ok()?) else {
@@ -156,7 +156,15 @@ impl Desk<'_> {
         };
         let (name, value) = (name.expr()?.as_symbol()?, value.expr()?);
         let is_parameter = self.sheet.scene.parameters.iter().any(|p| p.name == *name);
-        if !is_parameter || value.symbols().contains(name) {
+        if !is_parameter {
+            // `s = d when u = √(2 μ g d)`: what is supposed, and what follows from it.
+            let (links, given) = (self.links(&then)?, self.link(&sides[0], &sides[1])?);
+            let mut all = self.sought.iter();
+            let found = all.position(|s| self.states(&links, s) && self.holds_where(&given, s))?;
+            self.supposed.push(found);
+            return Some(Status::Holds);
+        }
+        if value.symbols().contains(name) {
             return None;
         }
         let there = BTreeMap::from([(name.clone(), value.clone())]);
@@ -230,23 +238,16 @@ impl Desk<'_> {
     /// Whether a line states what is supposed of a parameter that is sought, as the scene does or, where it would be a slip
     /// otherwise, in other words: it is supposed from here on.
     pub(super) fn is_condition(&mut self, links: &[Link], weighed: &Weighed) -> bool {
-        let [link] = links else { return false };
-        let [one] = link.differences.as_slice() else {
-            return false;
-        };
-        let one = self.with_own(one);
-        let mut all = self.sought.iter();
-        let is = |s: &Sought| {
-            s.condition
-                .as_ref()
-                .is_some_and(|c| self.is_multiple(&one, c))
-        };
-        let stated = all.position(is);
+        let stated = self.sought.iter().position(|s| self.states(links, s));
         // ½ m u² = μ m g d for s = d; ½ M u² = M g h where a body gets as high as h, in a solution that goes on to v = ….
         let found = stated.or_else(|| {
-            if !matches!(weighed, Weighed::Slip(_)) {
+            let ([link], Weighed::Slip(_)) = (links, weighed) else {
                 return None;
-            }
+            };
+            let [one] = link.differences.as_slice() else {
+                return None;
+            };
+            let one = self.with_own(one);
             let in_words = |s: &Sought| {
                 self.brings_in(&one, s)
                     || self.is_balance(link, &one, s)
@@ -257,6 +258,23 @@ impl Desk<'_> {
         });
         self.supposed.extend(found);
         found.is_some()
+    }
+
+    /// Whether a line states the condition of a parameter that is sought; a chain `s = u²/(2 μ g) = d` does so between its
+    /// ends, where the rest holds with it.
+    fn states(&self, links: &[Link], sought: &Sought) -> bool {
+        let is = |link: &Link| match (&sought.condition, link.differences.as_slice()) {
+            (Some(c), [one]) => self.is_multiple(&self.with_own(one), c),
+            _ => false,
+        };
+        let ends = match links {
+            [first, .., last] => self.link(&first.sides[0], &last.sides[1]),
+            _ => None,
+        };
+        let none = BTreeMap::new();
+        let holds = |link: &Link| self.all_zero(&link.differences, &none) == Some(true);
+        let fits = |link: &Link| is(link) || holds(link) || self.holds_where(link, sought);
+        links.iter().chain(&ends).any(is) && links.iter().all(fits)
     }
 
     /// Whether a line is a condition, multiplied by given quantities at most: m w²/L = m g where w² = g L is asked about.
@@ -388,9 +406,21 @@ impl Desk<'_> {
             }
         };
         let entry: Entry = self.sheet.entry(&question).ok()?;
+        let told = self.of_value(reading);
+        if let Some(Content::Relations(told, _)) = told.as_ref().map(|told| &told.content)
+            && told.len() == 1
+        {
+            return Some((
+                self.note(number, reading, &links, &Weighed::Holds),
+                Vec::new(),
+            ));
+        }
         // `μ ≥ P_t/P_n = …` says what its first link says where the others hold.
-        let first = self.first_link(reading);
+        let first = told.or_else(|| self.first_link(reading));
         let reading = first.as_ref().unwrap_or(reading);
+        let Content::Relations(sides, _) = &reading.content else {
+            return None;
+        };
         let grade = match self.in_given(reading) {
             Some(text) => self.sheet.judge(&entry, &text, options),
             None if first.is_some() => {
@@ -414,6 +444,27 @@ impl Desk<'_> {
         self.finals
             .insert(question, Final::new(number, text, grade.verdict));
         Some((status, grade.diagnosis))
+    }
+
+    /// A chain about a parameter without the sides that are the parameter whatever its value, such as `(m+M)/m u` in
+    /// `v = (m+M)/m u = …`; nothing where it has none.
+    fn of_value(&self, reading: &Reading) -> Option<Reading> {
+        let Content::Relations(sides, signs) = &reading.content else {
+            return None;
+        };
+        let (name, values) = sides.split_first()?;
+        let answered = self.closed.contains_key(name.expr()?.as_symbol()?);
+        let says = |side: &&Content| {
+            let link = self.link(name, side);
+            link.is_none_or(|link| self.all_zero(&link.differences, &BTreeMap::new()) != Some(true))
+        };
+        let told: Vec<Content> = values.iter().filter(says).cloned().collect();
+        if answered || told.len() == values.len() || !signs.iter().all(|s| equal(*s)) {
+            return None;
+        }
+        let told: Vec<Content> = [name.clone()].into_iter().chain(told).collect();
+        let signs = signs[..told.len() - 1].to_vec();
+        Some(reading.with(Content::Relations(told, signs)))
     }
 
     /// The bound of a chain that goes on with equalities, where all of these hold, and what is known put in.

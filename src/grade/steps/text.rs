@@ -141,7 +141,14 @@ fn is_letters(word: &str) -> bool {
 pub(super) fn supposition(text: &str) -> Option<(&str, &str)> {
     let lead = text.split(' ').next()?;
     let supposes = ["for", "if", "when", "setting", "at"].contains(&&*lead.to_ascii_lowercase());
-    let rest = text.get(lead.len()..).filter(|_| supposes)?;
+    if !supposes {
+        let words = [" for ", " if ", " when "].into_iter();
+        let (said, given) = words.filter_map(|word| text.split_once(word)).next()?;
+        let both = relates(said) && relates(given);
+        let given = given.trim_end_matches('.').trim_matches([' ', '$']);
+        return both.then(|| (given, equation(said)));
+    }
+    let rest = text.get(lead.len()..)?;
     let ends = [": ", ", ", " gives ", " then ", " we get ", " we find "];
     let (at, end) = ends
         .iter()
