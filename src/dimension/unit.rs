@@ -149,7 +149,7 @@ impl<'a> Reader<'a> {
             let word = &self.text[start..self.at];
             let power = self.exponent(several)?;
             // Nobody squares litres: `mL^2` is a mass and the square of a length.
-            if power.abs() > 1 && matches!(word, "L" | "l" | "mL" | "ml") {
+            if power.abs() > 1 && matches!(word, "L" | "l" | "mL" | "ml" | "cc" | "ccm") {
                 let message = format!("the square of `{word}` is no unit");
                 return fault(message, start, self.at);
             }
@@ -413,7 +413,7 @@ bar; 1 -1 -2; 100000
 atm; 1 -1 -2; 101325
 psi; 1 -1 -2; 0.45359237 9.80665 / 0.0254 0.0254
 L l liter liters litre litres; 0 3 0; 0.001
-mL ml; 0 3 0; 0.000001
+mL ml cc ccm; 0 3 0; 0.000001
 mi mile miles; 0 1 0; 1609.344
 yd yard yards; 0 1 0; 0.9144
 in inch inches; 0 1 0; 0.0254

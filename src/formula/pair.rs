@@ -20,6 +20,8 @@ pub(crate) enum Pair {
     Greater,
     /// `min(a, b)`
     Smaller,
+    /// `pow(x, n)`, as programs write a power.
+    Power,
 }
 
 impl Pair {
@@ -31,6 +33,7 @@ impl Pair {
             "hypot" => Pair::Length,
             "max" => Pair::Greater,
             "min" => Pair::Smaller,
+            "pow" => Pair::Power,
             _ => return None,
         })
     }
@@ -42,6 +45,7 @@ impl Pair {
             Pair::Length => "hypot",
             Pair::Greater => "max",
             Pair::Smaller => "min",
+            Pair::Power => "pow",
         }
     }
 }
@@ -61,6 +65,7 @@ impl Parser<'_> {
         let found = match function {
             Pair::Root => one.inside(|x| Shape::Root(Some(Box::new(other)), x)),
             Pair::Length => length(&one, &other),
+            Pair::Power => bracket(&one).power(bracket(&other)),
             Pair::Angle => {
                 let below = length(&one, &other).plus(Sign::Plus, bracket(&other));
                 let half = bracket(&one).over(below).call(Function::Atan);

@@ -15,7 +15,7 @@
 //! fraction  = "½" … | "\frac" argument argument
 //! root      = "√" value | "\sqrt" [ "[" sum "]" ] argument | pair
 //! det       = "det" value | bars                               of a matrix, as bars around one
-//! pair      = ( "root" | "atan2" | "hypot" | "max" | "min" ) "(" sum "," sum ")"
+//! pair      = ( "root" | "atan2" | "hypot" | "max" | "min" | "pow" ) "(" sum "," sum ")"
 //! call      = function [ "^" exponent ] ( bracket | group )      how far the group reaches: calls.rs
 //! bars      = "|" sum "|"
 //! bracket   = "(" sum { "," sum } ")" | "[" … "]" | "⟨" … "⟩" | "{" sum [ "\over" sum ] "}"

@@ -224,6 +224,11 @@ fn gaps(text: &str, set: bool) -> Vec<(usize, usize)> {
     let semicolons = text.contains(';');
     let begins = |c: char| c.is_alphabetic() || " \\-−±".contains(c);
     while let Some(c) = text[at..].chars().next() {
+        // A space of LaTeX, and no semicolon.
+        if text[at..].starts_with("\\;") {
+            at += 2;
+            continue;
+        }
         let word = WORDS.split('|').find(|word| text[at..].starts_with(word));
         let length = match (word, c) {
             (Some(word), _) if depth == 0 => word.len(),
