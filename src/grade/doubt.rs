@@ -108,6 +108,29 @@ pub(super) fn euler(
     finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
 }
 
+/// `e^(i theta)` with an i that the question does not know: what sets the two apart is told of a symbol, and is no belief
+/// where the imaginary unit was meant.
+pub(super) fn imaginary(key: &Key, reading: &Reading, finding: &mut compare::Finding) {
+    let is_exponent = |k: &Expr| !is_count(k) && (k.mentions("i") || k.mentions("j"));
+    let mut found = false;
+    let mut note = |part: &Expr| match part.node() {
+        Node::Power(base, k) => {
+            found |= base.as_symbol().is_some_and(|s| &**s == "e") && is_exponent(k);
+        }
+        Node::Call(Function::Exp, k) => found |= is_exponent(k),
+        _ => {}
+    };
+    for content in [&key.reading.content, &reading.content] {
+        content.each(&mut |e| e.parts().for_each(&mut note));
+    }
+    if finding.verdict == Verdict::Different && found && !key.declares_i {
+        let words = "i or j in an exponent is read as a symbol; complex numbers are not compared";
+        let hint = "write cosines and sines, or declare i and j where they are quantities";
+        finding.note = "DIFF";
+        finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
+    }
+}
+
 /// Nothing is decided, for a text has two meanings.
 fn undecide(finding: &mut compare::Finding, words: &str) {
     finding.verdict = Verdict::Undecided;

@@ -117,6 +117,8 @@ pub struct Key {
     pub(crate) direction: Option<[i32; 3]>,
     /// Whether the question says itself what e is.
     pub(crate) declares_e: bool,
+    /// Whether the question knows a symbol i or j, which is then no imaginary unit.
+    pub(crate) declares_i: bool,
     /// How the formula was read, where slashes could reach further or less far.
     pub(crate) told: Option<String>,
     /// The same as a fault, for those who want brackets.
@@ -212,7 +214,8 @@ pub fn key_of(content: Content, question: &Question) -> Key {
 }
 
 fn from_reading(mut reading: Reading, question: &Question) -> Key {
-    let declares_e = question.symbols.iter().any(|g| &*g.name == "e");
+    let declares = |name| question.symbols.iter().any(|g| &*g.name == name);
+    let [declares_e, declares_i] = [declares("e"), declares("i") || declares("j")];
     let mut question = question.clone();
     let mut names = reading.symbols();
     let components = names.iter().filter(|name| formula::is_component(name));
@@ -252,6 +255,7 @@ fn from_reading(mut reading: Reading, question: &Question) -> Key {
         range: None,
         direction: None,
         declares_e,
+        declares_i,
         told: None,
         unclear: None,
     }
@@ -381,6 +385,7 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         && (reading.choices > u32::from(reading.slashes)
             || doubt::power_of_function(&reading.content).is_some());
     doubt::euler(key, &reading, options, &mut finding);
+    doubt::imaginary(key, &reading, &mut finding);
     if open_to_doubt {
         doubt::ambiguity(key, answer, options, &reading, &mut finding);
     }
