@@ -200,7 +200,7 @@ fn sides(
     let value = &root.value;
     let domain = domains.symbols.get(parameter).cloned();
     let domain = domain.unwrap_or_else(Domain::positive);
-    let [below, above] = match slope(gap, parameter, domains) {
+    let [below, above] = match slope(&essential(gap, domains), parameter, domains) {
         Some(slope) => [Seen::Proved(slope.flip()), Seen::Proved(slope)],
         None => [(&domain.low, -1), (&domain.high, 1)]
             .map(|(end, way)| beside(gap, parameter, value, end.as_ref(), way, domains)),
