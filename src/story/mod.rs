@@ -10,6 +10,7 @@ mod change;
 mod granted;
 mod impact;
 mod integrate;
+mod joined;
 mod lent;
 mod motion;
 mod second;
@@ -33,7 +34,7 @@ use crate::derive::{Derivation, Stop};
 use crate::domain::Domain;
 use crate::expr::{Expr, Point, Symbol, Vector, minus};
 use crate::formula::{Sentence, write_plain};
-use crate::scene::{Ask, ContactLaw, Scene, Stage, StageKind, direction};
+use crate::scene::{Ask, Scene, Stage, StageKind, direction};
 use crate::verify::Proof;
 use crate::verify::possible::Possible;
 
@@ -552,13 +553,14 @@ fn one(
         if let Some(open) = motion::open(stage, before.clone()) {
             return Ok(open);
         }
-        left_behind(scene, stage)?;
+        joined::left_behind(scene, stage)?;
     }
     match &stage.kind {
         StageKind::Impact {
             one_sided,
             supposed,
         } => {
+            joined::left_out(scene, stage)?;
             let named = named(scene, stages);
             impact::tell(stage, before, one_sided, supposed.as_deref(), &named, given)
         }
@@ -577,43 +579,6 @@ fn one(
         StageKind::Wind(wind) => motion::wind(stage, before, wind),
         StageKind::Linkage(linkage) => motion::linkage(stage, before, linkage),
     }
-}
-
-/// What has been joined to a body in the last impact moves along with it.
-fn left_behind(scene: &Scene, stage: &Stage) -> Result<(), Refused> {
-    let moved = stage.kind.moved();
-    let mut from = stage.from;
-    while let Some(before) = from.map(|j| &scene.stages[j]) {
-        if let StageKind::Impact { .. } = before.kind {
-            let sticking = before.scene.contacts.iter();
-            let sticking = sticking.filter(|c| matches!(c.law, ContactLaw::Sticking));
-            let joined = sticking.map(|c| (c.bodies, "sticks to")).chain(
-                before
-                    .scene
-                    .hinges
-                    .iter()
-                    .map(|h| (h.bodies, "is hinged to")),
-            );
-            for ([a, b], how) in joined {
-                let is_other = |b: usize| !stage.scene.bodies[b].is_fixed();
-                let (body, other) = match (moved.contains(&a), moved.contains(&b)) {
-                    (true, false) if is_other(b) => (a, b),
-                    (false, true) if is_other(a) => (b, a),
-                    _ => continue,
-                };
-                let [other, body] = [other, body].map(|b| &stage.scene.bodies[b].name);
-                let why = format!(
-                    "`{other}` {how} `{body}` since `{}`, and is not said to move along",
-                    before.name
-                );
-                let hint = format!("the motion takes it along with \"with\": [\"{other}\"]");
-                return Err(Refused::new(&stage.name, why, hint));
-            }
-            return Ok(());
-        }
-        from = before.from;
-    }
-    Ok(())
 }
 
 /// Speeds and spins at the end of motions that have the name of a question, for the impacts after them to go on with.
