@@ -4,7 +4,7 @@ mod shared;
 
 use std::path::{Path, PathBuf};
 
-use carom::answer::Form;
+use carom::answer::{Answer, Form};
 use carom::equality::{Equality, How, decide};
 use carom::formula::{Content, Symbols, read, write_plain};
 use carom::numeric::{self, Answer as Found, follow};
@@ -121,7 +121,9 @@ fn the_answers_are_those_of_the_table_and_are_held() {
                 "open" => matches!(form, Form::Open(_)),
                 _ => matches!(form, Form::Words),
             };
-            if !found.is_some_and(|a| fits(&a.form) && a.checks.is_empty()) {
+            let of_itself = format!("depends on {answer}");
+            let tells = |a: &Answer| !a.text.iter().any(|t| t.to_string().ends_with(&of_itself));
+            if !found.is_some_and(|a| fits(&a.form) && a.checks.is_empty() && tells(a)) {
                 wrong.push(format!("{name} {answer}: not {formula}"));
             }
             continue;

@@ -221,6 +221,17 @@ impl Answer {
         self
     }
 
+    /// Why the laws give no value: by the other unknowns that it depends on, if there are any.
+    pub fn left_open(&self) -> Option<String> {
+        let Form::Open(names) = &self.form else {
+            return None;
+        };
+        Some(match names.iter().all(|name| *name == self.name) {
+            true => String::from("not determined: the laws leave it open"),
+            false => format!("not determined: it depends on {}", names.join(", ")),
+        })
+    }
+
     /// The value in parameters, where the answer is one.
     pub fn formula(&self) -> Option<&Expr> {
         match &self.form {

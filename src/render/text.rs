@@ -126,14 +126,7 @@ pub fn answers(scene: &Scene, of: Option<&Told>, answers: &[Answer]) -> String {
             .filter(|unit| unit != "1");
         let unit = unit.map_or(String::new(), |unit| format!(" [{unit}]"));
         let mut lines = vec![format!("{}{unit}", shared_words(a, &alike))];
-        if let Form::Open(names) = &a.form
-            && a.text.is_empty()
-        {
-            lines.push(format!(
-                "not determined: it depends on {}",
-                names.join(", ")
-            ));
-        }
+        lines.extend(a.left_open().filter(|_| a.text.is_empty()));
         lines.extend(a.text.iter().map(written));
         lines.extend(
             a.discarded

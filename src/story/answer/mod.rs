@@ -519,13 +519,12 @@ fn of_case(question: &Question, case: &Case, several: bool) -> Vec<Answer> {
             form: case.form(&answer.form),
             ..answer.clone()
         };
-        if let Form::Open(names) = &a.form {
-            let names = names.join(", ");
-            a.text
-                .push(sentence!("not determined: it depends on {}", names));
-        }
+        a.text.extend(a.left_open().map(Sentence::words));
         a.assumptions.extend(rests_on(case));
-        let identities = case.identities().map(|check| for_any(case, check));
+        // Of what is left open nothing was checked.
+        let is_given = !matches!(a.form, Form::Open(_));
+        let identities = case.identities().filter(|_| is_given);
+        let identities = identities.map(|check| for_any(case, check));
         a.checks = identities.chain(checks.iter().cloned()).collect();
         out.push(a);
     }
