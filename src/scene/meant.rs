@@ -47,6 +47,9 @@ fn among(word: &str, here: &[&str]) -> Option<Option<&'static str>> {
             "how high a body is at the end of a stage is its `position` along y, such as after a fall `until` its \"top\""
         }
         "between" | "of" | "body" | "on" if has("bodies") => "those that meet are `bodies`, a list",
+        "fixed" | "static" | "immovable" if has("shape") => {
+            "what does not move has \"shape\": \"fixed\""
+        }
         "formula" | "text" | "answer" | "value" if has("printed") => {
             "the formula that is printed for an `item` is `printed`; a `number` is printed `of` one"
         }
