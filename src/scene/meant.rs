@@ -56,8 +56,47 @@ fn among(word: &str, here: &[&str]) -> Option<Option<&'static str>> {
         "restitution" if has("frictionless") => {
             "a contact with a coefficient of restitution has \"law\": \"frictionless\" and \"restitution\": \"e\""
         }
+        word if has("threshold") => return of_question(word).map(Some),
         _ => return None,
     }))
+}
+
+/// What a word means in a question.
+fn of_question(word: &str) -> Option<&'static str> {
+    Some(match word {
+        "after" => "what is asked just after an impact is asked `at` its stage",
+        "before" => {
+            "what was just before is asked `at` the stage before; in a scene without stages it has \"when\": \"start\""
+        }
+        "energy_lost" | "lost" | "loss" | "energy_loss" | "heat" | "dissipated" => {
+            "the energy lost is \"energy\": \"lost\", `at` one stage where there are several"
+        }
+        "kinetic_energy" | "energy_before" | "energy_after" => {
+            "a kinetic energy is \"energy\": \"before\", \"after\" or \"lost\", `of` a body or of all"
+        }
+        "velocity_after" | "final_velocity" | "velocity_before" | "initial_velocity" => {
+            "the `velocity` of a body is asked `at` the stage after which it is meant"
+        }
+        "ratio" | "fraction" | "percentage" | "formula" | "expression" => {
+            "a formula of answers is a `value`, such as \"E_lost/E_0\" with the names of other questions"
+        }
+        "compression" | "extension" | "displacement" => {
+            "how far a body gets in a stage, or presses a spring, is the `distance` of that stage"
+        }
+        "max" | "maximize" | "greatest" => {
+            "the greatest value of a formula is its `maximum`, with what may vary `over`"
+        }
+        "find" | "unknown" => {
+            "a parameter that is sought is `solve` with the equation that it `holds`, or a `threshold`"
+        }
+        "force" | "average_force" => {
+            "a force on a body that turns is its `reaction`, that of a string its `tension`; a mean force is a `value`, an impulse over a time"
+        }
+        "minimum" | "min" | "minimize" | "least" => {
+            "the least value of a formula is the `maximum` of its negative; the least parameter for which something `holds` is a `threshold`"
+        }
+        _ => return None,
+    })
 }
 
 /// What a word means wherever it stands.
