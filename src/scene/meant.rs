@@ -21,6 +21,12 @@ pub(super) fn missing(field: &str) -> Option<&'static str> {
     })
 }
 
+/// An object with many fields, where something else stands in its place.
+pub(super) fn example(fields: &[&str]) -> Option<&'static str> {
+    let is_question = fields.contains(&"threshold");
+    is_question.then_some("such as {\"velocity\": \"A\", \"along\": \"x\"}")
+}
+
 /// What a word means among these; `Some(None)` where nothing is to be said of it.
 fn among(word: &str, here: &[&str]) -> Option<Option<&'static str>> {
     let has = |word| here.contains(&word);
@@ -49,6 +55,29 @@ fn among(word: &str, here: &[&str]) -> Option<Option<&'static str>> {
         "between" | "of" | "body" | "on" if has("bodies") => "those that meet are `bodies`, a list",
         "fixed" | "static" | "immovable" if has("shape") => {
             "what does not move has \"shape\": \"fixed\""
+        }
+        "speed" | "v" | "vx" | "vy" | "u" if has("shape") => {
+            "the `velocity` of a body at the beginning is [x, y]"
+        }
+        "m" if has("shape") => "the mass of a body is `mass`",
+        "k" | "constant" | "spring_constant" if has("stiffness") => {
+            "the constant of a spring is its `stiffness`"
+        }
+        "collision" | "collide" | "hit" | "strike" | "blow" if has("impact") => {
+            "bodies that collide do so in an `impact`, at its `contacts`"
+        }
+        "oscillation" | "vibration" | "spring" if has("impact") => {
+            "a body moves on a spring in a `slide` with a `spring`"
+        }
+        "steps" | "phases" | "events" if has("stages") => {
+            "what happens one after the other stands in `stages`"
+        }
+        "find" | "ask" | "asked" | "unknowns" | "quantities" if has("bodies") => {
+            "what is asked stands among the `questions`"
+        }
+        "objects" if has("bodies") => "what moves, and what does not, stands among the `bodies`",
+        "variables" | "symbols" | "constants" | "given" | "data" if has("bodies") => {
+            "symbols are declared among the `parameters`, with a `unit` and, if known, a `value`"
         }
         "formula" | "text" | "answer" | "value" if has("printed") => {
             "the formula that is printed for an `item` is `printed`; a `number` is printed `of` one"
@@ -105,10 +134,10 @@ fn anywhere(word: &str) -> Option<&'static str> {
         "points" => {
             "the points of a scene stand at its top, as \"points\": {\"A\": [\"x\", \"y\"]}"
         }
-        "elastic" => {
+        "elastic" | "perfectly elastic" => {
             "an elastic collision is \"law\": \"frictionless\" with \"restitution\": \"1\""
         }
-        "inelastic" | "plastic" => {
+        "inelastic" | "plastic" | "perfectly inelastic" | "completely inelastic" => {
             "\"law\": \"sticking\", or \"frictionless\" with \"restitution\": \"0\""
         }
         "smooth" => "a smooth contact is \"law\": \"frictionless\" with a `restitution`",

@@ -10,7 +10,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
 use super::fault::{Fault, Span, far};
 use super::json::{Entry, Node, Value};
-use super::meant::meant;
+use super::meant::{self, meant};
 use crate::formula::near::nearest;
 
 /// What can be read from a JSON value.
@@ -267,13 +267,13 @@ pub(super) fn fields<'n, 't>(
     let names = || known.iter().map(|(name, _)| *name);
     let Value::Object(entries) = &node.value else {
         let message = format!("expected an object, found {}", node.kind());
-        let hint = format!("its fields are {}", names().collect::<Vec<_>>().join(", "));
-        let fault = Fault::new(node.span, message);
-        return match known.len() <= MANY {
-            true => fault.hint(hint),
-            false => fault,
-        }
-        .add_to(faults);
+        let mut fault = Fault::new(node.span, message);
+        let all: Vec<&str> = names().collect();
+        fault.hint = match known.len() <= MANY {
+            true => Some(format!("its fields are {}", all.join(", "))),
+            false => meant::example(&all).map(str::to_owned),
+        };
+        return fault.add_to(faults);
     };
     let mut entries = unique(entries, faults);
     let is_known = |entry: &&Entry<'t>| names().any(|name| name == entry.key);
