@@ -495,3 +495,14 @@ fn random_wrong_answers_are_seldom_explained() {
         "{explained} of {wrong}"
     );
 }
+
+#[test]
+fn an_unknown_name_is_no_fault_of_the_earlier_answers_beside_it() {
+    let text = fs::read_to_string(root().join("derivations/more/door-meets-its-stop.json"));
+    let sheet = keys(scene::read(&text.expect("a scene")).expect("a sound scene"));
+    let entry = sheet.entry("P_S").expect("a question of the scene");
+    let grade = sheet.judge(&entry, "I (w + omega)/d", &Options::default());
+    let told = format!("{:?}", grade.error.expect("a fault"));
+    assert!(told.contains("`I` is not declared"), "{told}");
+    assert!(!told.contains("`omega` is not declared"), "{told}");
+}

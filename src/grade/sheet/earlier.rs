@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::super::{Given, key_of, read, show};
+use super::super::{Given, Key, key_of, read, show};
 use super::{Entry, Sheet};
 use crate::expr::{Expr, Symbol};
 
@@ -15,6 +15,25 @@ impl Sheet {
         answer: &str,
     ) -> Option<(String, Vec<String>)> {
         let alone = read::answer(&entry.key, answer);
+        let (key, values) = self.key_with_earlier(entry);
+        // A time that was asked for is no stranger.
+        let named = |name: &Symbol| read::is_stranger(name) && values.contains_key(name);
+        if alone.is_ok_and(|reading| !reading.symbols().iter().any(named)) {
+            return None;
+        }
+        let content = read::answer(&key, answer).ok()?.content;
+        let used = content.symbols();
+        let told = |(name, value): (&Symbol, &Expr)| {
+            let value = crate::formula::write_plain(value);
+            used.contains(name).then(|| format!("{name} = {value}"))
+        };
+        let told: Vec<String> = values.iter().filter_map(told).collect();
+        let put_in = content.map(&|e| e.substitute(&values));
+        (!told.is_empty()).then(|| (show(&put_in), told))
+    }
+
+    /// A key that knows the names of earlier answers, and what these are.
+    pub(super) fn key_with_earlier(&self, entry: &Entry) -> (Key, BTreeMap<Symbol, Expr>) {
         let asked = self.scene.questions.iter();
         let before = asked.take_while(|q| q.name != entry.question.name);
         let of = |name: &str| {
@@ -27,24 +46,11 @@ impl Sheet {
             .filter_map(|q| of(&q.name).filter(|a| a.name == q.name))
             .filter_map(|a| Some((Symbol::from(a.name.as_str()), a.formula()?.clone())))
             .collect();
-        // A time that was asked for is no stranger.
-        let named = |name: &Symbol| read::is_stranger(name) && values.contains_key(name);
-        if alone.is_ok_and(|reading| !reading.symbols().iter().any(named)) {
-            return None;
-        }
         let mut question = entry.key.question.clone();
         question
             .symbols
             .extend(values.keys().cloned().map(Given::named));
         let key = key_of(entry.key.reading.content.clone(), &question);
-        let content = read::answer(&key, answer).ok()?.content;
-        let used = content.symbols();
-        let told = |(name, value): (&Symbol, &Expr)| {
-            let value = crate::formula::write_plain(value);
-            used.contains(name).then(|| format!("{name} = {value}"))
-        };
-        let told: Vec<String> = values.iter().filter_map(told).collect();
-        let put_in = content.map(&|e| e.substitute(&values));
-        (!told.is_empty()).then(|| (show(&put_in), told))
+        (key, values)
     }
 }

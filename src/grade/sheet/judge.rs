@@ -72,7 +72,12 @@ impl Sheet {
 
     fn judge_with_earlier(&self, entry: &Entry, answer: &str, options: &Options) -> Grade {
         let Some((answer, told)) = self.with_earlier(entry, answer) else {
-            return self.judge_in_given(entry, answer, options);
+            let grade = self.judge_in_given(entry, answer, options);
+            // What cannot be read all the same is no fault of the earlier answers in it.
+            return match grade.verdict {
+                Verdict::Invalid => judge_against(&self.key_with_earlier(entry).0, answer, options),
+                _ => grade,
+            };
         };
         let mut grade = self.judge_in_given(entry, &answer, options);
         grade.assumed.extend(told);
