@@ -31,6 +31,7 @@ pub(super) fn example(fields: &[&str]) -> Option<&'static str> {
 fn among(word: &str, here: &[&str]) -> Option<Option<&'static str>> {
     let has = |word| here.contains(&word);
     Some(Some(match word {
+        _ if has("nonnegative") => "an interval is {\"min\": 0, \"max\": 1}",
         "left" | "right" | "up" | "down" | "horizontal" | "vertical" if has("-x") => {
             "\"x\" is to the right, \"-x\" to the left, \"y\" up and \"-y\" down"
         }
