@@ -204,9 +204,15 @@ pub(super) fn turned(
     *reading = other;
 }
 
+/// Longest answer, in bytes, of which a number is tried in its other meaning: what is longer no student wrote.
+const LONGEST: usize = 1_000;
+
 /// An answer that cannot be read because a number in it has two meanings, and is right in one of them, is right: `1,500 N`,
 /// where a comma groups thousands or begins the decimals, and the mixed number `1 3/4`. Otherwise it stays unread.
 pub(super) fn number(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
+    if answer.len() > LONGEST {
+        return None;
+    }
     let comma = |rest: &str| {
         let mut signs = ["{,}", ","].into_iter();
         let sign = signs.find(|sign| rest.starts_with(sign))?;
