@@ -59,10 +59,12 @@ fn half_angle(e: &Expr) -> Option<Expr> {
     let Node::Sum(terms) = cosine.node() else {
         return None;
     };
-    let rest: Vec<Expr> = terms.iter().filter(|t| !t.is_one()).map(|t| -t).collect();
-    let half = Expr::ratio(1, 2) * Expr::sum(rest.iter().cloned());
-    let is_one_less = rest.len() < terms.len();
-    is_one_less.then(|| Expr::from(2) * Expr::call(Function::Asin, half.sqrt()))
+    if !terms.iter().any(Expr::is_one) {
+        return None;
+    }
+    let rest = terms.iter().filter(|t| !t.is_one()).map(|t| -t);
+    let half = Expr::ratio(1, 2) * Expr::sum(rest);
+    Some(Expr::from(2) * Expr::call(Function::Asin, half.sqrt()))
 }
 
 /// Whether every value is ≥ 0 (`Some(true)`), every value ≤ 0 (`Some(false)`), or neither is known.

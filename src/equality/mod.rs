@@ -528,17 +528,20 @@ impl Search<'_> {
         }
     }
 
-    /// A point where a sign fails that a proof would take for granted, of formulas that differ for certain.
-    fn where_a_proof_would_fail(&mut self) -> Option<Counterexample> {
-        if !self.apart {
-            return None;
-        }
-        let Proof::Equal(assumptions, _) = proof::compare(self.a, self.b, self.domains) else {
-            return None;
-        };
+    /// Points where the two may part: where what absolute values are taken of changes sign and, of formulas that differ for
+    /// certain, where a sign fails that a proof would take for granted.
+    fn risky(&self, proof: &Proof) -> Vec<Sample> {
         let near = samples(self.roles, self.domains, FIRST + 2);
-        let tested = critical::tested(&assumptions, &near, self.domains, self.roles);
-        self.probe.points(&tested.err()?, &mut self.tally)
+        match proof {
+            Proof::Unequal { folded, .. } if !folded.is_empty() => {
+                critical::points(folded, &near, self.domains, self.roles)
+            }
+            Proof::Equal(assumptions, _) if self.apart => {
+                let tested = critical::tested(assumptions, &near, self.domains, self.roles);
+                tested.err().unwrap_or_default()
+            }
+            _ => Vec::new(),
+        }
     }
 
     /// More points and more digits, where no proof was found.
@@ -548,17 +551,12 @@ impl Search<'_> {
         if let Some(found) = self.extend(patience * self.size.points()) {
             return self.different(found);
         }
-        if let Some(found) = self.where_a_proof_would_fail() {
+        let risky = match self.apart {
+            true => self.risky(&proof::compare(self.a, self.b, self.domains)),
+            false => self.risky(&proof),
+        };
+        if let Some(found) = self.probe.points(&risky, &mut self.tally) {
             return self.different(found);
-        }
-        if let Proof::Unequal { folded, .. } = &proof
-            && !folded.is_empty()
-        {
-            let near = samples(self.roles, self.domains, FIRST + 2);
-            let risky = critical::points(folded, &near, self.domains, self.roles);
-            if let Some(found) = self.probe.points(&risky, &mut self.tally) {
-                return self.different(found);
-            }
         }
         for (side, e) in [(Side::Left, self.a), (Side::Right, self.b)] {
             if self.tally.defined(side) > 0 || self.tally.undefined(side) == 0 {

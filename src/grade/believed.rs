@@ -23,7 +23,8 @@ pub use story::Story;
 
 /// Points at which every belief is tried.
 const POINTS: u64 = 4;
-/// Steps within which a belief is solved with symbols, or two wrong answers are told to be one.
+/// Steps that working out one belief with symbols may take, or telling two wrong answers to be one: with a slip in it a
+/// flight may end at roots in roots, which nobody writes down.
 const MOST_STEPS: u64 = 500_000;
 /// Pairs of beliefs are searched while there are no more of them than this.
 const PAIRS: usize = 6_000;

@@ -95,12 +95,15 @@ pub(in crate::grade) fn formulas(written: &Written, slip: &Slip) -> Option<Vec<E
         }
         _ => outcome::outcome(written, slip, &point, |s| solved(s, domains))?,
     };
-    let tidy = |Symbolic(value): Symbolic| {
-        let may_be_short = value.size() <= 4 * LARGEST;
-        let value = may_be_short.then(|| algebra::tidy(&value, domains));
-        value?.ok().filter(|e| e.size() <= LARGEST)
+    let tidy = |Symbolic(value): &Symbolic| {
+        let value = algebra::tidy(value, domains).ok();
+        value.filter(|e| e.size() <= LARGEST)
     };
-    let values: Vec<Expr> = values.into_iter().map(tidy).collect::<Option<_>>()?;
+    // What is many times too long as it is solved does not become short, and takes seconds to show it.
+    if values.iter().any(|v| v.0.size() > 4 * LARGEST) {
+        return None;
+    }
+    let values: Vec<Expr> = values.iter().map(tidy).collect::<Option<_>>()?;
     meets_doubles(written, slip, &values).then_some(values)
 }
 

@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::super::belief::{self, Belief, Slip};
 use super::super::compare::{Context, quotient};
 use super::super::{Diagnosis, Key, Options};
-use super::{COINCIDENCE, FACTORS, NAMED, in_decade, words};
+use super::{COINCIDENCE, FACTORS, MOST_STEPS, NAMED, in_decade, words};
 use crate::answer::{Answer, Form};
 use crate::equality::identical;
 use crate::expr::{Expr, Point, effort};
@@ -16,8 +16,6 @@ use crate::scene::Scene;
 
 /// Stories told at most for one question; most take milliseconds.
 const TOLD: usize = 32;
-/// Steps that telling one of them may take: with a slip in it a flight may end at roots in roots, which nobody writes down.
-const MOST_STEPS: u64 = 500_000;
 
 /// A scene with stages, and the answers that come out of it under each belief, told when they are first asked for.
 #[derive(Clone, Debug)]
