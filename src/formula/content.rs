@@ -67,6 +67,18 @@ pub struct Quantity {
     pub unit_text: String,
 }
 
+impl Quantity {
+    /// A number in a unit.
+    pub fn of(written: Expr, unit: Unit, unit_text: &str) -> Quantity {
+        Quantity {
+            value: &written * &unit.value(),
+            written,
+            unit,
+            unit_text: unit_text.to_string(),
+        }
+    }
+}
+
 /// What was read.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Content {
@@ -130,6 +142,27 @@ impl Content {
             }
             other => other,
         }
+    }
+
+    /// A number in a unit, where it has none of its own.
+    pub(super) fn in_unit(self, unit: &Unit, text: &str) -> Content {
+        match self {
+            Content::Scalar(e) if e.is_constant() => {
+                Content::Quantity(Box::new(Quantity::of(e, unit.clone(), text)))
+            }
+            other => other,
+        }
+    }
+
+    /// `2 < x < 5 m`: the unit behind the upper end is that of both.
+    pub(super) fn with_shared_unit(mut self) -> Content {
+        if let Content::Relations(sides, signs) = &mut self
+            && signs.iter().all(|sign| sign.is_order())
+            && let [low, _, Content::Quantity(high)] = &mut sides[..]
+        {
+            *low = low.clone().in_unit(&high.unit, &high.unit_text);
+        }
+        self
     }
 
     /// Whether it holds an inequality.

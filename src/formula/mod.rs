@@ -4,6 +4,7 @@
 //! [`Fault`] with its place. What could be read in two ways is noted, and the other readings can be asked for. This
 //! module never decides whether two formulas are equal.
 
+mod bound;
 mod calls;
 mod characters;
 mod component;
@@ -133,6 +134,11 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
         Ok(reading) => reading.notes.iter().any(|n| n.remark == Remark::Letters),
         Err(_) => text.len() <= MAX_BYTES,
     };
+    if (worded || held.all("up to"))
+        && let Some(bound) = bound::in_words(text, symbols)
+    {
+        return Ok(bound);
+    }
     if worded && let Some(reading) = read_behind_words(text, symbols) {
         return Ok(reading);
     }
@@ -333,7 +339,7 @@ fn read_inner(
         Some(only) if relations.is_empty() => only,
         Some(last) => {
             contents.push(last);
-            Content::Relations(contents, relations)
+            Content::Relations(contents, relations).with_shared_unit()
         }
         None => return Err(Fault::new("the formula is empty", 0, 0)),
     };
@@ -392,12 +398,7 @@ fn content(
         let unit = Unit::coherent(dimension);
         return Ok(match content {
             Content::Scalar(value) => {
-                let quantity = Quantity {
-                    written: value.clone(),
-                    value,
-                    unit,
-                    unit_text,
-                };
+                let quantity = Quantity::of(value, unit, &unit_text);
                 (Content::Quantity(Box::new(quantity)), None)
             }
             other => (other, Some(unit)),
@@ -413,14 +414,9 @@ fn content(
     let si = unit.value();
     Ok(match content {
         Content::Scalar(written) => {
-            let quantity = Quantity {
-                value: &written * &si,
-                written,
-                unit: unit.clone(),
-                unit_text: text[*start..*end]
-                    .trim_matches(|c: char| c.is_whitespace() || c == '$')
-                    .to_string(),
-            };
+            let blank = |c: char| c.is_whitespace() || c == '$';
+            let unit_text = text[*start..*end].trim_matches(blank);
+            let quantity = Quantity::of(written, unit.clone(), unit_text);
             (Content::Quantity(Box::new(quantity)), None)
         }
         Content::Either(values) => {

@@ -66,6 +66,8 @@ pub enum Remark {
     UnitOfSymbols,
     /// Words around the formula were passed over.
     Words,
+    /// `between a and b` was read without its ends.
+    Between,
 }
 
 impl Note {
@@ -127,6 +129,7 @@ impl Note {
             Remark::Cross => format!("I read {whole} as a product of numbers"),
             Remark::DecimalComma => format!("I read {whole} as a decimal number"),
             Remark::Punctuation => format!("I passed over the {whole} behind the formula"),
+            Remark::Between => format!("I read {whole} without its ends"),
             Remark::Words => format!("I read {whole} and passed over the words around it"),
             Remark::UnitOfSymbols => {
                 format!("a formula in symbols has the unit of its symbols; {whole} was not used")

@@ -4,6 +4,7 @@ use super::fault::{Fault, Faulty};
 use super::lexer::Tok;
 use super::note::Remark;
 use super::parser::Parser;
+use super::symbols::is_greek;
 use super::written::{Link, Shape, Sign, Written, is_axis};
 
 /// Room made at once for factors or terms: few products and sums have more.
@@ -120,7 +121,7 @@ impl Parser<'_> {
         let (below, rest) = match (parted || self.starts_factor()?, usual) {
             (true, true) => (product, Some(self.group()?)),
             // `1/2π √(k/m)`: what a space parts from it does not stand below either way.
-            (true, false) if !spaced => {
+            (true, false) if !spaced && !self.needs_space(&product)? => {
                 let (below, vector) = vector_above(self.group_until(Some(product), true)?);
                 let rest = match vector {
                     None if self.starts_factor()? => Some(self.group()?),
@@ -139,6 +140,16 @@ impl Parser<'_> {
             self.lexer.note(Remark::Slash { tight }, from, middle, end);
         }
         Ok((below, rest))
+    }
+
+    /// `u²/2mu g`: whether a space has to stand between a Greek name in letters and the name behind it, and so parts nothing.
+    fn needs_space(&mut self, product: &Written) -> Faulty<bool> {
+        let named = matches!(self.peek()?.tok, Tok::Name(_));
+        let last = match &product.shape {
+            Shape::Product(factors) => factors.last().map_or(product.start, |(_, f)| f.start),
+            _ => product.start,
+        };
+        Ok(named && is_greek(&self.lexer.text[last..product.end]))
     }
 
     /// Factors side by side.

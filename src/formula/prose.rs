@@ -41,14 +41,19 @@ impl Held {
     }
 }
 
+/// Whether a word could change the value of what it stands beside.
+pub(super) fn changes(word: &str) -> bool {
+    const CHANGING: &str = "above below cannot cosine cube cubed difference double except exceeds \
+        half if inverse least less logarithm minus more most negative never no not opposite or over \
+        per plus product quarter ratio reverse root sine square squared sum tangent tenth than third \
+        thrice triple twice unless without";
+    CHANGING.split(' ').any(|w| word.eq_ignore_ascii_case(w))
+}
+
 /// Where the formula starts behind words that say what it is: `the speed of the boy u = 2 g t`, `its speed is 3 m/s`. Nothing
 /// where a word could change the value, or where none of them is surely a word: `known` names are none.
 pub(super) fn behind_words(text: &str, known: &dyn Fn(&str) -> bool) -> Option<usize> {
     const VERBS: [&str; 4] = ["is", "are", "equals", "becomes"];
-    const CHANGING: &str = "above below cosine cube cubed difference double except exceeds half if \
-        inverse least less logarithm minus more most negative never no not opposite or over per \
-        plus product quarter ratio reverse root sine square squared sum tangent tenth than third \
-        thrice triple twice unless without";
     let (mut at, mut words) = (0, Vec::new());
     for piece in text.split_inclusive(' ') {
         let word = piece.trim_end_matches([' ', ',']);
@@ -61,9 +66,7 @@ pub(super) fn behind_words(text: &str, known: &dyn Fn(&str) -> bool) -> Option<u
         at += piece.len();
     }
     let (start, last) = words.last()?;
-    let changing =
-        |(_, word): &(usize, &str)| CHANGING.split(' ').any(|w| word.eq_ignore_ascii_case(w));
-    if words.iter().any(changing) {
+    if words.iter().any(|(_, word)| changes(word)) {
         return None;
     }
     let surely = |(_, word): &(usize, &str)| word.len() > 2 && !known(word);

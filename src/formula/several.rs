@@ -3,9 +3,10 @@
 use super::frames::{below_each_other, without_braces};
 use super::prose::Held;
 use super::{
-    Content, Fault, Join, MAX_BYTES, Reading, Relation, Remark, Symbols, boxed, read_either,
+    Content, Fault, Join, MAX_BYTES, Reading, Relation, Remark, Symbols, boxed, plain_unit,
+    read_either,
 };
-use crate::dimension::Unit;
+use crate::dimension::{self, Unit};
 use crate::expr::{Expr, Symbol};
 
 /// What lies in an interval that is written without a name, `[0, 1)`.
@@ -46,9 +47,20 @@ pub(super) fn interval(text: &str, symbols: &Symbols, pairs: bool) -> Option<Rea
     let sign = SIGNS.iter().find_map(signed);
     // What opens the interval stands behind the word.
     let behind = sign.map(|(at, sign)| at + sign.trim_end_matches(['\\', '(', '[']).len());
+    // `[2, 5] m`: the unit of both ends.
+    let close = start + text[start..stop].rfind([')', ']', '['])? + 1;
+    let behind_it = plain_unit(&text[close..stop]).filter(|plain| !plain.trim().is_empty());
+    let unit = behind_it.and_then(|plain| Some((dimension::unit(&plain).ok()?, plain)));
+    stop = if unit.is_some() { close } else { stop };
     let part = |[from, to]: [usize; 2]| {
         let read = read_either(&text[..to], from, symbols, 0).ok();
-        read.filter(|reading| matches!(reading.content, Content::Scalar(_) | Content::Quantity(_)))
+        let mut read = read.filter(|reading| {
+            matches!(reading.content, Content::Scalar(_) | Content::Quantity(_))
+        })?;
+        if let Some((unit, plain)) = &unit {
+            read.content = read.content.in_unit(unit, plain.trim());
+        }
+        Some(read)
     };
     let pieces = pieces(text, [behind.unwrap_or(start), stop]);
     if pieces.len() > MOST {
@@ -349,7 +361,7 @@ pub(super) fn values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fa
 
 /// Parts that are said together; nothing where they do not belong together. Equations for one name are joined by a word where
 /// their sides are formulas, as in `x = y and x = z`, and are a list of its values else.
-fn together(parts: &[Reading], said: Option<Join>) -> Option<(Content, Option<Unit>)> {
+pub(super) fn together(parts: &[Reading], said: Option<Join>) -> Option<(Content, Option<Unit>)> {
     let contents: Vec<&Content> = parts.iter().map(|part| &part.content).collect();
     let signs = |content: &&Content| match content {
         Content::Relations(_, signs) => Some(signs.clone()),

@@ -362,6 +362,9 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         }
         return grade;
     }
+    if let Some(content) = several::named(&key.reading.content, &reading.content) {
+        reading.content = content;
+    }
     let meant = unit::as_asked(key, &mut reading);
     let names = key.question.symbols.iter().map(|g| &g.name);
     if let Some(content) = read::sizes(&reading.content, names) {

@@ -10,7 +10,7 @@ use super::unit::each_chain;
 use super::{Key, Question, declare};
 use crate::dimension;
 use crate::expr::{Expr, Symbol};
-use crate::formula::{self, Content, Fault, Note, Reading, Remark, Symbols};
+use crate::formula::{self, Content, Fault, Note, Reading, Relation, Remark, Symbols};
 
 /// Quantities of mechanics that students bring in although a collision does not know them.
 const STRANGERS: [&str; 6] = ["g", "t", "mu", "h", "dt", "F"];
@@ -127,6 +127,17 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         return Ok(reading);
     }
     let mut usual = formula::read(text, &key.readable);
+    // `between 0 and 1` says nothing of its ends.
+    if let Ok(Reading {
+        content: Content::Relations(_, signs),
+        notes,
+        ..
+    }) = &mut usual
+        && notes.iter().any(|n| n.remark == Remark::Between)
+        && includes_ends(&key.reading.content)
+    {
+        signs.fill(Relation::LessEqual);
+    }
     // `(0, 1)` and `[0, 1]`, where bounds are asked.
     let bounded = |reading: &Reading| reading.content.is_bounded();
     if bounded(&key.reading)
@@ -183,6 +194,16 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
     match usual {
         Ok(reading) => worded(key, text, reading),
         Err(fault) => mended(key, text, fault),
+    }
+}
+
+/// Whether a bound belongs to what it bounds.
+fn includes_ends(content: &Content) -> bool {
+    let closed = |sign: &Relation| matches!(sign, Relation::LessEqual | Relation::GreaterEqual);
+    match content {
+        Content::Relations(_, signs) => signs.iter().any(closed),
+        Content::Joined(_, parts) => parts.iter().any(includes_ends),
+        _ => false,
     }
 }
 
@@ -396,7 +417,8 @@ fn direction(text: &str) -> Option<Fault> {
 fn computes(side: &str, open: &Symbols) -> bool {
     formula::read(side, open).is_ok_and(|reading| {
         let split = |note: &Note| matches!(note.remark, Remark::Letters | Remark::Words);
-        reading.symbols().len() > 1 && !reading.notes.iter().any(split)
+        let value = reading.content.expr().is_some();
+        value && reading.symbols().len() > 1 && !reading.notes.iter().any(split)
     })
 }
 

@@ -23,8 +23,10 @@ pub(super) fn joined(ctx: &Context, expected: &Content, reading: &Reading) -> Op
         if !relations(answer) {
             return Some(kind("an interval is expected, and the answer is a value"));
         }
-        let (expected, answer) = (named_as(expected, answer), named_as(answer, expected));
-        return Some(relation::joined(ctx, &expected?, &answer?));
+        let subject = subject(answer, &expected.symbols())?;
+        let answer =
+            answer.map(&|e| e.substitute(&[(subject.clone(), Expr::symbol(UNNAMED))].into()));
+        return Some(relation::joined(ctx, expected, &answer));
     }
     if !is_joined(expected) && !is_joined(answer) {
         return None;
@@ -111,12 +113,11 @@ fn answer_counts(expected: &[(Symbol, Content)], answer: &Content) -> bool {
 /// A value in SI units, as a quantity where a unit stands behind it or a list with it.
 fn measured(value: &Expr, unit: Option<&Unit>) -> Content {
     match unit {
-        Some(unit) if value.is_constant() => Content::Quantity(Box::new(Quantity {
-            value: value.clone(),
-            written: value / &unit.value(),
-            unit: unit.clone(),
-            unit_text: unit.dimension.si(),
-        })),
+        Some(unit) if value.is_constant() => {
+            let written = value / &unit.value();
+            let quantity = Quantity::of(written, unit.clone(), &unit.dimension.si());
+            Content::Quantity(Box::new(quantity))
+        }
         _ => Content::Scalar(value.clone()),
     }
 }
@@ -132,14 +133,13 @@ fn unit_missing(ctx: &Context, answer: &Content) -> Option<Finding> {
     (bare && !unit.dimension.is_none()).then(|| unit::missing(&unit.dimension.si()))
 }
 
-/// A content that says of something without a name what the other says of its symbol.
-fn named_as(content: &Content, other: &Content) -> Option<Content> {
-    if content.mentions(UNNAMED) || !other.mentions(UNNAMED) {
-        return Some(content.clone());
+/// Bounds of something without a name, said of the symbol that the expected bounds are about.
+pub(super) fn named(expected: &Content, answer: &Content) -> Option<Content> {
+    if expected.mentions(UNNAMED) || !answer.mentions(UNNAMED) {
+        return None;
     }
-    let subject = subject(content, &other.symbols())?;
-    let there = [(subject, Expr::symbol(UNNAMED))].into_iter().collect();
-    Some(content.map(&|e| e.substitute(&there)))
+    let subject = Expr::symbol(&subject(expected, &answer.symbols())?);
+    Some(answer.map(&|e| e.substitute(&[(UNNAMED.into(), subject.clone())].into())))
 }
 
 /// The symbol that stands alone on a side of every relation, and is no bound; the only one of its own.
