@@ -140,7 +140,7 @@ pub(crate) fn bare_index(
 
 /// Whether the text behind a raised sign makes it the sign of an exponent: `x^-2`, `x^-½`, `x^-(a+b)`, `x^-n`.
 fn starts_exponent(rest: &str) -> bool {
-    let begins = |c: char| c.is_ascii_alphabetic() || c.is_numeric() || "({[.".contains(c);
+    let begins = |c: char| c.is_alphanumeric() || "({[.".contains(c);
     rest.starts_with(begins) || rest.starts_with("\\frac")
 }
 

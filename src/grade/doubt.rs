@@ -84,6 +84,13 @@ pub(super) fn euler(
     };
     let found = compare::contents(&other, &mine, &plain);
     if found.verdict != Verdict::Equivalent {
+        // Beside an exponential function e is no symbol that is too much.
+        let is_exp = |part: &Expr| matches!(part.node(), Node::Call(Function::Exp, _));
+        let mut exponential = false;
+        expected.each(&mut |e| exponential |= e.parts().any(is_exp));
+        if exponential {
+            *finding = found;
+        }
         return;
     }
     let mut counts = occurs(expected);
@@ -129,6 +136,54 @@ pub(super) fn imaginary(key: &Key, reading: &Reading, finding: &mut compare::Fin
         finding.note = "DIFF";
         finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
     }
+}
+
+/// `e^2x` that is wrong as it stands, and would be right with all of 2x in the exponent: many who type mean that. What would
+/// be right with a quotient there, `x^1/2`, stays wrong and is told.
+pub(super) fn raised(key: &Key, answer: &str, options: &Options, finding: &mut compare::Finding) {
+    if finding.verdict != Verdict::Different || answer.len() > LONGEST {
+        return;
+    }
+    for signs in ["", "/"] {
+        if let Some(text) = raised_further(answer, signs)
+            && let Ok(other) = read::answer(key, &text)
+        {
+            let mut found = compare::contents(key, &other, options);
+            euler(key, &other, options, &mut found);
+            if found.verdict == Verdict::Equivalent {
+                let words = format!(
+                    "it would be right as {text}; without brackets one factor alone is the exponent"
+                );
+                // A slash ends an exponent by every rule.
+                if signs.is_empty() {
+                    undecide(finding, &words);
+                }
+                let hint = "write brackets around all that stands in the exponent";
+                finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
+                return;
+            }
+        }
+    }
+}
+
+/// A text with brackets around all letters, digits and `signs` behind each sign of a power; nothing where that changes nothing.
+fn raised_further(text: &str, signs: &str) -> Option<String> {
+    let mut pieces = text.split('^');
+    let mut out = pieces.next()?.to_string();
+    let mut changed = false;
+    for piece in pieces {
+        let unsigned = piece.trim_start_matches(['-', '−']);
+        let inside = |c: char| c.is_alphanumeric() || signs.contains(c);
+        let rest = unsigned.trim_start_matches(inside);
+        let (exponent, rest) = piece.split_at(piece.len() - rest.len());
+        let further = unsigned.len() > rest.len() + 1;
+        changed |= further;
+        out.push_str(&match further {
+            true => format!("^({exponent}){rest}"),
+            false => format!("^{piece}"),
+        });
+    }
+    changed.then_some(out)
 }
 
 /// Nothing is decided, for a text has two meanings.

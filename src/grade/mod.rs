@@ -388,6 +388,9 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         && (reading.choices > u32::from(reading.slashes)
             || doubt::power_of_function(&reading.content).is_some());
     doubt::euler(key, &reading, options, &mut finding);
+    if options.strength == Strength::Identity {
+        doubt::raised(key, answer, options, &mut finding);
+    }
     doubt::imaginary(key, &reading, &mut finding);
     if open_to_doubt {
         doubt::ambiguity(key, answer, options, &reading, &mut finding);

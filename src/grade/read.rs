@@ -223,15 +223,36 @@ fn with_definitions(key: &Key, text: &str) -> Option<Reading> {
     let found = WORDS
         .iter()
         .filter_map(|word| Some((text.find(word)?, word.len())));
-    let (at, length) = found.min()?;
+    // `½ μ v², μ = …` and `½ μ v² (μ = …)`
+    let names = |sign: &str, at: usize| {
+        let (name, _) = text[at + sign.len()..].split_once('=')?;
+        (!name.trim().contains(' ')).then_some((at, sign.len()))
+    };
+    let behind = |sign: &str| {
+        let mut places = text.match_indices(sign).take(MOST_DEFINITIONS);
+        places.find_map(|(at, _)| names(sign, at))
+    };
+    let apart = || behind(", ").or_else(|| behind(" ("));
+    let (at, length) = found.min().or_else(apart)?;
     let formula = text[..at]
         .trim_end_matches([' ', ',', ';', '$'])
         .trim_start_matches('$');
-    let said = text[at + length..].replace(" and ", ", ").replace(';', ",");
+    let said = &text[at + length..];
+    let said = said
+        .strip_suffix(')')
+        .filter(|_| text[at..].starts_with(" ("))
+        .unwrap_or(said);
+    let said = said.replace(" and ", ", ").replace(';', ",");
     let mut symbols = key.readable.clone();
     let mut parts = Vec::new();
     for part in said.split(", ") {
-        let (name, value) = part.trim_matches([' ', '$', '.']).split_once('=')?;
+        let Some((name, value)) = part.trim_matches([' ', '$', '.']).split_once('=') else {
+            // `and v_0 is the speed before`
+            part.contains(" is ").then_some(())?;
+            continue;
+        };
+        // `I = m l^2/3 is its moment of inertia`
+        let value = value.split(" is ").next().unwrap_or(value);
         let name = formula::read(name, &Symbols::open()).ok()?;
         let name = name.content.expr()?.as_symbol()?.clone();
         if declared(key, &name) || value.contains('=') || parts.len() == MOST_DEFINITIONS {
@@ -242,7 +263,8 @@ fn with_definitions(key: &Key, text: &str) -> Option<Reading> {
     }
     let value = |(name, text): (Symbol, String)| {
         let value = formula::read(&text, &symbols).ok()?;
-        Some((name, value.content.expr()?.clone()))
+        let split = value.notes.iter().any(|n| n.remark == Remark::Letters);
+        Some((name, value.content.expr().filter(|_| !split)?.clone()))
     };
     let values: BTreeMap<Symbol, Expr> = parts.into_iter().map(value).collect::<Option<_>>()?;
     let mut reading = formula::read(formula, &symbols).ok()?;
