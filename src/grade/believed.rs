@@ -99,7 +99,11 @@ pub fn explain(written: &Written, whole: bool) -> (Vec<Diagnosis>, Vec<Diagnosis
     if evidence.is_some() {
         rest.clear();
     }
-    let mut later = other_quantities(written, &trials, quantities);
+    // What is right but for its sign is no other quantity, though a body beside it may have that velocity.
+    let mut later = match right_but_for_sign(written, &trials) {
+        true => Vec::new(),
+        false => other_quantities(written, &trials, quantities),
+    };
     later.extend(rest);
     (found, later)
 }
@@ -182,15 +186,24 @@ fn beliefs(written: &Written, trials: &Trials, paired: bool) -> Vec<Diagnosis> {
     found
 }
 
+/// What is written, with the other sign.
+fn turned<'a>(written: &'a Written) -> Written<'a> {
+    let values = written.values.iter().map(|v| -v).collect();
+    written.of(written.ask, written.component, values)
+}
+
+fn right_but_for_sign(written: &Written, trials: &Trials) -> bool {
+    let truth = Slip::none(written.scene);
+    trials.times(-1.0).fits(&turned(written), &truth)
+}
+
 /// The belief whose answer is the written one with the other sign.
 fn opposite(written: &Written, trials: &Trials, slips: &[(&Belief, Slip)]) -> Vec<Diagnosis> {
-    let values = written.values.iter().map(|v| -v).collect();
-    let turned = written.of(written.ask, written.component, values);
-    let mirrored = trials.times(-1.0);
     // What is right but for its sign needs no belief beside it.
-    if mirrored.fits(&turned, &Slip::none(written.scene)) {
+    if right_but_for_sign(written, trials) {
         return Vec::new();
     }
+    let (turned, mirrored) = (turned(written), trials.times(-1.0));
     let hit = slips.iter().find(|(_, slip)| mirrored.fits(&turned, slip));
     hit.map(|(belief, slip)| {
         let mut d = words(belief, slip, written.rounding.is_some());

@@ -9,6 +9,7 @@ mod cause;
 mod link;
 mod names;
 mod rounded;
+mod said;
 mod text;
 mod why;
 
@@ -355,7 +356,7 @@ impl<'a> Desk<'a> {
             name.is_some_and(|name| self.closed.contains_key(name))
         };
         let lines = text.lines().map(|line| text::in_names(line, &asked));
-        lines.collect::<Vec<_>>().join("\n")
+        self.with_said(lines.collect()).join("\n")
     }
 
     /// A line is as good as its worst equation.

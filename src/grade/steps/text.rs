@@ -26,7 +26,7 @@ const REMARKS: &str = "along angular anticlockwise as because by clockwise conse
 const DESCRIBING: &str = "angular change energy force impulse kinetic loss lost momentum potential rotational speed total \
     velocity work";
 
-fn relates(text: &str) -> bool {
+pub(super) fn relates(text: &str) -> bool {
     text.contains('=') || text.contains(SIGNS) || text.contains("\\le") || text.contains("\\ge")
 }
 

@@ -1,0 +1,148 @@
+//! What a worked solution says of a quantity in words: `The angular velocity is 3v/2l`, `energy lost = …`, `Answer: …`.
+//!
+//! In: the lines, with names for words as far as they have any. Out: the lines with the name of what is asked in its place.
+
+use super::Desk;
+use super::text::relates;
+use crate::formula;
+use crate::scene::{Ask, Body, EnergyWhen, Question};
+
+/// What stands between words and what they say of a quantity.
+const SIGNS: [&str; 6] = [
+    " is equal to ",
+    " is given by ",
+    " equals ",
+    " is ",
+    "=",
+    ":",
+];
+
+/// Words that leave open what is spoken of.
+const FILLERS: &str = "a after amount and answer collision common final finally find get hence hit immediately impact in \
+    is it its just kinetic linear magnitude mechanical of our required result resulting so that the then therefore this thus \
+    total total. we which";
+
+/// The words before what a line says, and what it says; `Answer: the speed is …` says it behind two signs.
+fn parted(line: &str) -> Option<(Vec<String>, &str)> {
+    let (_, behind) = line.split_once(':').unwrap_or_default();
+    cut(behind).or_else(|| cut(line))
+}
+
+fn cut(line: &str) -> Option<(Vec<String>, &str)> {
+    let signs = SIGNS.iter();
+    let (at, sign) = signs
+        .filter_map(|s| Some((line.find(s)?, *s)))
+        .min_by_key(|(at, s)| (*at, std::cmp::Reverse(s.len())))?;
+    let (left, mut right) = (line[..at].trim(), line[at + sign.len()..].trim());
+    let plain = |c: char| c.is_alphanumeric() || " .,'-_∴".contains(c);
+    if left.is_empty() || right.is_empty() || !left.chars().all(plain) {
+        return None;
+    }
+    let words = left.split([' ', '-']).map(|word| {
+        let word = word.trim_matches(['.', ',', '∴']);
+        word.to_lowercase()
+    });
+    right = right.trim_start_matches(['=', ' ', '$']);
+    for lead in ["therefore ", "thus ", "hence ", "then "] {
+        right = right.strip_prefix(lead).unwrap_or(right);
+    }
+    Some((words.filter(|word| !word.is_empty()).collect(), right))
+}
+
+/// Whether words speak of what is asked, and of nothing else.
+fn speaks_of(words: &[String], question: &Question, names: &[String], lone: bool) -> bool {
+    let has = |any: &str| words.iter().any(|w| any.split(' ').any(|known| known == w));
+    let (kind, fits) = match &question.ask {
+        Ask::Spin { .. } => (
+            "angular rotational rate rotation speed velocity spin",
+            has("spin") || has("angular rotational rotation") && has("speed velocity rate"),
+        ),
+        Ask::Velocity { .. } => ("speed velocity", has("speed velocity")),
+        Ask::Value { meaning, .. } if meaning.contains("speed") => ("speed", has("speed")),
+        Ask::Energy {
+            when: EnergyWhen::Lost,
+            ..
+        } => (
+            "energy ke heat lost loss dissipated generated",
+            has("lost loss dissipated") && has("energy ke") || has("heat"),
+        ),
+        Ask::Impulse { .. } => ("impulse", has("impulse")),
+        Ask::Tension { .. } => ("tension string", has("tension")),
+        Ask::Acceleration { .. } => ("acceleration", has("acceleration")),
+        Ask::Time => ("time taken", has("time")),
+        Ask::Distance => ("distance moved travelled traveled", has("distance")),
+        _ => ("", false),
+    };
+    let known = |word: &String| {
+        let listed = |list: &str| list.split_whitespace().any(|w| w == word);
+        listed(FILLERS) || listed(kind) || names.contains(word)
+    };
+    (fits || lone && has("answer result")) && words.iter().all(known)
+}
+
+impl Desk<'_> {
+    /// Lines in which a quantity that no line has by its name has it where the last line speaks of it in words.
+    pub(super) fn with_said(&self, lines: Vec<String>) -> Vec<String> {
+        let mut lines = lines;
+        let questions: Vec<&Question> = self.sheet.answered().collect();
+        let scene = &self.sheet.scene;
+        let text = lines.join("\n");
+        let solved = super::names::solved_for(&text);
+        let open: Vec<&Question> = questions
+            .iter()
+            .copied()
+            .filter(|q| self.closed.contains_key(q.name.as_str()))
+            .filter(|q| solved.iter().all(|name| !stands_for(name, &q.name)))
+            .collect();
+        let mut told = vec![false; open.len()];
+        for line in lines.iter_mut().rev() {
+            let Some((words, right)) = parted(line) else {
+                continue;
+            };
+            let spoken = |q: &&Question| {
+                let names = names(&scene.bodies, &q.ask);
+                speaks_of(&words, q, &names, questions.len() == 1)
+            };
+            if relates(right) {
+                let named = questions.iter().any(spoken);
+                if named && line.contains(" is ") {
+                    *line = right.to_string();
+                }
+                continue;
+            }
+            let meant: Vec<&&Question> = questions.iter().filter(|q| spoken(q)).collect();
+            let [meant] = meant[..] else {
+                continue;
+            };
+            let Some(at) = open.iter().position(|q| q.name == meant.name) else {
+                continue;
+            };
+            let right = right.trim_end_matches(['.', '$', ' ']);
+            if !told[at] && formula::read(right, &self.symbols(right)).is_ok() {
+                told[at] = true;
+                *line = format!("{} = {right}", meant.name);
+            }
+        }
+        lines
+    }
+}
+
+/// The words that name the body and the point of a question.
+fn names(bodies: &[Body], ask: &Ask) -> Vec<String> {
+    let (body, point) = match ask {
+        Ask::Velocity { body, point, .. } => (*body, point.as_ref().map(|(name, _)| name)),
+        Ask::Spin { body, .. } | Ask::Acceleration { body } | Ask::Tension { body } => {
+            (*body, None)
+        }
+        _ => return Vec::new(),
+    };
+    let all = [Some(&bodies[body].name), point];
+    let words = all.into_iter().flatten().flat_map(|name| name.split(' '));
+    words.map(str::to_lowercase).collect()
+}
+
+/// Whether a name is that of a question, or of a component of it.
+fn stands_for(name: &str, question: &str) -> bool {
+    let behind = name.strip_prefix(question);
+    behind.is_some_and(|rest| matches!(rest, "" | "_x" | "_y"))
+}
