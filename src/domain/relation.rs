@@ -77,6 +77,21 @@ impl Domains {
         sample.keeps_to(&self.placed(|name| sample.coordinates.contains_key(name)))
     }
 
+    /// Whether it does so with another value of one symbol, which is told by its bounds.
+    pub fn admits_with(&self, sample: &Sample, name: &Symbol, value: Interval) -> bool {
+        let placed = self.placed(|other| other == name || sample.coordinates.contains_key(other));
+        if placed.is_empty() {
+            return true;
+        }
+        let mut point = sample.point::<Interval>(true);
+        point.directions.remove(name);
+        point.values.insert(name.clone(), Outcome::Value(value));
+        placed.iter().all(|r| {
+            let excess = evaluate(&r.excess, &point);
+            matches!(excess, Outcome::Value(v) if r.admits(v.low, v.high) == Some(true))
+        })
+    }
+
     /// What is said of the symbols, one condition each: ends of intervals, unit vectors, relations.
     pub fn conditions(&self) -> Vec<String> {
         let bounded = self.symbols.iter();
@@ -144,6 +159,18 @@ mod tests {
                 Outcome::Value(v) => assert!(v.low > 0.0, "{}", sample.words()),
                 _ => panic!("a value"),
             }
+        }
+    }
+
+    #[test]
+    fn a_point_is_left_out_where_another_value_of_a_symbol_breaks_a_relation() {
+        let e = Expr::symbol("M") + Expr::symbol("m");
+        let roles = roles(&[&e]);
+        let (domains, _) = chain().completed(&roles);
+        for sample in samples(&roles, &domains, 4) {
+            let far =
+                |value| domains.admits_with(&sample, &"M".into(), Interval::new(value, value));
+            assert!(far(1e6) && !far(1e-6), "{}", sample.words());
         }
     }
 

@@ -107,7 +107,10 @@ pub(super) fn in_words(text: &str, symbols: &Symbols) -> Option<Reading> {
     if !worded {
         return None;
     }
-    let (content, _) = together(&parts, Some(Join::And))?;
+    let content = match parts.as_slice() {
+        [only] => only.content.clone(),
+        _ => together(&parts, Some(Join::And))?.0,
+    };
     let mut reading = parts.pop()?;
     reading.content = content;
     reading.literal = None;

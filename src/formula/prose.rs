@@ -57,7 +57,10 @@ pub(super) fn behind_words(text: &str, known: &dyn Fn(&str) -> bool) -> Option<u
     let (mut at, mut words) = (0, Vec::new());
     for piece in text.split_inclusive(' ') {
         let word = piece.trim_end_matches([' ', ',']);
-        if !word.bytes().all(|b| b.is_ascii_alphabetic()) || word.is_empty() && piece != " " {
+        let last = at + piece.len() == text.len();
+        let number = last && word.trim_end_matches('.').eq_ignore_ascii_case("zero");
+        let letters = word.bytes().all(|b| b.is_ascii_alphabetic());
+        if number || !letters || word.is_empty() && piece != " " {
             break;
         }
         if !word.is_empty() {

@@ -6,7 +6,8 @@ use super::name;
 use super::note::Remark;
 use super::pair::Pair;
 use super::symbols::{Parts, is_greek, letters_at};
-use crate::expr::{Function, Symbol};
+use super::written::Literal;
+use crate::expr::{Function, Symbol, ratio};
 
 /// Most different names in one formula.
 const MAX_NAMES: usize = 256;
@@ -135,6 +136,11 @@ impl Lexer<'_> {
                 }
                 self.pos = start + length;
                 return Ok(Some(self.based(word, tok, start)));
+            }
+            let alone = length == run && start == self.run_from;
+            if word.eq_ignore_ascii_case("zero") && alone && self.symbols.find(word).is_none() {
+                self.pos = start + length;
+                return Ok(Some(Tok::Number(Literal::of(ratio(0, 1)))));
             }
             if word == "pi" {
                 self.pos = start + length;

@@ -60,7 +60,7 @@ fn english(text: &str, reading: &Reading) -> Option<Fault> {
         false from greater horizontal increases infinite infinity joules left less meters metres \
         more most least neither newtons none north nothing of only positive negative right same \
         seconds sign solution south than that the then there true undefined upward upwards \
-        vertical west where with yes zero";
+        vertical west where with yes";
     let split = reading.notes.iter().filter(|n| n.remark == Remark::Letters);
     let word = |note: &&Note| {
         let run = text.get(note.start..note.end).unwrap_or_default();

@@ -9,6 +9,7 @@ use crate::domain::{Domains, roles, samples};
 use crate::equality::identical;
 use crate::equality::zero_apart;
 use crate::expr::{Expr, Symbol};
+use crate::interval::Interval;
 use std::collections::BTreeSet;
 
 /// A point in words, with the value there of the difference that does not vanish.
@@ -181,7 +182,10 @@ pub(super) fn vanishing(part: &Expr, other: &Expr, domains: &Domains) -> Option<
             if domains.is_component(&name) {
                 continue;
             }
-            if let Some([root, value]) = zero_apart(part, other, &name, &start, domain) {
+            if let Some([root, value]) = zero_apart(part, other, &name, &start, domain)
+                && let (Some(low), Some(high)) = (root.low.nearest(), root.high.nearest())
+                && domains.admits_with(&start, &name, Interval::new(low, high))
+            {
                 return Some((words_at(&start, &name, &root), rounded(&value)));
             }
         }

@@ -121,7 +121,7 @@ fn holds_value(domain: &Domain, value: &Enclosure) -> bool {
     ends.all(|end| domain.contains(&end.to_rational()))
 }
 
-/// Whether the root's value lies strictly inside the symbol's domain.
+/// Whether the root's value lies strictly inside the symbol's domain, and keeps to the relations.
 fn exact_inside(root: &Expr, sample: &Sample, name: &Symbol, domains: &Domains) -> bool {
     let Some(domain) = domains.symbols.get(name) else {
         return true;
@@ -129,9 +129,10 @@ fn exact_inside(root: &Expr, sample: &Sample, name: &Symbol, domains: &Domains) 
     let Outcome::Value(value) = evaluate::<Interval>(root, &sample.point(true)) else {
         return false;
     };
-    [value.low, value.high]
-        .into_iter()
-        .all(|end| crate::expr::number::from_f64(end).is_some_and(|end| domain.contains(&end)))
+    domains.admits_with(sample, name, value)
+        && [value.low, value.high]
+            .into_iter()
+            .all(|end| crate::expr::number::from_f64(end).is_some_and(|end| domain.contains(&end)))
 }
 
 /// Whether two equations fix the same angle: `tan θ = 1/2` and `θ = atan(1/2)`, each of which has one solution at most on the

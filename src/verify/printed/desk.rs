@@ -283,10 +283,13 @@ pub(crate) fn friction_bound(scene: &Scene, name: &str) -> Option<(Expr, Relatio
     let Ask::Friction { contact, event } = &question.ask else {
         return None;
     };
-    // Of another impact than the scene's own the contact has another number.
-    let law = match (question.stage, &scene.contacts.get(*contact)?.law) {
-        (None, ContactLaw::Friction(law)) => law,
-        (None, ContactLaw::Decided(decided)) => &decided.law,
+    let impact = match question.stage {
+        None => scene,
+        Some(stage) => &scene.stages.get(stage)?.scene,
+    };
+    let law = match &impact.contacts.get(*contact)?.law {
+        ContactLaw::Friction(law) => law,
+        ContactLaw::Decided(decided) => &decided.law,
         _ => return None,
     };
     let relation = match event {
