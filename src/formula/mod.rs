@@ -63,6 +63,8 @@ pub(crate) use written::{has_arrow, is_component, with_arrow};
 
 /// Longest formula, in bytes.
 pub const MAX_BYTES: usize = 1 << 16;
+/// Longest text, in bytes, in which a formula is looked for among words.
+const MAX_WORDED: usize = 1 << 14;
 
 /// A formula that was read.
 #[derive(Clone, PartialEq, Debug)]
@@ -132,7 +134,7 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     }
     let worded = match &usual {
         Ok(reading) => reading.notes.iter().any(|n| n.remark == Remark::Letters),
-        Err(_) => text.len() <= MAX_BYTES,
+        Err(_) => text.len() <= MAX_WORDED,
     };
     if (worded || held.all("up to"))
         && let Some(bound) = bound::in_words(text, symbols)
@@ -245,14 +247,18 @@ pub fn slashes_turned(text: &str, symbols: &Symbols) -> Option<Reading> {
     read_as(text, symbols, 1u64 << lexer::SLASHES, prose::Held::of(text)).ok()
 }
 
-fn read_as(text: &str, symbols: &Symbols, flips: u64, held: prose::Held) -> Faulty<Reading> {
-    if text.len() > MAX_BYTES {
-        let message = format!(
-            "a formula has at most {MAX_BYTES} bytes, this one has {}",
-            text.len()
-        );
-        return Err(Fault::new(message, 0, 0));
+/// Refuses a text beyond [`MAX_BYTES`], before anything searches it.
+pub(crate) fn within_limit(text: &str) -> Faulty<()> {
+    let length = text.len();
+    if length <= MAX_BYTES {
+        return Ok(());
     }
+    let message = format!("a formula has at most {MAX_BYTES} bytes, this one has {length}");
+    Err(Fault::new(message, 0, 0))
+}
+
+fn read_as(text: &str, symbols: &Symbols, flips: u64, held: prose::Held) -> Faulty<Reading> {
+    within_limit(text)?;
     let (mut start, end) = boxed(text)?;
     let mut inner = &text[..end];
     // `**x = 5**` in Markdown.

@@ -299,7 +299,10 @@ const MOST_STEPS: u64 = 5_000_000;
 
 /// Judges an answer against an expected formula that was read before.
 pub fn judge_against(key: &Key, answer: &str, options: &Options) -> Grade {
-    effort::within(MOST_STEPS, || judge_within(key, answer, options))
+    match formula::within_limit(answer) {
+        Ok(()) => effort::within(MOST_STEPS, || judge_within(key, answer, options)),
+        Err(fault) => unreadable(*fault),
+    }
 }
 
 fn judge_within(key: &Key, answer: &str, options: &Options) -> Grade {
