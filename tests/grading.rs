@@ -140,7 +140,11 @@ fn answers_to_scenes_get_their_verdict_and_the_belief_behind_them() {
         let codes: Vec<&str> = grade.diagnosis.iter().map(|d| d.code).collect();
         // What is right but for its sign is never told to be right for another quantity.
         let twice = codes.contains(&"SIGN") && codes.contains(&"OTHER_QUANTITY");
-        let told = code.is_empty() || codes.contains(&code);
+        // A mark of exclamation stands before what must not be found.
+        let told = match code.strip_prefix('!') {
+            Some(absent) => !codes.contains(&absent),
+            None => code.is_empty() || codes.contains(&code),
+        };
         if grade.verdict.word() != verdict || !told || twice {
             let _ = writeln!(
                 wrong,

@@ -44,7 +44,7 @@ impl Held {
 /// Whether a word could change the value of what it stands beside.
 pub(super) fn changes(word: &str) -> bool {
     const CHANGING: &str = "above below cannot cosine cube cubed difference double except exceeds \
-        half if inverse least less logarithm minus more most negative never no not opposite or over \
+        false half if impossible incorrect inverse least less logarithm minus more most negative never no not opposite or over \
         per plus product quarter ratio reverse root sine square squared sum tangent tenth than third \
         thrice triple twice unless without";
     CHANGING.split(' ').any(|w| word.eq_ignore_ascii_case(w))

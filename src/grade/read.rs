@@ -238,10 +238,10 @@ fn with_definitions(key: &Key, text: &str) -> Option<Reading> {
         .trim_end_matches([' ', ',', ';', '$'])
         .trim_start_matches('$');
     let said = &text[at + length..];
-    let said = said
-        .strip_suffix(')')
-        .filter(|_| text[at..].starts_with(" ("))
-        .unwrap_or(said);
+    let said = match text[at..].starts_with(" (") {
+        true => said.strip_suffix(')')?,
+        false => said,
+    };
     let said = said.replace(" and ", ", ").replace(';', ",");
     let mut symbols = key.readable.clone();
     let mut parts = Vec::new();

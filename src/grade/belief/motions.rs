@@ -35,7 +35,9 @@ const MOTIONS: &[Belief] = &[
         hint: "whose height counts for the work of the weight?",
         slips: |s| {
             motions(s, &|stage| {
-                matches!(stage.kind, StageKind::Turn(_)) && scaled(stage, 2)
+                // A particle on a string has no end but itself.
+                let point = turned(stage).is_some_and(|(_, inertia)| inertia.is_zero());
+                matches!(stage.kind, StageKind::Turn(_)) && !point && scaled(stage, 2)
             })
         },
     },
