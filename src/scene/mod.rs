@@ -15,6 +15,7 @@ mod file;
 mod formulas;
 mod friction;
 mod geometry;
+mod joined;
 mod json;
 mod meant;
 pub mod outline;
@@ -52,6 +53,7 @@ pub use friction::{
     beside_friction,
 };
 pub use geometry::direction;
+pub use joined::{HINGED, Joint, joints, unsaid};
 pub use printed::{Print, Printed};
 pub use stage::{
     Carrier, Fall, FallEnd, Linkage, Lump, OneSided, Slide, SlideEnd, Spring, Stage, StageKind,

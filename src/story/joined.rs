@@ -1,69 +1,14 @@
-//! What an impact has joined stays joined: bodies that stick to each other or are hinged together move on as such, and take the
-//! next impact as such, unless the file says otherwise.
+//! What an impact has joined moves on joined, and takes part in the next impact: a file that says nothing of it is asked.
 
-use super::Refused;
-use crate::scene::{ContactLaw, Scene, Stage, StageKind};
-
-const HINGED: &str = "is hinged to";
-
-/// Two bodies that are joined, how, and since which stage.
-struct Joint<'a> {
-    bodies: [usize; 2],
-    how: &'static str,
-    since: &'a str,
-}
-
-/// The joints that are left of earlier impacts: those of the last one that acted on either body. What sticks to something fixed
-/// only leans on it: it tips over, or is lifted off. A hinge on it holds until the body slides or flies.
-fn joints<'a>(scene: &'a Scene, stage: &Stage) -> Vec<Joint<'a>> {
-    let (mut out, mut later): (Vec<Joint>, Vec<[usize; 2]>) = (Vec::new(), Vec::new());
-    let mut freed = Vec::new();
-    let mut from = stage.from;
-    while let Some(before) = from.map(|j| &scene.stages[j]) {
-        let contacts = before.scene.contacts.iter();
-        let sticking = contacts.filter(|c| matches!(c.law, ContactLaw::Sticking));
-        let hinges = before.scene.hinges.iter();
-        let joined = sticking.map(|c| (c.bodies, "sticks to"));
-        let joined = joined.chain(hinges.map(|h| (h.bodies, HINGED)));
-        let is_fixed = |b: &usize| before.scene.bodies[*b].is_fixed();
-        let holds = |bodies: &[usize; 2], how: &str| match bodies.iter().any(is_fixed) {
-            true => how == HINGED && !bodies.iter().any(|b| freed.contains(b)),
-            false => true,
-        };
-        let joined = joined.filter(|(bodies, how)| holds(bodies, how));
-        let is_open = |bodies: &[usize; 2]| !later.iter().flatten().any(|b| bodies.contains(b));
-        let joined = joined.filter(|(bodies, _)| is_open(bodies));
-        let since = before.name.as_str();
-        out.extend(joined.map(|(bodies, how)| Joint { bodies, how, since }));
-        later.extend(acting(before));
-        if let StageKind::Fall(_) | StageKind::Slide(_) | StageKind::Wind(_) = before.kind {
-            freed.extend(before.kind.moved());
-        }
-        from = before.from;
-    }
-    out
-}
-
-/// The bodies on which each impulse of an impact acts.
-fn acting(stage: &Stage) -> Vec<[usize; 2]> {
-    let StageKind::Impact { one_sided, .. } = &stage.kind else {
-        return Vec::new();
-    };
-    let contacts = stage.scene.contacts.iter().map(|c| c.bodies);
-    let hinges = stage.scene.hinges.iter().map(|h| h.bodies);
-    let blows = stage.scene.blows.iter().map(|b| [b.body; 2]);
-    let one_sided = one_sided.iter().map(|o| o.bodies);
-    contacts
-        .chain(hinges)
-        .chain(blows)
-        .chain(one_sided)
-        .collect()
-}
+use super::{Refused, State};
+use crate::answer::calc::is_zero;
+use crate::expr::minus;
+use crate::scene::{HINGED, Joint, Scene, Stage, joints, unsaid};
 
 /// What is joined to a body moves along with it.
 pub(super) fn left_behind(scene: &Scene, stage: &Stage) -> Result<(), Refused> {
     let moved = stage.kind.moved();
-    for joint in joints(scene, stage) {
+    for joint in joints(&scene.stages, stage) {
         let [a, b] = joint.bodies;
         let is_fixed = |b: usize| stage.scene.bodies[b].is_fixed();
         let (body, other) = match (moved.contains(&a), moved.contains(&b)) {
@@ -82,17 +27,42 @@ pub(super) fn left_behind(scene: &Scene, stage: &Stage) -> Result<(), Refused> {
     Ok(())
 }
 
+/// Bodies in flight move each as by itself, which joined ones do only where they do not turn about each other.
+pub(super) fn fly_alike(scene: &Scene, stage: &Stage, before: &State) -> Result<(), Refused> {
+    let moved = stage.kind.moved();
+    let mut joints = joints(&scene.stages, stage).into_iter();
+    let apart = joints.find(|joint| {
+        let [a, b] = joint.bodies;
+        let gap = minus(&before.velocity[a], &before.velocity[b]);
+        // A particle at the center of what turns stays there.
+        let is_particle = |b: usize| stage.scene.bodies[b].is_particle();
+        let spins = [a, b]
+            .into_iter()
+            .filter(|_| ![a, b].into_iter().any(is_particle));
+        let mut all = gap.iter().chain(spins.map(|b| &before.spin[b]));
+        moved.contains(&a)
+            && moved.contains(&b)
+            && all.any(|e| is_zero(e, &stage.scene.domains) != Some(true))
+    });
+    apart.map_or(Ok(()), |joint| {
+        let [a, b] = joint.bodies.map(|b| &stage.scene.bodies[b].name);
+        let why = format!(
+            "`{b}` {} `{a}` since `{}`, and where they turn neither flies as by itself",
+            joint.how, joint.since
+        );
+        let hint = "bodies that stay stuck together fly on as one body: a `composite` with this velocity and spin, in a scene of its own";
+        Err(Refused::new(&stage.name, why, hint))
+    })
+}
+
 /// What is joined to a body that an impulse acts on has its part of it.
 pub(super) fn left_out(scene: &Scene, stage: &Stage) -> Result<(), Refused> {
-    let acting = acting(stage);
-    for Joint { bodies, how, since } in joints(scene, stage) {
-        let [a, b] = bodies;
-        let is_struck = acting.iter().any(|of| of.contains(&a) || of.contains(&b));
-        let is_said = acting.iter().any(|of| of.contains(&a) && of.contains(&b));
-        if is_said || !is_struck {
-            continue;
-        }
-        let [a, b] = [a, b].map(|b| &stage.scene.bodies[b].name);
+    let mut unsaid = unsaid(&scene.stages, stage).into_iter();
+    unsaid.next().map_or(Ok(()), |joint| {
+        let Joint {
+            bodies, how, since, ..
+        } = joint;
+        let [a, b] = bodies.map(|b| &stage.scene.bodies[b].name);
         let why = format!("`{b}` {how} `{a}` since `{since}`, and nothing is said of that here");
         let hint = match how {
             HINGED => {
@@ -102,7 +72,6 @@ pub(super) fn left_out(scene: &Scene, stage: &Stage) -> Result<(), Refused> {
                 "repeat the contact in this impact: sticking where it holds, without law where it comes loose"
             }
         };
-        return Err(Refused::new(&stage.name, why, hint));
-    }
-    Ok(())
+        Err(Refused::new(&stage.name, why, hint))
+    })
 }

@@ -575,7 +575,10 @@ fn one(
             let is_driven = mine.into_iter().any(|q| by_newton(&q.ask));
             motion::slide(stage, before, slide, is_driven)
         }
-        StageKind::Fall(fall) => motion::fall(stage, before, fall),
+        StageKind::Fall(fall) => {
+            joined::fly_alike(scene, stage, &before)?;
+            motion::fall(stage, before, fall)
+        }
         StageKind::Wind(wind) => motion::wind(stage, before, wind),
         StageKind::Linkage(linkage) => motion::linkage(stage, before, linkage),
     }

@@ -27,6 +27,17 @@ pub(super) fn ask(
         let message = "a question about any turn needs the answers of one turn, `of`";
         return base.refuse(number.span, message, SO);
     };
+    if scene
+        .parameter(&Symbol::from(number.text.as_str()))
+        .is_none()
+    {
+        let message = format!("there is no parameter `{}` to count the turns", number.text);
+        let hint = format!(
+            "add \"{}\": {{\"unit\": \"1\"}} to `parameters`",
+            number.text
+        );
+        return base.refuse(number.span, message, hint);
+    }
     let mut reader = Reader { base, symbols };
     let name = reader.parameter(number)?;
     let parameter = scene.parameter(&name)?;

@@ -29,7 +29,7 @@ use crate::scene::record::{Map, Text};
 use crate::scene::resolve::{Resolver, entries, keys};
 use crate::scene::stage::{OneSided, Stage, StageKind};
 use crate::scene::stage_file::{EndName, StageFile, StartFile};
-use crate::scene::{Body, Scene, Shape, geometry, questions};
+use crate::scene::{Body, Scene, Shape, geometry, joined, questions};
 
 /// Most stages a scene may have.
 pub(super) const STAGES: usize = 40;
@@ -101,7 +101,7 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
             let message = format!("`{what}` of a scene with stages belongs into an impact");
             let hint = match what {
                 "hinges" => {
-                    "above the stages stand hinges on a fixed body, whose bodies never fall or slide; the others belong into the impact they hold in"
+                    "above the stages stand hinges on a fixed body, whose bodies never fall or slide; of a body that is let go, a `turn` says its point by \"about\", and hinges belong into the impacts they hold in"
                 }
                 _ => "\"stages\": [{\"name\": \"impact\", \"impact\": {\"contacts\": …}}]",
             };
@@ -158,6 +158,7 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     }
     name_pivots(scene);
     begin(scene);
+    joined::keep(scene);
     if base.faults.is_empty() {
         questions::of_stages(base, scene, &homes);
     }

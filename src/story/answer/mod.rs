@@ -440,7 +440,8 @@ fn quantity(
     let mut out = Vec::new();
     for (i, told, way) in ways {
         let outcomes = told.cases.iter();
-        let outcomes = outcomes.flat_map(|case| of_case(question, case, cases > 1));
+        let name = (scene.stages.len() > 1).then_some(told.name.as_str());
+        let outcomes = outcomes.flat_map(|case| of_case(question, (name, case), cases > 1));
         let mut own = match told.cases.is_empty() {
             true => motion::at_end(scene, question, told)?,
             false => outcomes.collect(),
@@ -503,16 +504,31 @@ fn threshold(question: &Question, ways: Vec<(usize, &StageTold, Way)>) -> Vec<An
     out
 }
 
-/// The answers of one outcome of an impact.
-fn of_case(question: &Question, case: &Case, several: bool) -> Vec<Answer> {
+/// What is asked of an impact, told of the one of this name.
+fn in_impact(words: &str, name: &str) -> String {
+    for when in ["just after", "just before"] {
+        if let Some((what, rest)) = words.split_once(when) {
+            return format!("{what}{when} `{name}`{rest}");
+        }
+    }
+    let (what, along) = words.split_at(words.find(", along ").unwrap_or(words.len()));
+    format!("{what} in `{name}`{along}")
+}
+
+/// The answers of one outcome of an impact, which has a name where there are others.
+fn of_case(question: &Question, (name, case): (Option<&str>, &Case), several: bool) -> Vec<Answer> {
     let mut out = Vec::new();
     for (answer, checks) in case.derivation.answers.iter().zip(&case.proof.answers) {
         if answer.question != question.name {
             continue;
         }
+        let said = name.map_or_else(
+            || answer.words.clone(),
+            |name| in_impact(&answer.words, name),
+        );
         let words = match several {
-            true => format!("{}, {}", answer.words, words::active(case)),
-            false => answer.words.clone(),
+            true => format!("{said}, {}", words::active(case)),
+            false => said,
         };
         let mut a = Answer {
             words,

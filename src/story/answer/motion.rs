@@ -353,17 +353,19 @@ pub(super) fn at_end(
     let domains = &scene.domains;
     let refuse = |reason: &str| Refused::question(&question.name, reason, "");
     let ask = told.placed.asked(question);
+    let of = |body: &usize| format!("of `{}`", scene.bodies[*body].name);
     let what = match ask {
-        Ask::Spin { .. } => String::from("angular velocity"),
-        Ask::Velocity { point: None, .. } => String::from("velocity of the center of mass"),
+        Ask::Spin { body, .. } => format!("angular velocity {}", of(body)),
+        Ask::Velocity {
+            point: None, body, ..
+        } => {
+            format!("velocity of the center of mass {}", of(body))
+        }
         Ask::Velocity {
             body,
             point: Some((point, _)),
             ..
-        } => {
-            let name = &scene.bodies[*body].name;
-            format!("velocity of the point {point} of `{name}`")
-        }
+        } => format!("velocity of the point {point} {}", of(body)),
         Ask::Energy {
             when: EnergyWhen::Lost,
             ..

@@ -1,8 +1,10 @@
 //! Flight of bodies, with gravity or without, until a time, a height or a horizontal distance.
 
-use super::{Moved, Movers, REST, Units, all_open, stopped};
+use super::{Moved, Movers, REST, ROUNDING, Units, all_open, stopped};
 use crate::numeric::follow::mechanism::{Goal, Mechanism, Mobile, Run};
-use crate::numeric::follow::{BodyState, Component, Course, Lost, Open, Passed, State, Why};
+use crate::numeric::follow::{
+    BodyState, Component, Course, Freedom, Lost, Open, Passed, State, Why,
+};
 use crate::scene::{Fall, FallEnd};
 
 /// Said of a height that is not on the way.
@@ -26,6 +28,11 @@ pub(in crate::numeric::follow) fn fall(
     fall: &Fall,
 ) -> Result<Passed, Lost> {
     let bodies = fall.bodies();
+    if turn_together(course, &before, &bodies) {
+        return Err(
+            course.out_of_reach("bodies that are joined and turn do not fly each by itself")
+        );
+    }
     let gravity = course.optional(fall.gravity.as_ref(), "gravity")?;
     let end = match &fall.until {
         FallEnd::Time(time) => End::Time(course.number(time, "time")?),
@@ -85,6 +92,25 @@ pub(in crate::numeric::follow) fn fall(
         ..Moved::default()
     };
     Ok(course.moved([before, after], time, fall.gravity.is_some(), moved))
+}
+
+/// Whether bodies in flight are joined to each other and turn, other than a particle at the center of what turns.
+fn turn_together(course: &Course<'_>, before: &State, bodies: &[usize]) -> bool {
+    let mut joined = before
+        .joined
+        .iter()
+        .filter(|pair| pair.iter().all(|b| bodies.contains(b)));
+    joined.any(|[a, b]| {
+        let [one, two] = [a, b].map(|b| &before.bodies[*b]);
+        let gap = one.velocity.iter().zip(&two.velocity);
+        let moves_off = gap.into_iter().any(|pair| match pair {
+            (Ok(u), Ok(v)) => (u - v).abs() > ROUNDING * u.abs().max(v.abs()).max(REST),
+            _ => false,
+        });
+        let is_rigid = |b: &usize| course.solids[*b].freedom == Freedom::Rigid;
+        let turns = |body: &BodyState| matches!(body.spin, Ok(w) if w.abs() > ROUNDING);
+        moves_off || is_rigid(a) && is_rigid(b) && (turns(one) || turns(two))
+    })
 }
 
 /// What was open stays open, and so do places that came from open velocities.

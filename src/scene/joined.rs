@@ -1,0 +1,139 @@
+//! What an impact has joined stays joined: bodies that stick to each other or are hinged together move on as such, and take the
+//! next impact as such, unless the file says otherwise. A particle that has stuck is rigidly fixed where it is, so later impacts
+//! that do not speak of it keep it there; of larger bodies, which stick at a point, the file has to tell.
+
+use super::{Contact, ContactLaw, Scene, Stage, StageKind};
+
+/// What holds a hinge.
+pub const HINGED: &str = "is hinged to";
+
+/// Two bodies that are joined, how, and since which stage.
+pub struct Joint<'a> {
+    /// Indices of the bodies.
+    pub bodies: [usize; 2],
+    /// In words, between the second and the first.
+    pub how: &'static str,
+    /// Name of the contact or hinge.
+    pub name: &'a str,
+    /// Name of the stage.
+    pub since: &'a str,
+}
+
+/// The joints that are left of earlier impacts: those of the last one that acted on either body. What sticks to something fixed
+/// only leans on it: it tips over, or is lifted off. A hinge on it holds until the body slides or flies.
+pub fn joints<'a>(stages: &'a [Stage], stage: &Stage) -> Vec<Joint<'a>> {
+    let (mut out, mut later): (Vec<Joint>, Vec<[usize; 2]>) = (Vec::new(), Vec::new());
+    let mut freed = Vec::new();
+    let mut from = stage.from;
+    while let Some(before) = from.map(|j| &stages[j]) {
+        let contacts = before.scene.contacts.iter();
+        let sticking = contacts.filter(|c| matches!(c.law, ContactLaw::Sticking));
+        let hinges = before.scene.hinges.iter();
+        let joined = sticking.map(|c| (c.bodies, "sticks to", c.name.as_str()));
+        let joined = joined.chain(hinges.map(|h| (h.bodies, HINGED, h.name.as_str())));
+        let is_fixed = |b: &usize| before.scene.bodies[*b].is_fixed();
+        let holds = |bodies: &[usize; 2], how: &str| match bodies.iter().any(is_fixed) {
+            true => how == HINGED && !bodies.iter().any(|b| freed.contains(b)),
+            false => true,
+        };
+        let joined = joined.filter(|(bodies, how, _)| holds(bodies, how));
+        let is_open = |bodies: &[usize; 2]| !later.iter().flatten().any(|b| bodies.contains(b));
+        let joined = joined.filter(|(bodies, ..)| is_open(bodies));
+        let since = before.name.as_str();
+        out.extend(joined.map(|(bodies, how, name)| Joint {
+            bodies,
+            how,
+            name,
+            since,
+        }));
+        later.extend(acting(before));
+        if let StageKind::Fall(_) | StageKind::Slide(_) | StageKind::Wind(_) = before.kind {
+            freed.extend(before.kind.moved());
+        }
+        from = before.from;
+    }
+    out
+}
+
+/// The bodies on which each impulse of an impact acts.
+fn acting(stage: &Stage) -> Vec<[usize; 2]> {
+    let StageKind::Impact { one_sided, .. } = &stage.kind else {
+        return Vec::new();
+    };
+    let contacts = stage.scene.contacts.iter().map(|c| c.bodies);
+    let hinges = stage.scene.hinges.iter().map(|h| h.bodies);
+    let blows = stage.scene.blows.iter().map(|b| [b.body; 2]);
+    let one_sided = one_sided.iter().map(|o| o.bodies);
+    contacts
+        .chain(hinges)
+        .chain(blows)
+        .chain(one_sided)
+        .collect()
+}
+
+/// The joints with a part in an impact that says nothing of them: an impulse acts on one of their bodies.
+pub fn unsaid<'a>(stages: &'a [Stage], stage: &Stage) -> Vec<Joint<'a>> {
+    let acting = acting(stage);
+    let mut out = joints(stages, stage);
+    out.retain(|joint| {
+        let [a, b] = joint.bodies;
+        let is_struck = acting.iter().any(|of| of.contains(&a) || of.contains(&b));
+        let is_said = acting.iter().any(|of| of.contains(&a) && of.contains(&b));
+        is_struck && !is_said
+    });
+    out
+}
+
+/// Keeps particles where they stick, in every impact that does not speak of them; the scene tells that it is read so.
+pub(super) fn keep(scene: &mut Scene) {
+    for i in 0..scene.stages.len() {
+        // What is kept may strike what sticks to it.
+        while let Some((contact, reading)) = kept(&scene.stages, &scene.stages[i]) {
+            scene.stages[i].scene.contacts.push(contact);
+            if !scene.readings.contains(&reading) {
+                scene.readings.push(reading);
+            }
+        }
+    }
+}
+
+/// A particle that sticks to something since before this impact, which does not speak of it: the contact that keeps it there.
+fn kept(stages: &[Stage], stage: &Stage) -> Option<(Contact, String)> {
+    let bodies = &stage.scene.bodies;
+    let mut found = unsaid(stages, stage).into_iter();
+    found.find_map(|joint| {
+        let at = joint
+            .bodies
+            .into_iter()
+            .find(|b| bodies[*b].is_particle())?;
+        if joint.how == HINGED {
+            return None;
+        }
+        let [a, b] = joint.bodies.map(|b| &bodies[b].name);
+        let reading = format!("once {b} has stuck to {a}, it stays stuck");
+        let contact = Contact {
+            name: free_name(stage, joint.name, [a, b]),
+            bodies: joint.bodies,
+            at: bodies[at].center.clone(),
+            normal: None,
+            law: ContactLaw::Sticking,
+            passes: false,
+        };
+        Some((contact, reading))
+    })
+}
+
+/// The name of the contact, if the impact has not given it to something else.
+fn free_name(stage: &Stage, name: &str, [a, b]: [&String; 2]) -> String {
+    let contacts = stage.scene.contacts.iter().map(|c| &c.name);
+    let hinges = stage.scene.hinges.iter().map(|h| &h.name);
+    let blows = stage.scene.blows.iter().map(|b| &b.name);
+    let mut taken: Vec<&String> = contacts.chain(hinges).chain(blows).collect();
+    if let StageKind::Impact { one_sided, .. } = &stage.kind {
+        taken.extend(one_sided.iter().map(|o| &o.name));
+    }
+    let pair = [b.clone(), a.clone(), format!("{a}_{b}")];
+    let mut names = std::iter::once(name.to_owned()).chain(pair);
+    let free = names.find(|name| !taken.contains(&name));
+    free.unwrap_or_else(|| format!("{a}_{b}_{}", taken.len()))
+}
