@@ -7,7 +7,7 @@ use num_traits::Signed;
 use super::Finding;
 use super::desk::Desk;
 use super::number::{last_place, number_of};
-use crate::algebra;
+use crate::algebra::{self, Sign};
 use crate::dimension;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Point, Rational, Symbol, ratio};
@@ -199,7 +199,12 @@ impl Desk<'_> {
             let is_plain =
                 |e: &Expr| e.is_constant() || e.as_symbol().is_some() || (-e).as_symbol().is_some();
             let factor = self.factor_of(closed, value);
-            for p in &self.scene.parameters {
+            for p in self
+                .scene
+                .parameters
+                .iter()
+                .filter(|p| self.may_vanish(&p.name))
+            {
                 let at_zero = BTreeMap::from([(p.name.clone(), Expr::zero())]);
                 let (a, b) = (closed.substitute(&at_zero), value.substitute(&at_zero));
                 let shorter =
@@ -219,6 +224,18 @@ impl Desk<'_> {
         }
         let words = "putting simple numbers in, or the result back into the laws";
         finding.caught_by = Some(words.into());
+    }
+
+    /// Whether a parameter may come near zero, by its domain and by what is granted.
+    fn may_vanish(&self, name: &Symbol) -> bool {
+        let domains = &self.scene.domains;
+        let low = domains.symbols.get(name).and_then(|d| d.bounds()[0]);
+        let broken = domains.relations.iter().any(|r| {
+            let there = r.excess.put(name, &Expr::zero());
+            r.excess.mentions(name)
+                && algebra::sign(&there, &domains.of(&[&there])) == Some(Sign::Negative)
+        });
+        low.is_none_or(|low| low <= 0.0) && !broken
     }
 
     /// A single slip in evaluating a formula for the same quantity that gives the printed number.
