@@ -112,7 +112,7 @@ fn kept(stages: &[Stage], stage: &Stage) -> Option<(Contact, String)> {
         let [a, b] = joint.bodies.map(|b| &bodies[b].name);
         let reading = format!("once {b} has stuck to {a}, it stays stuck");
         let contact = Contact {
-            name: free_name(stage, joint.name, [a, b]),
+            name: free_name(stage, joint.name),
             bodies: joint.bodies,
             at: bodies[at].center.clone(),
             normal: None,
@@ -123,17 +123,28 @@ fn kept(stages: &[Stage], stage: &Stage) -> Option<(Contact, String)> {
     })
 }
 
-/// The name of the contact, if the impact has not given it to something else.
-fn free_name(stage: &Stage, name: &str, [a, b]: [&String; 2]) -> String {
-    let contacts = stage.scene.contacts.iter().map(|c| &c.name);
-    let hinges = stage.scene.hinges.iter().map(|h| &h.name);
-    let blows = stage.scene.blows.iter().map(|b| &b.name);
-    let mut taken: Vec<&String> = contacts.chain(hinges).chain(blows).collect();
+/// The name of the contact, or a letter if the impact has given it to something else.
+fn free_name(stage: &Stage, name: &str) -> String {
+    let Scene {
+        contacts,
+        hinges,
+        blows,
+        bodies,
+        points,
+        ..
+    } = &stage.scene;
+    let acting = contacts.iter().map(|c| &c.name);
+    let acting = acting.chain(hinges.iter().map(|h| &h.name));
+    let mut taken: Vec<&String> = acting.chain(blows.iter().map(|b| &b.name)).collect();
     if let StageKind::Impact { one_sided, .. } = &stage.kind {
         taken.extend(one_sided.iter().map(|o| &o.name));
     }
-    let pair = [b.clone(), a.clone(), format!("{a}_{b}")];
-    let mut names = std::iter::once(name.to_owned()).chain(pair);
-    let free = names.find(|name| !taken.contains(&name));
-    free.unwrap_or_else(|| format!("{a}_{b}_{}", taken.len()))
+    if taken.iter().all(|t| *t != name) {
+        return name.to_owned();
+    }
+    taken.extend(bodies.iter().map(|b| &b.name));
+    taken.extend(points.iter().map(|p| &p.name));
+    let mut letters = ["K", "L", "N", "Q", "S", "U", "Z"].into_iter();
+    let free = letters.find(|letter| taken.iter().all(|t| t != letter));
+    free.map_or_else(|| format!("K_{}", taken.len()), String::from)
 }
