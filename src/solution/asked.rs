@@ -9,6 +9,7 @@ use super::opening::NUMBERS;
 use super::sentence::{called, full_sentence, sentence};
 use super::words::{self, fill, say};
 use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Solution};
+use crate::algebra::{Sign, sign};
 use crate::answer::{Answer, Form};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Relation;
@@ -106,7 +107,8 @@ fn as_it_stands(scene: &Scene, ask: &Ask, answers: &[Answer], condition: &mut An
     }
 }
 
-/// Where a value is largest inside its range: its derivative vanishes there. Whether there was anything to say.
+/// Where a value is largest: inside its range its derivative vanishes, and at an end it has one sign all the way. Whether there
+/// was anything to say.
 fn slope(
     solution: &mut Solution,
     scene: &Scene,
@@ -123,12 +125,21 @@ fn slope(
     let slope = tidied(scene, &of.substitute(&known.collect()).derivative(p));
     let there = std::collections::BTreeMap::from([(p.clone(), place.clone())]);
     let vanishes = tidied(scene, &slope.substitute(&there)).is_zero();
-    if at.as_symbol() != Some(p) || !vanishes || slope.size() > READABLE {
+    let way = match sign(&slope, &scene.domains) {
+        Some(Sign::Negative | Sign::NotPositive) => Some("≤"),
+        Some(Sign::Positive | Sign::NotNegative) => Some("≥"),
+        _ => None,
+    };
+    if at.as_symbol() != Some(p) || !vanishes && way.is_none() || slope.size() > READABLE {
         return false;
     }
-    let lead = "It is largest where its derivative with respect to {} vanishes:";
+    let lead = match way {
+        Some("≤") => "It nowhere grows with {}, since its derivative is",
+        Some(_) => "It nowhere falls with {}, since its derivative is",
+        None => "It is largest where its derivative with respect to {} vanishes:",
+    };
     solution.text(fill(lead, [words::formula(at)]));
-    let math = words::related(&slope, "=", &Expr::zero());
+    let math = words::related(&slope, way.unwrap_or("="), &Expr::zero());
     solution.display(vec![Line::plain(math)]);
     true
 }

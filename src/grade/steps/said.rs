@@ -33,7 +33,8 @@ fn cut(line: &str) -> Option<(Vec<String>, &str)> {
     let (at, sign) = signs
         .filter_map(|s| Some((line.find(s)?, *s)))
         .min_by_key(|(at, s)| (*at, std::cmp::Reverse(s.len())))?;
-    let (left, mut right) = (line[..at].trim(), line[at + sign.len()..].trim());
+    let left = line[..at].trim_matches([' ', '$']);
+    let mut right = line[at + sign.len()..].trim();
     let plain = |c: char| c.is_alphanumeric() || " .,'-_∴".contains(c);
     if left.is_empty() || right.is_empty() || !left.chars().all(plain) {
         return None;

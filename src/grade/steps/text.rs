@@ -319,7 +319,7 @@ fn describes(left: &str) -> bool {
 }
 
 /// An equation without the number or the words in brackets behind it: `(downwards)`, `(by symmetry)`, `\\tag{3}`, and a `(3)`
-/// that stands well apart, since closer it is a factor.
+/// that stands well apart or behind dots, since closer it is a factor.
 fn without_remark(text: &str) -> &str {
     let Some((before, behind)) = text.rsplit_once(['(', '{']) else {
         return text;
@@ -329,11 +329,15 @@ fn without_remark(text: &str) -> &str {
     };
     let number = !inside.is_empty() && inside.bytes().all(|b| b.is_ascii_digit());
     let first = inside.split(' ').next().unwrap_or_default();
+    let mut dots = ["..", "…", "--"].iter();
+    let apart = before.ends_with("  ") || dots.any(|d| before.trim_end().ends_with(d));
     let words = text.ends_with(')') && REMARKS.split_whitespace().any(|word| word == first);
     match before.strip_suffix("\\tag") {
         Some(equation) if number => equation.trim_end(),
         None if words => before.trim_end(),
-        None if text.ends_with(')') && number && before.ends_with("  ") => before.trim_end(),
+        None if text.ends_with(')') && number && apart => {
+            before.trim_end_matches([' ', '.', '…', '-'])
+        }
         _ => text,
     }
 }

@@ -7,7 +7,7 @@ use crate::expr::{Expr, Node, Symbol, dot, minus};
 use crate::scene::{Ask, Linkage, Slide, SlideEnd, Spring, Stage, StageKind, Turn, Until};
 use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::words::{self, fill, name, say, set, vector};
-use crate::solution::{Claim, Line, Math};
+use crate::solution::{Claim, Inline, Line, Math};
 use crate::story::{StageTold, State};
 
 /// Largest equation of motion, in nodes, that is written out.
@@ -428,23 +428,42 @@ impl Page<'_> {
     fn velocities(&mut self, told: &StageTold, linkage: &Linkage) {
         let rate = self.rate(linkage, "dot");
         let scene = &told.placed.scene;
-        let mut lines = Vec::new();
+        let half = Expr::ratio(1, 2);
+        let (mut lines, mut energies) = (Vec::new(), Vec::new());
         for (b, place) in &linkage.places {
             let called = words::center(self.scene, *b);
-            let per = place.each_ref().map(|e| {
-                let change = tidied(self.scene, &e.derivative(&linkage.coordinate));
-                &change * &rate
-            });
-            let [x, y, angle] = per;
+            let per = place
+                .each_ref()
+                .map(|e| tidied(self.scene, &e.derivative(&linkage.coordinate)));
+            let squares = per.each_ref().map(|change| change.powi(2));
+            let [x, y, angle] = per.map(|change| change * &rate);
             if !(x.is_zero() && y.is_zero()) {
+                let square = tidied(self.scene, &(&squares[0] + &squares[1]));
+                energies.push(&half * &scene.bodies[*b].mass * square);
                 let math = set("{} = {}", [vector("v", &called, ""), [x, y].into()]);
                 lines.push(Line::plain(math));
             }
             if !scene.bodies[*b].is_particle() && !angle.is_zero() {
+                let inertia = tidied(self.scene, &scene.bodies[*b].inertia);
+                energies.push(&half * inertia * &squares[2]);
                 let index = if called == "G" { "" } else { &called };
                 let omega = name("omega", index, "", false);
                 lines.push(Line::plain(set("{} = {}", [omega, angle.into()])));
             }
+        }
+        let square = rate.powi(2);
+        let whole = tidied(self.scene, &Expr::sum(energies.iter().cloned())) * &square;
+        let by_parts = energies.len() > 1 && whole.size() <= READABLE;
+        if by_parts {
+            let mut math = vec![words::kinetic("", "")];
+            for (i, part) in energies.into_iter().enumerate() {
+                math.extend([
+                    Math::Op(if i == 0 { "=" } else { "+" }),
+                    (part * &square).into(),
+                ]);
+            }
+            math.extend([Math::Op("="), whole.into()]);
+            lines.push(Line::plain(math));
         }
         let coordinate = Expr::symbol(&linkage.coordinate);
         let both = [&coordinate, &rate].map(words::formula);
@@ -452,6 +471,10 @@ impl Page<'_> {
             "The position of every body follows from {}, and its velocity from the rate {}; translation and rotation together make up the kinetic energy",
             both,
         );
+        if by_parts {
+            let inline = Inline::Math(vec![words::kinetic("", "")]);
+            text.extend([say(" "), inline]);
+        }
         if linkage.ends[0] == coordinate {
             text.extend(fill(
                 " (here {} is the value on the way, elsewhere the one at the beginning)",
