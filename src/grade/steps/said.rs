@@ -2,6 +2,8 @@
 //!
 //! In: the lines, with names for words as far as they have any. Out: the lines with the name of what is asked in its place.
 
+use std::collections::BTreeMap;
+
 use super::Desk;
 use super::text::relates;
 use crate::formula;
@@ -96,8 +98,11 @@ impl Desk<'_> {
             .filter(|q| solved.iter().all(|name| !stands_for(name, &q.name)))
             .collect();
         let mut told = vec![false; open.len()];
+        // A claim at the end is an answer, right or wrong; words on the way may be about anything else.
+        let mut at_end = true;
         for line in lines.iter_mut().rev() {
             let Some((words, right)) = parted(line) else {
+                at_end &= !relates(line);
                 continue;
             };
             let spoken = |q: &&Question| {
@@ -106,6 +111,7 @@ impl Desk<'_> {
             };
             if relates(right) {
                 let named = questions.iter().any(spoken);
+                at_end &= named;
                 if named && line.contains(" is ") {
                     *line = right.to_string();
                 }
@@ -113,13 +119,24 @@ impl Desk<'_> {
             }
             let meant: Vec<&&Question> = questions.iter().filter(|q| spoken(q)).collect();
             let [meant] = meant[..] else {
+                at_end &= !relates(line);
                 continue;
             };
             let Some(at) = open.iter().position(|q| q.name == meant.name) else {
                 continue;
             };
             let right = right.trim_end_matches(['.', '$', ' ']);
-            if !told[at] && formula::read(right, &self.symbols(right)).is_ok() {
+            let Ok(reading) = formula::read(right, &self.symbols(right)) else {
+                continue;
+            };
+            let is_so = || {
+                let value = self.closed.get(meant.name.as_str());
+                let pair = reading.expr().zip(value);
+                pair.is_some_and(|(said, value)| {
+                    self.all_zero(&[said - value], &BTreeMap::new()) == Some(true)
+                })
+            };
+            if !told[at] && (at_end || is_so()) {
                 told[at] = true;
                 *line = format!("{} = {right}", meant.name);
             }
