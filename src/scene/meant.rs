@@ -23,8 +23,15 @@ pub(super) fn missing(field: &str) -> Option<&'static str> {
 
 /// An object with many fields, where something else stands in its place.
 pub(super) fn example(fields: &[&str]) -> Option<&'static str> {
-    let is_question = fields.contains(&"threshold");
-    is_question.then_some("such as {\"velocity\": \"A\", \"along\": \"x\"}")
+    match fields {
+        _ if fields.contains(&"threshold") => {
+            Some("such as {\"velocity\": \"A\", \"along\": \"x\"}")
+        }
+        _ if fields.starts_with(&["body", "with", "friction"]) => Some(
+            "what is slid `on` moves too, such as {\"body\": \"plank\"}; fixed ground has no `on`",
+        ),
+        _ => None,
+    }
 }
 
 /// What a word means among these; `Some(None)` where nothing is to be said of it.
@@ -82,6 +89,9 @@ fn among(word: &str, here: &[&str]) -> Option<Option<&'static str>> {
         }
         "formula" | "text" | "answer" | "value" if has("printed") => {
             "the formula that is printed for an `item` is `printed`; a `number` is printed `of` one"
+        }
+        "mu" | "mu_k" | "coefficient" | "friction_coefficient" if has("friction") => {
+            "the coefficient of friction of a motion is its `friction`"
         }
         "restitution" if has("frictionless") => {
             "a contact with a coefficient of restitution has \"law\": \"frictionless\" and \"restitution\": \"e\""

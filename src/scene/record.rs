@@ -269,10 +269,8 @@ pub(super) fn fields<'n, 't>(
         let message = format!("expected an object, found {}", node.kind());
         let mut fault = Fault::new(node.span, message);
         let all: Vec<&str> = names().collect();
-        fault.hint = match known.len() <= MANY {
-            true => Some(format!("its fields are {}", all.join(", "))),
-            false => meant::example(&all).map(str::to_owned),
-        };
+        let few = || (known.len() <= MANY).then(|| format!("its fields are {}", all.join(", ")));
+        fault.hint = meant::example(&all).map(str::to_owned).or_else(few);
         return fault.add_to(faults);
     };
     let mut entries = unique(entries, faults);
