@@ -174,7 +174,16 @@ fn kind(r: &mut Resolver<'_>, name: &Text, q: &QuestionFile) -> Option<&'static 
     for (field, given) in fields(q) {
         if given && !one.fields.contains(&field) {
             let message = format!("a question that asks `{}` has no `{field}`", one.name);
-            r.faults.push(Fault::new(name.span, message));
+            let fields: Vec<String> = one.fields.iter().map(|f| format!("`{f}`")).collect();
+            const OF_STAGES: &str = "time distance reaction impulsive describe missing";
+            let hint = match field {
+                "at" if OF_STAGES.split(' ').any(|of| of == one.name) => {
+                    format!("`{}` itself names the stage", one.name)
+                }
+                _ if fields.is_empty() => String::from("it stands alone"),
+                _ => format!("beside it may stand {}", fields.join(", ")),
+            };
+            r.faults.push(Fault::new(name.span, message).hint(hint));
         }
     }
     Some(one)
