@@ -93,6 +93,9 @@ fn among(word: &str, here: &[&str]) -> Option<Option<&'static str>> {
         "mu" | "mu_k" | "coefficient" | "friction_coefficient" if has("friction") => {
             "the coefficient of friction of a motion is its `friction`"
         }
+        "by" | "length" | "range" if has("rolling") => {
+            "how far a body slides is the `distance` of its `slide`"
+        }
         "restitution" if has("frictionless") => {
             "a contact with a coefficient of restitution has \"law\": \"frictionless\" and \"restitution\": \"e\""
         }
