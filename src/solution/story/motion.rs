@@ -498,24 +498,27 @@ impl Page<'_> {
                 .unwrap_or_else(|| self.by_names(&self.named(e), e))
                 .powi(2)
         };
+        // Bodies that move as one, without turning themselves, have one speed, which may stand by its name.
+        let by_speed = |bodies: &[usize]| {
+            let first = bodies.first()?;
+            let velocity = &state.velocity[*first];
+            let alike = bodies.iter().all(|b| {
+                let turns = !stage.scene.bodies[*b].is_particle() && !state.spin[*b].is_zero();
+                !turns && state.velocity[*b] == *velocity && pulley(stage, *b).is_none()
+            });
+            let mass = Expr::sum(bodies.iter().map(|b| stage.scene.bodies[*b].mass.clone()));
+            let [x, y] = velocity.each_ref().map(square);
+            alike.then(|| &half * mass * (x + y))
+        };
         if let (Some([_, inertia]), StageKind::Turn(turn)) = (&told.inertia, &stage.kind) {
             let by_spin = &half * inertia * square(&state.spin[turn.body]);
-            // Particles that swing as one have a speed, which may stand by its name.
-            let bodies = turn.bodies();
-            let is_particle = |b: &usize| stage.scene.bodies[*b].is_particle();
-            let alike = |b: &usize| state.velocity[*b] == state.velocity[turn.body];
-            if !bodies.iter().all(|b| is_particle(b) && alike(b)) {
-                return by_spin;
-            }
-            let mass = Expr::sum(bodies.iter().map(|b| stage.scene.bodies[*b].mass.clone()));
-            let [x, y] = state.velocity[turn.body].each_ref().map(square);
-            let by_speed = &half * mass * (x + y);
-            return match by_speed.size() < by_spin.size() {
-                true => by_speed,
-                false => by_spin,
-            };
+            let shorter = by_speed(&turn.bodies()).filter(|e| e.size() < by_spin.size());
+            return shorter.unwrap_or(by_spin);
         }
         let moved = stage.kind.moved();
+        if let Some(together) = by_speed(&moved).filter(|_| moved.len() > 1) {
+            return together;
+        }
         Expr::sum(moved.into_iter().map(|body| {
             let b = &stage.scene.bodies[body];
             if let Some((slide, apparent)) = pulley(stage, body) {
