@@ -74,7 +74,7 @@ pub struct BodyState {
 pub struct State {
     /// The bodies, in the scene's order.
     pub bodies: Vec<BodyState>,
-    /// Bodies that a sticking contact or a hinge of the last impact joins.
+    /// Bodies that a sticking contact or a hinge joins, of the last impact that touched either.
     pub joined: Vec<[usize; 2]>,
 }
 

@@ -45,7 +45,11 @@ impl Table<'_> {
         let joined = sticking.map(|c| c.bodies);
         let joined = joined.chain(course.scene.hinges.iter().map(|h| h.bodies));
         let is_free = |b: &usize| course.solids[*b].freedom != Freedom::Fixed;
-        after.joined = joined.filter(|pair| pair.iter().all(is_free)).collect();
+        // What the impact does not touch stays joined.
+        let untouched = |pair: &[usize; 2]| pair.iter().all(|b| !self.touched[*b]);
+        after.joined.retain(untouched);
+        let joined = joined.filter(|pair| pair.iter().all(is_free));
+        after.joined.extend(joined);
         after
     }
 

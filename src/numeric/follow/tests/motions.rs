@@ -245,6 +245,31 @@ fn a_flight_moves_and_turns_the_body_and_others_wait_until_they_begin() {
 }
 
 #[test]
+fn what_sticks_and_turns_does_not_fly_each_by_itself_whatever_happens_elsewhere() {
+    let stuck = |place: &str| {
+        let scene = read(&format!(
+            r#"{{"title": "t", "parameters": {{}},
+            "bodies": {{"rod": {{"shape": "rod", "mass": "2", "length": "4", "center": ["0", "0"]}},
+                "clay": {{"shape": "particle", "mass": "1", "center": ["{place}", "0"], "velocity": ["0", "3"]}},
+                "a": {{"shape": "particle", "mass": "1", "center": ["9", "0"], "velocity": ["1", "0"]}},
+                "b": {{"shape": "particle", "mass": "1", "center": ["9", "0"]}}}},
+            "stages": [
+                {{"name": "stick", "impact": {{"contacts": {{"C": {{"bodies": ["rod", "clay"], "law": "sticking"}}}}}}}},
+                {{"name": "elsewhere", "impact": {{"contacts": {{"D": {{"bodies": ["a", "b"], "law": "sticking"}}}}}}}},
+                {{"name": "fly", "fall": {{"body": "rod", "with": ["clay"], "for": "1"}}}}],
+            "questions": {{"omega": {{"at": "stick", "spin": "rod"}}}}}}"#
+        ));
+        let followed = follow(&scene, &point(&[])).expect("numbers");
+        followed.stages.into_iter().all(|stage| stage.is_ok())
+    };
+    assert!(stuck("0"), "what sticks at the center flies on as one");
+    assert!(
+        !stuck("1"),
+        "a rod with clay away from its center turns about another point"
+    );
+}
+
+#[test]
 fn a_fall_through_a_height_ends_on_the_way_down() {
     let fall = r#""height": "5/2", "gravity": "g""#;
     for v in [-3.0, 0.0, 4.0] {
