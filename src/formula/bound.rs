@@ -1,70 +1,52 @@
 //! Bounds in words, and behind a sign that begins an answer: `at least 3 m/s`, `v must exceed 2`, `between 0 and 1`, `≥ 3`.
 
 use super::several::{UNNAMED, together};
-use super::{
-    Content, Join, MAX_BYTES, Note, Reading, Relation, Remark, Symbols, prose, read_either,
-};
+use super::{Content, Join, Note, Reading, Relation, Remark, Symbols, prose, read_either};
 use crate::expr::Expr;
 
-/// What stands before a bound; of two that begin alike the longer one comes first.
-const BEFORE: [(&str, Relation); 29] = [
-    ("greater than or equal to", Relation::GreaterEqual),
-    ("less than or equal to", Relation::LessEqual),
-    ("no more than", Relation::LessEqual),
-    ("not more than", Relation::LessEqual),
-    ("no greater than", Relation::LessEqual),
-    ("not greater than", Relation::LessEqual),
-    ("no larger than", Relation::LessEqual),
-    ("no less than", Relation::GreaterEqual),
-    ("not less than", Relation::GreaterEqual),
-    ("no smaller than", Relation::GreaterEqual),
-    ("at least", Relation::GreaterEqual),
-    ("at most", Relation::LessEqual),
-    ("up to", Relation::LessEqual),
-    ("greater than", Relation::Greater),
-    ("larger than", Relation::Greater),
-    ("bigger than", Relation::Greater),
-    ("more than", Relation::Greater),
-    ("less than", Relation::Less),
-    ("smaller than", Relation::Less),
-    ("above", Relation::Greater),
-    ("below", Relation::Less),
-    ("exceeds", Relation::Greater),
-    ("exceed", Relation::Greater),
-    ("\\geq", Relation::GreaterEqual),
-    ("\\leq", Relation::LessEqual),
-    ("\\ge", Relation::GreaterEqual),
-    ("\\le", Relation::LessEqual),
-    ("\\gt", Relation::Greater),
-    ("\\lt", Relation::Less),
+/// What stands before a bound, by its relation: `no more than` comes before `more than`, which is a part of it.
+const BEFORE: Phrases = [
+    (
+        Relation::GreaterEqual,
+        "greater than or equal to|no less than|not less than|no smaller than|not smaller than|at least|\\geq|\\ge",
+    ),
+    (
+        Relation::LessEqual,
+        "less than or equal to|no more than|not more than|no greater than|not greater than|no larger than|not larger than|\
+         at most|up to|\\leq|\\le",
+    ),
+    (
+        Relation::Greater,
+        "greater than|larger than|bigger than|more than|above|exceeds|exceed|\\gt",
+    ),
+    (Relation::Less, "less than|smaller than|below|\\lt"),
 ];
 
 /// Signs that may begin an answer.
-const SIGNS: [(&str, Relation); 6] = [
-    (">=", Relation::GreaterEqual),
-    ("<=", Relation::LessEqual),
-    ("≥", Relation::GreaterEqual),
-    ("≤", Relation::LessEqual),
-    (">", Relation::Greater),
-    ("<", Relation::Less),
+const SIGNS: Phrases = [
+    (Relation::GreaterEqual, ">=|≥"),
+    (Relation::LessEqual, "<=|≤"),
+    (Relation::Greater, ">"),
+    (Relation::Less, "<"),
 ];
 
 /// What stands behind a bound.
-const BEHIND: [(&str, Relation); 6] = [
-    (" or more", Relation::GreaterEqual),
-    (" or greater", Relation::GreaterEqual),
-    (" or above", Relation::GreaterEqual),
-    (" or less", Relation::LessEqual),
-    (" or smaller", Relation::LessEqual),
-    (" or below", Relation::LessEqual),
+const BEHIND: [(Relation, &str); 2] = [
+    (Relation::GreaterEqual, " or more| or greater| or above"),
+    (Relation::LessEqual, " or less| or smaller| or below"),
 ];
+
+type Phrases = [(Relation, &'static str); 4];
+
+/// The phrases one by one, each with its relation.
+fn each(phrases: &[(Relation, &'static str)]) -> impl Iterator<Item = (&'static str, Relation)> {
+    let all = phrases.iter();
+    all.flat_map(|(sign, words)| words.split('|').map(|word| (word, *sign)))
+}
 
 /// Bounds in words as relations, of what is named before them or of what was asked; nothing where a word could change what is
 /// said. A range between two values is without its ends.
 pub(super) fn in_words(text: &str, symbols: &Symbols) -> Option<Reading> {
-    if text.len() > MAX_BYTES {
-        return None;
-    }
     let small = text.to_ascii_lowercase();
     let words = Words { text, symbols };
     let mut parts = Vec::new();
@@ -149,21 +131,17 @@ impl Words<'_> {
     fn bound(&self, small: &str, from: usize, to: usize) -> Option<(Reading, Option<Content>)> {
         let part = &small[from..to];
         let before = || {
-            let found = |(phrase, sign): &(&str, Relation)| {
-                Some((place(part, phrase)?, phrase.len(), *sign))
-            };
-            BEFORE.iter().find_map(found)
+            each(&BEFORE)
+                .find_map(|(phrase, sign)| Some((place(part, phrase)?, phrase.len(), sign)))
         };
         let signed = || {
             let start = part.len() - part.trim_start_matches([' ', '$']).len();
-            let found = |(sign, _): &&(&str, Relation)| part[start..].starts_with(sign);
-            let (text, sign) = SIGNS.iter().find(found)?;
-            Some((start, text.len(), *sign))
+            let (text, sign) = each(&SIGNS).find(|(sign, _)| part[start..].starts_with(sign))?;
+            Some((start, text.len(), sign))
         };
         let behind = || {
             let said = part.trim_end_matches([' ', '.']);
-            let found = |(word, sign): &(&str, Relation)| Some((said.strip_suffix(word)?, *sign));
-            BEHIND.iter().find_map(found)
+            each(&BEHIND).find_map(|(word, sign)| Some((said.strip_suffix(word)?, sign)))
         };
         let (subject, mut reading, sign) = match before().or_else(signed) {
             Some((at, length, sign)) => (

@@ -132,11 +132,12 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     {
         usual = read_as(&ratio, symbols, 0, held);
     }
+    let short = text.len() <= MAX_WORDED;
     let worded = match &usual {
         Ok(reading) => reading.notes.iter().any(|n| n.remark == Remark::Letters),
-        Err(_) => text.len() <= MAX_WORDED,
+        Err(_) => short,
     };
-    if (worded || held.all("up to"))
+    if (worded || short && held.all("up to"))
         && let Some(bound) = bound::in_words(text, symbols)
     {
         return Ok(bound);

@@ -125,21 +125,24 @@ fn slope(
     let slope = tidied(scene, &of.substitute(&known.collect()).derivative(p));
     let there = std::collections::BTreeMap::from([(p.clone(), place.clone())]);
     let vanishes = tidied(scene, &slope.substitute(&there)).is_zero();
-    let way = match sign(&slope, &scene.domains) {
-        Some(Sign::Negative | Sign::NotPositive) => Some("≤"),
-        Some(Sign::Positive | Sign::NotNegative) => Some("≥"),
-        _ => None,
+    let (lead, relation) = match sign(&slope, &scene.domains) {
+        Some(Sign::Negative | Sign::NotPositive) => {
+            ("It nowhere grows with {}, since its derivative is", "≤")
+        }
+        Some(Sign::Positive | Sign::NotNegative) => {
+            ("It nowhere falls with {}, since its derivative is", "≥")
+        }
+        _ if vanishes => (
+            "It is largest where its derivative with respect to {} vanishes:",
+            "=",
+        ),
+        _ => return false,
     };
-    if at.as_symbol() != Some(p) || !vanishes && way.is_none() || slope.size() > READABLE {
+    if at.as_symbol() != Some(p) || slope.size() > READABLE {
         return false;
     }
-    let lead = match way {
-        Some("≤") => "It nowhere grows with {}, since its derivative is",
-        Some(_) => "It nowhere falls with {}, since its derivative is",
-        None => "It is largest where its derivative with respect to {} vanishes:",
-    };
     solution.text(fill(lead, [words::formula(at)]));
-    let math = words::related(&slope, way.unwrap_or("="), &Expr::zero());
+    let math = words::related(&slope, relation, &Expr::zero());
     solution.display(vec![Line::plain(math)]);
     true
 }

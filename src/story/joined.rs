@@ -3,7 +3,7 @@
 use super::{Refused, State};
 use crate::answer::calc::is_zero;
 use crate::expr::minus;
-use crate::scene::{HINGED, Joint, Scene, Stage, joints, unsaid};
+use crate::scene::{HINGED, Scene, Stage, joints, unsaid};
 
 /// What is joined to a body moves along with it.
 pub(super) fn left_behind(scene: &Scene, stage: &Stage) -> Result<(), Refused> {
@@ -35,10 +35,8 @@ pub(super) fn fly_alike(scene: &Scene, stage: &Stage, before: &State) -> Result<
         let [a, b] = joint.bodies;
         let gap = minus(&before.velocity[a], &before.velocity[b]);
         // A particle at the center of what turns stays there.
-        let is_particle = |b: usize| stage.scene.bodies[b].is_particle();
-        let spins = [a, b]
-            .into_iter()
-            .filter(|_| ![a, b].into_iter().any(is_particle));
+        let rigid = [a, b].iter().all(|b| !stage.scene.bodies[*b].is_particle());
+        let spins = [a, b].into_iter().filter(|_| rigid);
         let mut all = gap.iter().chain(spins.map(|b| &before.spin[b]));
         moved.contains(&a)
             && moved.contains(&b)
@@ -59,10 +57,8 @@ pub(super) fn fly_alike(scene: &Scene, stage: &Stage, before: &State) -> Result<
 pub(super) fn left_out(scene: &Scene, stage: &Stage) -> Result<(), Refused> {
     let mut unsaid = unsaid(&scene.stages, stage).into_iter();
     unsaid.next().map_or(Ok(()), |joint| {
-        let Joint {
-            bodies, how, since, ..
-        } = joint;
-        let [a, b] = bodies.map(|b| &stage.scene.bodies[b].name);
+        let (how, since) = (joint.how, joint.since);
+        let [a, b] = joint.bodies.map(|b| &stage.scene.bodies[b].name);
         let why = format!("`{b}` {how} `{a}` since `{since}`, and nothing is said of that here");
         let hint = match how {
             HINGED => {

@@ -22,7 +22,7 @@ const SIGNS: [&str; 6] = [
 /// Words that leave open what is spoken of.
 const FILLERS: &str = "a after amount and answer collision common final finally find get hence hit immediately impact in \
     is it its just kinetic linear magnitude mechanical of our required result resulting so that the then therefore this thus \
-    total total. we which";
+    total we which";
 
 /// The words before what a line says, and what it says; `Answer: the speed is …` says it behind two signs.
 fn parted(line: &str) -> Option<(Vec<String>, &str)> {
