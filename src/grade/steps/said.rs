@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 
 use super::Desk;
-use super::text::relates;
+use super::text::{relates, without_remark};
 use crate::formula;
 use crate::scene::{Ask, Body, EnergyWhen, Question};
 
@@ -69,7 +69,7 @@ fn speaks_of(words: &[String], question: &Question, names: &[String], lone: bool
             "energy ke heat lost loss dissipated generated",
             has("lost loss dissipated") && has("energy ke") || has("heat"),
         ),
-        Ask::Impulse { .. } => ("impulse", has("impulse")),
+        Ask::Impulse { .. } => ("impulse on", has("impulse")),
         Ask::Tension { .. } => ("tension string", has("tension")),
         Ask::Acceleration { .. } => ("acceleration", has("acceleration")),
         Ask::Time => ("time taken", has("time")),
@@ -125,7 +125,7 @@ impl Desk<'_> {
             let Some(at) = open.iter().position(|q| q.name == meant.name) else {
                 continue;
             };
-            let right = right.trim_end_matches(['.', '$', ' ']);
+            let right = without_remark(right).trim_end_matches(['.', '$', ' ']);
             let Ok(reading) = formula::read(right, &self.symbols(right)) else {
                 continue;
             };
@@ -149,9 +149,10 @@ impl Desk<'_> {
 fn names(bodies: &[Body], ask: &Ask) -> Vec<String> {
     let (body, point) = match ask {
         Ask::Velocity { body, point, .. } => (*body, point.as_ref().map(|(name, _)| name)),
-        Ask::Spin { body, .. } | Ask::Acceleration { body } | Ask::Tension { body } => {
-            (*body, None)
-        }
+        Ask::Spin { body, .. }
+        | Ask::Impulse { on: body, .. }
+        | Ask::Acceleration { body }
+        | Ask::Tension { body } => (*body, None),
         _ => return Vec::new(),
     };
     let all = [Some(&bodies[body].name), point];

@@ -320,7 +320,7 @@ fn describes(left: &str) -> bool {
 
 /// An equation without the number or the words in brackets behind it: `(downwards)`, `(by symmetry)`, `\\tag{3}`, and a `(3)`
 /// that stands well apart or behind dots, since closer it is a factor.
-fn without_remark(text: &str) -> &str {
+pub(super) fn without_remark(text: &str) -> &str {
     let Some((before, behind)) = text.rsplit_once(['(', '{']) else {
         return text;
     };
