@@ -222,7 +222,7 @@ fn on_a_line() -> impl Strategy<Value = String> {
     })
 }
 
-/// A block on a plank that moves too, or on a spring: on which floor, driven by what, and how that begins and ends.
+/// A block on a plank that moves too, on a belt, or on a spring: on which floor, driven by what, and how that begins and ends.
 fn on_what_gives() -> impl Strategy<Value = String> {
     let along = select(vec![
         ["1", "0"],
@@ -236,6 +236,8 @@ fn on_what_gives() -> impl Strategy<Value = String> {
         r#""friction": "mu", "on": {"body": "C", "force": "-F"}"#,
         r#""friction": "mu", "with": ["D"], "on": {"body": "C", "friction": "nu"}, "force": "F""#,
         r#""friction": "mu", "on": {"body": "C", "with": ["D"]}, "force": "-F""#,
+        r#""friction": "mu", "on": {"body": "belt"}"#,
+        r#""friction": "mu", "with": ["D"], "on": {"body": "belt"}, "force": "F""#,
         r#""spring": {"stiffness": "k"}"#,
         r#""friction": "mu", "with": ["D"], "spring": {"stiffness": "k"}, "force": "F""#,
         r#""friction": "mu", "spring": {"stiffness": "k", "relaxed": "b"}"#,
@@ -256,6 +258,8 @@ fn on_what_gives() -> impl Strategy<Value = String> {
         ("v", "-w"),
         ("v + w", "w"),
         ("-v", "-v - w"),
+        ("0", "v"),
+        ("v", "v + w"),
     ]);
     (along, other, end, begin).prop_map(|([x, y], other, end, (v, w))| {
         let rides_below = other.contains(r#""on": {"body": "C", "with""#);
@@ -280,6 +284,7 @@ fn on_what_gives() -> impl Strategy<Value = String> {
   "bodies": {{
     "B": {{{body}, "mass": "m", "velocity": ["({v})*({x})", "({v})*({y})"]}},
     "C": {{"shape": "particle", "mass": "M", "velocity": ["({w})*({x})", "({w})*({y})"]}},
+    "belt": {{"shape": "fixed", "velocity": ["({w})*({x})", "({w})*({y})"]}},
     "D": {{"shape": "particle", "mass": "m", "velocity": ["({third})*({x})", "({third})*({y})"]}}
   }},
   "stages": [{{"name": "way", "slide": {{"body": "B", "along": ["{x}", "{y}"], "gravity": "g", {other}, {end}}}}}],

@@ -192,7 +192,10 @@ pub(super) fn surroundings(
     if let StageKind::Slide(slide) = kind
         && let along = stage.values.pair(&slide.along)?
         && !slide.level
-        && slide.on.is_none()
+        && slide
+            .on
+            .iter()
+            .all(|on| stage.scene.bodies[on.body].is_fixed())
         && (slide.rolling
             || slide.friction.is_some()
             || slide.gravity.is_some() && along[0].abs() > 1e-9)
@@ -235,7 +238,9 @@ fn measures(
                 }
                 _ => first,
             };
-            if let Some(label) = label {
+            // The mark on a belt runs on with it.
+            let on_belt = (slide.on.iter()).any(|on| stage.scene.bodies[on.body].is_fixed());
+            if let Some(label) = label.filter(|_| !on_belt) {
                 beside(sheet, first, last, label);
             }
         }

@@ -172,9 +172,9 @@ record! {
 }
 
 record! {
-    /// A body on a floor, with another that slides on it.
+    /// A body on a floor, with another that slides on it; or a belt.
     CarrierFile {
-        /// Name of the body.
+        /// Name of the body. A belt is a fixed one with a `velocity`, and nothing else is said of it here.
         body: Text,
         /// Names of bodies that move along with it.
         with: Option<Vec<Text>>,

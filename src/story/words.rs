@@ -270,13 +270,13 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
             true => "slides",
             false => "slide",
         };
-        let floor = if on.friction.is_some() {
-            "rough"
-        } else {
-            "smooth"
+        let goes = match (stage.scene.bodies[on.body].is_fixed(), &on.friction) {
+            (true, _) => "keeps its velocity",
+            (_, Some(_)) => "moves on a rough floor",
+            (_, None) => "moves on a smooth floor",
         };
         let below = listed(&below);
-        let lead = format!("{lead} {verb} on {below}, which moves on a {floor} floor,");
+        let lead = format!("{lead} {verb} on {below}, which {goes},");
         return match &slide.until {
             SlideEnd::Distance(s) => {
                 sentence!("{} over the distance {} along it", lead, measured(s, "m"))

@@ -162,17 +162,22 @@ fn not_carried(slide: &Slide, is_round: bool) -> Option<(String, &'static str)> 
     })
 }
 
-/// The body below, where it moves too.
+/// The body below, where it moves too: a free one, or a belt, whose velocity is prescribed.
 fn carrier(r: &mut Resolver<'_>, on: &CarrierFile) -> Option<Carrier> {
-    if r.is_fixed(r.find_body(&on.body.text)?) {
+    let below = r.body_named(&on.body)?;
+    let runs = r.is_fixed(below);
+    if runs && (on.with.is_some() || on.friction.is_some() || on.force.is_some()) {
         let message = format!(
-            "`{}` is moved as it is said to be, whatever slides on it",
+            "`{}` is moved as it is said to be, whatever acts on it",
             on.body.text
         );
-        let hint = "leave out `on`; for a belt that runs steadily, tell the scene as it is seen from the belt";
+        let hint = "a belt has a `velocity` where the bodies are, and nothing beside `body` here; friction on it is that of the slide";
         return r.refuse(on.body.span, message, hint);
     }
-    let all = company(r, &on.body, on.with.as_deref());
+    let all = match runs {
+        true => Some((below, Vec::new())),
+        false => company(r, &on.body, on.with.as_deref()),
+    };
     let friction = coefficient(r, on.friction.as_ref())?;
     let force = optional(r, on.force.as_ref(), FORCE)?;
     let (body, with) = all?;

@@ -2,19 +2,26 @@
 //!
 //! What presses the two on each other, and the lower one on the floor, are the multipliers of the constraints that keep them
 //! there. Friction of that size times its coefficient acts on either body against its motion over the other, and on the lower
-//! one against its motion over the floor, for as long as these last.
+//! one against its motion over the floor, for as long as these last. A belt is a lower body whose velocity is held.
 
 use super::slide::rub;
 use super::strings::{across, fixed};
 use super::{Driven, Moved, Movers, REST, ROUNDING, Units, stopped, unsolved};
 use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism, Mobile, Run, Stop};
 use crate::numeric::follow::{Course, Lost, Passed, State};
+use crate::numeric::given::Freedom;
 use crate::numeric::number::{cross, dot};
 use crate::scene::{Carrier, Slide, SlideEnd};
 
+const PLAIN: Units = Units {
+    length: 1.0,
+    time: 1.0,
+    mass: 1.0,
+};
+
 /// The two bodies with their companies, in numbers.
-struct Pair<'a> {
-    movers: &'a Movers,
+struct Pair {
+    movers: Movers,
     along: [f64; 2],
     gravity: f64,
     /// Coefficients of friction between the two, and of the floor.
@@ -25,12 +32,61 @@ struct Pair<'a> {
     company: usize,
     /// From the center to the point of contact of a round body above \[m\].
     contact: Option<[f64; 2]>,
+    /// Whether the velocity of the lower body is held.
+    is_belt: bool,
+    /// 1 where the upper body slides along the line over the lower one, −1 where it slides back.
+    sense: f64,
 }
 
-impl Pair<'_> {
+impl Pair {
+    fn of(
+        course: &Course<'_>,
+        slide: &Slide,
+        below: &Carrier,
+        mut movers: Movers,
+    ) -> Result<Pair, Lost> {
+        let rough = |mu: &Option<_>| match mu {
+            Some(mu) => course.number(mu, "coefficient of friction"),
+            None => Ok(0.0),
+        };
+        let force = |f: &Option<_>| course.optional(f.as_ref(), "force");
+        let along = course.pair(&slide.along, "direction")?;
+        let contact = match course.scene.bodies[slide.body].shape.radius() {
+            Some(radius) if slide.with.is_empty() => {
+                let radius = course.number(radius, "radius")?;
+                // The body below is below.
+                Some([along[1], -along[0]].map(|d| d * radius * along[0].signum()))
+            }
+            _ => None,
+        };
+        let company = slide.company().len();
+        let is_belt = course.solids[below.body].freedom == Freedom::Fixed;
+        if is_belt {
+            // Its velocity is held, whatever its mass.
+            movers.inertias[company] = [movers.inertias[0][0], 1.0];
+        }
+        let mut out = Pair {
+            movers,
+            along,
+            gravity: course.optional(slide.gravity.as_ref(), "gravity")?,
+            rough: [rough(&slide.friction)?, rough(&below.friction)?],
+            forces: [force(&slide.force)?, force(&below.force)?],
+            company,
+            contact,
+            is_belt,
+            sense: 1.0,
+        };
+        let start = out.movers.start(&PLAIN);
+        let fastest = out.speeds(&start).map(f64::abs).into_iter().sum::<f64>();
+        if out.slip(&PLAIN, &start) < -ROUNDING * fastest {
+            out.sense = -1.0;
+        }
+        Ok(out)
+    }
+
     /// The bodies on each other and on the floor, without friction.
     fn smooth(&self, units: &Units) -> Mechanism {
-        let (movers, first) = (self.movers, 3 * self.company);
+        let (movers, first) = (&self.movers, 3 * self.company);
         let [x, y] = self.along;
         let pressed = vec![(0, -y), (1, x), (first, y), (first + 1, -x)];
         let mut held = vec![
@@ -40,6 +96,9 @@ impl Pair<'_> {
         ];
         if self.contact.is_none() {
             held.push(fixed(2));
+        }
+        if self.is_belt {
+            held.push(Constraint::Sum(vec![(first, x), (first + 1, y)]));
         }
         held.extend(movers.welds(0, 0..self.company, units));
         held.extend(movers.welds(self.company, self.company..movers.bodies.len(), units));
@@ -73,7 +132,7 @@ impl Pair<'_> {
         let start = self.movers.start(units);
         let broken = || unsolved(course);
         let (_, held) = mechanism.accelerations(&start).ok_or_else(broken)?;
-        let rubs = self.rough[0] * held[0].abs();
+        let rubs = self.sense * self.rough[0] * held[0].abs();
         rub(&mut mechanism, 0, self.along, self.arm(units), -rubs);
         rub(&mut mechanism, self.company, self.along, [0.0; 2], rubs);
         let (rates, held) = mechanism.accelerations(&start).ok_or_else(broken)?;
@@ -118,14 +177,14 @@ impl Pair<'_> {
         time: f64,
     ) -> Result<Result<Run, Stop>, Lost> {
         let start = self.movers.start(units);
-        let slips = |y: &[f64]| self.slip(units, y);
+        let slips = |y: &[f64]| self.sense * self.slip(units, y);
         Ok(match &slide.until {
             SlideEnd::Time(_) => mechanism.lasting(&start, time / units.time),
             SlideEnd::Distance(s) => {
                 let far = course.number(s, "distance")? / units.length;
                 let apart = |y: &[f64]| {
                     let i = 3 * self.company;
-                    dot(&[y[0] - y[i], y[1] - y[i + 1]], &self.along)
+                    self.sense * dot(&[y[0] - y[i], y[1] - y[i + 1]], &self.along)
                 };
                 let from = apart(&start);
                 let mut goal = Goal {
@@ -152,50 +211,24 @@ pub(super) fn carried(
     course: &Course<'_>,
     before: State,
     (slide, below): (&Slide, &Carrier),
-    movers: &Movers,
+    movers: Movers,
 ) -> Result<Passed, Lost> {
-    let rough = |mu: &Option<_>| match mu {
-        Some(mu) => course.number(mu, "coefficient of friction"),
-        None => Ok(0.0),
-    };
-    let force = |f: &Option<_>| course.optional(f.as_ref(), "force");
-    let along = course.pair(&slide.along, "direction")?;
-    let contact = match course.scene.bodies[slide.body].shape.radius() {
-        Some(radius) if slide.with.is_empty() => {
-            let radius = course.number(radius, "radius")?;
-            // The body below is below.
-            Some([along[1], -along[0]].map(|d| d * radius * along[0].signum()))
-        }
-        _ => None,
-    };
-    let pair = Pair {
-        movers,
-        along,
-        contact,
-        gravity: course.optional(slide.gravity.as_ref(), "gravity")?,
-        rough: [rough(&slide.friction)?, rough(&below.friction)?],
-        forces: [force(&slide.force)?, force(&below.force)?],
-        company: slide.company().len(),
-    };
+    let pair = Pair::of(course, slide, below, movers)?;
+    let (movers, along) = (&pair.movers, pair.along);
     if movers.inertias.iter().any(|[m, _]| *m <= 0.0) {
         return Err(course.contradiction("what slides has no mass"));
     }
     fits(course, &pair)?;
-    let plain = Units {
-        length: 1.0,
-        time: 1.0,
-        mass: 1.0,
-    };
-    let (mechanism, way) = pair.rough(course, &plain)?;
-    let start = movers.start(&plain);
-    let slip = pair.slip(&plain, &start);
+    let start = movers.start(&PLAIN);
+    let fastest = pair.speeds(&start).map(f64::abs).into_iter().sum::<f64>();
+    let (mechanism, way) = pair.rough(course, &PLAIN)?;
+    let slip = pair.sense * pair.slip(&PLAIN, &start);
     let (rates, _) = (mechanism.accelerations(&start)).ok_or_else(|| unsolved(course))?;
     let grows = |i: usize| dot(&[rates[3 * i], rates[3 * i + 1]], &pair.along);
-    let [x, y] = pair.arm(&plain);
-    let rate = grows(0) - grows(pair.company) + dot(&[-y, x], &along) * rates[2];
-    let fastest = pair.speeds(&start).map(f64::abs).into_iter().sum::<f64>();
-    if slip < -ROUNDING * fastest || slip <= ROUNDING * fastest && rate <= 0.0 {
-        return Err(course.contradiction("it does not slide along the line over the body below"));
+    let [x, y] = pair.arm(&PLAIN);
+    let rate = pair.sense * (grows(0) - grows(pair.company) + dot(&[-y, x], &along) * rates[2]);
+    if slip <= ROUNDING * fastest && rate <= 0.0 {
+        return Err(course.contradiction("it does not slide over the body below"));
     }
     let time = match &slide.until {
         SlideEnd::Distance(s) => {
@@ -220,7 +253,7 @@ pub(super) fn carried(
     let run = pair.to_the_end(course, slide, &mechanism, &units, time)?;
     let run = run.map_err(|stop| stopped(course, stop, never))?;
     let tiny = ROUNDING * (fastest + largest * time) / units.speed();
-    if pair.slip(&units, &run.end) < -tiny {
+    if pair.sense * pair.slip(&units, &run.end) < -tiny {
         return Err(course.never(never));
     }
     if pair.rough[1] > 0.0 && way * pair.speeds(&run.end)[1] < -tiny {
@@ -243,7 +276,7 @@ pub(super) fn carried(
 }
 
 /// Both begin to move along the line without turning, each with its company.
-fn fits(course: &Course<'_>, pair: &Pair<'_>) -> Result<(), Lost> {
+fn fits(course: &Course<'_>, pair: &Pair) -> Result<(), Lost> {
     let states = &pair.movers.states;
     let fastest = states.iter().map(|s| s[3].hypot(s[4]));
     let fastest = fastest.fold(0.0, f64::max);

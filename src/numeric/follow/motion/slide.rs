@@ -96,7 +96,7 @@ pub(in crate::numeric::follow) fn slide(
     };
     movers.from = movers.arm(0);
     if let Some(below) = &slide.on {
-        return carried(course, before, (slide, below), &movers);
+        return carried(course, before, (slide, below), movers);
     }
     let acting = Acting::of(course, slide)?;
     let ropes = Ropes::of(course, slide, acting.along, &movers)?;

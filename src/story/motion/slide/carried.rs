@@ -1,4 +1,5 @@
-//! A body that slides on another, which moves on a floor: friction between the two drives one and holds the other back.
+//! A body that slides on another, which moves on a floor: friction between the two drives one and holds the other back. A
+//! belt, whose velocity is prescribed, runs on whatever slides on it.
 //!
 //! In: a slide with a body below. Out: the motion at its end. All accelerations are constant, so that the slip, the velocity of
 //! the upper body where it touches less that of the lower one, changes uniformly as well.
@@ -21,6 +22,8 @@ struct Pair<'a> {
     masses: [Expr; 2],
     /// Velocities at the beginning \[m/s\].
     speeds: [Expr; 2],
+    /// 1 where the upper body slides along the line, −1 where it slides back over the lower one.
+    sense: Expr,
     /// Friction on the lower body by the upper one \[N\].
     friction: Expr,
     /// Force of the rough floor on the lower body \[N\].
@@ -88,7 +91,7 @@ pub(super) fn carried(
     let energies = [energy(&pair.speeds, &spins[0])?, energy(&ends, &spins[1])?];
     let slipped = &(&slip * &time) + &half(&(&rate * &time.powi(2)));
     let work = pair.work(&works, &slipped);
-    let momentum = pair.keeps_momentum();
+    let (momentum, belt) = (pair.keeps_momentum(), pair.is_belt());
     let Pair {
         mut supposed,
         accelerations,
@@ -98,7 +101,11 @@ pub(super) fn carried(
         .words
         .extend(meanwhile::others(stage, &before, &mut after, Some(&time)));
     let mut out = StageTold::new(stage, before, after);
-    out.kept = vec![kept("energy", false, "friction does work against the slip")];
+    let why = match belt {
+        true => "what drives the belt and friction do work",
+        false => "friction does work against the slip",
+    };
+    out.kept = vec![kept("energy", false, why)];
     if momentum {
         let why = "friction between the two is the only force along the line";
         out.kept.push(kept("momentum", true, why));
@@ -150,7 +157,7 @@ impl<'a> Pair<'a> {
             force.as_ref().unwrap_or(&zero) - &weight
         };
         let pulls = [pull(0, &slide.force), pull(1, &below.force)];
-        let friction = slide.friction.as_ref().unwrap_or(&zero) * &press[0];
+        let friction = sum(slide.friction.as_ref().unwrap_or(&zero) * &press[0])?;
         let limit = below.friction.as_ref().unwrap_or(&zero) * &press[1];
         let mut out = Pair {
             stage,
@@ -158,7 +165,8 @@ impl<'a> Pair<'a> {
             below,
             masses,
             speeds,
-            friction: sum(friction)?,
+            sense: Expr::one(),
+            friction: zero.clone(),
             floor: Expr::zero(),
             accelerations: [Expr::zero(), Expr::zero()],
             round: None,
@@ -169,10 +177,17 @@ impl<'a> Pair<'a> {
             let arm = &right * radius;
             out.round = Some(Turning {
                 body,
-                rate: sum(-(&(&arm * &out.friction) / &body.inertia))?,
+                rate: zero.clone(),
                 arm,
                 spin: before.spin[slide.body].clone(),
             });
+        }
+        if proved(&out.slip()?[0], &scene.domains) == Some(-1) {
+            out.sense = Expr::from(-1);
+        }
+        out.friction = sum(&out.sense * &friction)?;
+        if let Some(round) = &mut out.round {
+            round.rate = sum(-(&(&round.arm * &out.friction) / &body.inertia))?;
         }
         let drive = sum(&out.friction + &pulls[1])?;
         if below.friction.is_some() {
@@ -180,9 +195,17 @@ impl<'a> Pair<'a> {
         }
         let forces = [&pulls[0] - &out.friction, &drive + &out.floor];
         for (i, force) in forces.iter().enumerate() {
-            out.accelerations[i] = sum(force / &out.masses[i])?;
+            // Whatever the friction, a belt runs as it does.
+            if i == 0 || !out.is_belt() {
+                out.accelerations[i] = sum(force / &out.masses[i])?;
+            }
         }
         Ok(out)
+    }
+
+    /// Whether the velocity of what is below is prescribed.
+    fn is_belt(&self) -> bool {
+        self.stage.scene.bodies[self.below.body].is_fixed()
     }
 
     fn name(&self, body: usize) -> &'a str {
@@ -258,19 +281,23 @@ impl<'a> Pair<'a> {
         }
         let (left, why, hint) = match begins {
             true => (
-                rate,
+                rate.clone(),
                 format!("friction is enough to take it along with `{below}`"),
                 "where both move as one, name one of them in `with` of the other; a body that lags behind slides the other way",
             ),
             false => (
-                slip,
-                format!("it does not slide along this line over `{below}`"),
-                "turn the direction round",
+                &self.sense * slip,
+                format!("it does not slide over `{below}`"),
+                "",
             ),
         };
+        let way = match self.sense.is_one() {
+            true => "forward",
+            false => "backward",
+        };
         let refused = self.refused(upper, &why, hint);
-        let does = format!("`{}` slides forward on `{below}`", self.name(upper));
-        self.supposed.positive(left, does, || refused)
+        let does = format!("`{}` slides {way} on `{below}`", self.name(upper));
+        self.supposed.positive(&left, does, || refused)
     }
 
     /// Time, and the way along the lower body.
@@ -282,7 +309,10 @@ impl<'a> Pair<'a> {
     ) -> Result<(Expr, Expr), Refused> {
         let domains = &self.stage.scene.domains;
         let upper = self.slide.body;
-        let [apart, parts] = self.apart();
+        // What follows is counted in the sense of the slip.
+        let forward = |e: &Expr| &self.sense * e;
+        let [slip, rate] = [forward(slip), forward(rate)].map(|e| self.tidied(&e));
+        let ([slip, rate], [apart, parts]) = (&[slip?, rate?], self.apart().map(|e| forward(&e)));
         let far = |t: &Expr| &(&apart * t) + &half(&(&parts * &t.powi(2)));
         let rolls = matches!(self.slide.until, SlideEnd::Rolls);
         let early = match self.round {
@@ -369,29 +399,29 @@ impl<'a> Pair<'a> {
         self.needs(&forward, never, "does not stop before", self.below.body)
     }
 
-    /// Friction and accelerations, as they follow from each other.
+    /// Friction, by its size, and accelerations, as they follow from each other.
     fn steps(&self) -> Vec<Step> {
         let [m, below] = &self.masses;
         let [a, b] = &self.accelerations;
-        let friction = &self.friction;
-        let upper = &(m * a);
-        let lower = &(below * b);
-        let own = self
-            .tidied(&(upper + friction))
-            .unwrap_or_else(|_| upper + friction);
-        let rest = lower - &(friction + &self.floor);
-        let rest = self.tidied(&rest).unwrap_or(rest);
+        let tidy = |e: Expr| self.tidied(&e).unwrap_or(e);
+        let size = tidy(&self.sense * &self.friction);
+        let friction = &(&self.sense * &size);
+        let own = tidy(&(m * a) + &self.friction);
+        let rest = tidy(&(below * b) - &(&self.friction + &self.floor));
         let driven = &(friction + &rest) + &self.floor;
         let mut out = vec![
-            Step::new("F", friction, friction, "the friction between the two"),
+            Step::new("F", &size, &size, "the friction between the two"),
             Step::by_newton(
                 "a",
                 [&(&own - friction), m],
                 a,
                 "the acceleration along the line",
             ),
-            Step::by_newton("A", [&driven, below], b, "that of the body below"),
         ];
+        if !self.is_belt() {
+            let why = "that of the body below";
+            out.push(Step::by_newton("A", [&driven, below], b, why));
+        }
         if let Some(round) = &self.round {
             let moment = -(&round.arm * friction);
             let why = "the angular acceleration, by the moment of friction about the center";
@@ -407,13 +437,13 @@ impl<'a> Pair<'a> {
 
     /// The velocities and the spin at the end.
     fn told(&self, ends: &[Expr], spin: &Expr, steps: &mut Vec<Step>) {
-        let together = matches!(self.slide.until, SlideEnd::Together);
+        let is_known = matches!(self.slide.until, SlideEnd::Together) || self.is_belt();
         let of = [
             ("v", "the velocity along the line at the end"),
             ("V", "that of the body below at the end"),
         ];
         for (i, (letter, why)) in of.into_iter().enumerate() {
-            if i == 1 && together {
+            if i == 1 && is_known {
                 break;
             }
             let mut step = Step::new(letter, &ends[i], &ends[i], why);
@@ -444,14 +474,20 @@ impl<'a> Pair<'a> {
             Expr::sum(forces.filter_map(|(f, s)| Some(f.as_ref()? * s))),
         ));
         out.retain(|(_, w)| !w.is_zero());
-        let rubbed = &(&self.floor * &gone[1]) - &(&self.friction * slipped);
+        // A belt takes its energy from what drives it.
+        let rubbed = match self.is_belt() {
+            true => -(&self.friction * &gone[0]),
+            false => &(&self.floor * &gone[1]) - &(&self.friction * slipped),
+        };
         out.push(("friction", rubbed));
         out
     }
 
     /// Whether nothing from outside acts along the line.
     fn keeps_momentum(&self) -> bool {
-        self.is_undriven() && is_zero(&self.floor, &self.stage.scene.domains) == Some(true)
+        !self.is_belt()
+            && self.is_undriven()
+            && is_zero(&self.floor, &self.stage.scene.domains) == Some(true)
     }
 
     /// Whether neither weight nor another force drives one of them along the line.
