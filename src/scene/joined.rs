@@ -1,6 +1,7 @@
 //! What an impact has joined stays joined: bodies that stick to each other or are hinged together move on as such, and take the
-//! next impact as such, unless the file says otherwise. A particle that has stuck is rigidly fixed where it is, so later impacts
-//! that do not speak of it keep it there; of larger bodies, which stick at a point, the file has to tell.
+//! next impact as such, unless the file says otherwise. A particle that has stuck is rigidly fixed where it is, so later stages
+//! that do not speak of it keep it there and take it along; of larger bodies, which stick at a point, the file has to tell, but
+//! where they slide.
 
 use super::{Contact, ContactLaw, Scene, Stage, StageKind};
 
@@ -84,12 +85,20 @@ pub fn unsaid<'a>(stages: &'a [Stage], stage: &Stage) -> Vec<Joint<'a>> {
     out
 }
 
-/// Keeps particles where they stick, in every impact that does not speak of them; the scene tells that it is read so.
+/// Keeps particles where they stick, in every impact and every motion that does not speak of them; the scene tells that it is read so.
 pub(super) fn keep(scene: &mut Scene) {
     for i in 0..scene.stages.len() {
-        // What is kept may strike what sticks to it.
-        while let Some((contact, reading)) = kept(&scene.stages, &scene.stages[i]) {
-            scene.stages[i].scene.contacts.push(contact);
+        // What is kept may strike, or take along, what sticks to it.
+        while let Some((keep, bodies)) = kept(&scene.stages, &scene.stages[i]) {
+            match keep {
+                Keep::Holding(contact) => scene.stages[i].scene.contacts.push(contact),
+                Keep::Moving { of, too } => match scene.stages[i].kind.company_of(of) {
+                    Some(company) => company.push(too),
+                    None => break,
+                },
+            }
+            let [a, b] = bodies.map(|b| &scene.bodies[b].name);
+            let reading = format!("once {b} has stuck to {a}, it stays stuck");
             if !scene.readings.contains(&reading) {
                 scene.readings.push(reading);
             }
@@ -97,30 +106,57 @@ pub(super) fn keep(scene: &mut Scene) {
     }
 }
 
-/// A particle that sticks to something since before this impact, which does not speak of it: the contact that keeps it there.
-fn kept(stages: &[Stage], stage: &Stage) -> Option<(Contact, String)> {
+/// How a stage keeps a particle where it sticks.
+enum Keep {
+    /// An impact has this contact too.
+    Holding(Contact),
+    /// A motion takes a body along with another one of its own.
+    Moving { of: usize, too: usize },
+}
+
+/// A particle that sticks to something since before this stage, which does not speak of it: how it is kept there, and the two.
+fn kept(stages: &[Stage], stage: &Stage) -> Option<(Keep, [usize; 2])> {
     let bodies = &stage.scene.bodies;
-    let mut found = unsaid(stages, stage).into_iter();
+    let is_impact = matches!(stage.kind, StageKind::Impact { .. });
+    let slides = matches!(stage.kind, StageKind::Slide(_));
+    let found = match is_impact {
+        true => unsaid(stages, stage),
+        false => joints(stages, stage),
+    };
+    let mut found = found.into_iter().filter(|joint| joint.how != HINGED);
     found.find_map(|joint| {
-        let at = joint
-            .bodies
-            .into_iter()
-            .find(|b| bodies[*b].is_particle())?;
-        if joint.how == HINGED {
-            return None;
-        }
-        let [a, b] = joint.bodies.map(|b| &bodies[b].name);
-        let reading = format!("once {b} has stuck to {a}, it stays stuck");
-        let contact = Contact {
-            name: free_name(stage, joint.name),
-            bodies: joint.bodies,
-            at: bodies[at].center.clone(),
-            normal: None,
-            law: ContactLaw::Sticking,
-            passes: false,
+        let mut both = joint.bodies.into_iter();
+        let particle = both.find(|b| bodies[*b].is_particle());
+        let keep = match particle {
+            Some(at) if is_impact => Keep::Holding(Contact {
+                name: free_name(stage, joint.name),
+                bodies: joint.bodies,
+                at: bodies[at].center.clone(),
+                normal: None,
+                law: ContactLaw::Sticking,
+                passes: false,
+            }),
+            // What slides does not turn, and what sticks to it goes where it goes.
+            _ if slides || particle.is_some() => {
+                let [of, too] = left_behind(stage, &joint)?;
+                Keep::Moving { of, too }
+            }
+            _ => return None,
         };
-        Some((contact, reading))
+        Some((keep, joint.bodies))
     })
+}
+
+/// Of two joined bodies the one that a motion moves, and the other one, if that is not said to move.
+pub fn left_behind(stage: &Stage, joint: &Joint<'_>) -> Option<[usize; 2]> {
+    let [a, b] = joint.bodies;
+    let moved = stage.kind.moved();
+    let (of, too) = match (moved.contains(&a), moved.contains(&b)) {
+        (true, false) => (a, b),
+        (false, true) => (b, a),
+        _ => return None,
+    };
+    (!stage.scene.bodies[too].is_fixed()).then_some([of, too])
 }
 
 /// The name of the contact, or a letter if the impact has given it to something else.

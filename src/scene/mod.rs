@@ -53,7 +53,7 @@ pub use friction::{
     beside_friction,
 };
 pub use geometry::direction;
-pub use joined::{HINGED, Joint, joints, unsaid};
+pub use joined::{HINGED, Joint, joints, left_behind, unsaid};
 pub use printed::{Print, Printed};
 pub use stage::{
     Carrier, Fall, FallEnd, Linkage, Lump, OneSided, Slide, SlideEnd, Spring, Stage, StageKind,

@@ -315,6 +315,26 @@ impl StageKind {
         }
     }
 
+    /// The list of those that move as one with a body which the motion moves; `None` where none can be added.
+    pub(super) fn company_of(&mut self, body: usize) -> Option<&mut Vec<usize>> {
+        match self {
+            StageKind::Turn(turn) => Some(&mut turn.with),
+            StageKind::Slide(slide) => {
+                if slide.company().contains(&body) {
+                    return Some(&mut slide.with);
+                }
+                if let Some(on) = &mut slide.on
+                    && on.company().contains(&body)
+                {
+                    return Some(&mut on.with);
+                }
+                let mut hung = slide.strings.iter_mut().map(|s| &mut s.to);
+                hung.find(|to| to.contains(&body))
+            }
+            _ => None,
+        }
+    }
+
     /// Whether a force that is named here, weight or another, may also act on bodies that are not.
     pub fn gravity(&self) -> Option<&Expr> {
         match self {

@@ -92,7 +92,7 @@ record! {
     TurnFile {
         /// Name of the body.
         body: Text,
-        /// Names of bodies that are fixed to it and turn along, such as a bullet that sticks in it.
+        /// Names of bodies that are fixed to it and turn along. A particle that an impact before has made stick need not be named.
         with: Option<Vec<Text>>,
         /// The fixed point; without it the one hinge that holds the body.
         about: Option<PositionFile>,
@@ -128,7 +128,7 @@ record! {
     SlideFile {
         /// Name of the body.
         body: Text,
-        /// Names of bodies that move along with it, such as a car that it is locked with.
+        /// Names of bodies that move along with it, such as a rider. What an impact before has made stick need not be named.
         with: Option<Vec<Text>>,
         /// Direction.
         along: DirectionFile,

@@ -3,18 +3,13 @@
 use super::{Refused, State};
 use crate::answer::calc::is_zero;
 use crate::expr::minus;
-use crate::scene::{HINGED, Scene, Stage, joints, unsaid};
+use crate::scene::{HINGED, Scene, Stage, joints, left_behind, unsaid};
 
 /// What is joined to a body moves along with it.
-pub(super) fn left_behind(scene: &Scene, stage: &Stage) -> Result<(), Refused> {
-    let moved = stage.kind.moved();
+pub(super) fn all_move(scene: &Scene, stage: &Stage) -> Result<(), Refused> {
     for joint in joints(&scene.stages, stage) {
-        let [a, b] = joint.bodies;
-        let is_fixed = |b: usize| stage.scene.bodies[b].is_fixed();
-        let (body, other) = match (moved.contains(&a), moved.contains(&b)) {
-            (true, false) if !is_fixed(b) => (a, b),
-            (false, true) if !is_fixed(a) => (b, a),
-            _ => continue,
+        let Some([body, other]) = left_behind(stage, &joint) else {
+            continue;
         };
         let [other, body] = [other, body].map(|b| &stage.scene.bodies[b].name);
         let why = format!(

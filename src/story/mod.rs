@@ -553,7 +553,7 @@ fn one(
         if let Some(open) = motion::open(stage, before.clone()) {
             return Ok(open);
         }
-        joined::left_behind(scene, stage)?;
+        joined::all_move(scene, stage)?;
     }
     match &stage.kind {
         StageKind::Impact {

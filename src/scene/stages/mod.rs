@@ -159,6 +159,9 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     name_pivots(scene);
     begin(scene);
     joined::keep(scene);
+    for (stage, written) in scene.stages.iter().zip(stages) {
+        slide::loaded_wheel(base, stage, written.name.span);
+    }
     if base.faults.is_empty() {
         questions::of_stages(base, scene, &homes);
     }

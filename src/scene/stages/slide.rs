@@ -7,7 +7,7 @@ use crate::expr::Expr;
 use crate::scene::fault::Span;
 use crate::scene::formulas::Quantity;
 use crate::scene::resolve::Resolver;
-use crate::scene::stage::{Carrier, Slide, SlideEnd, Spring, Strung};
+use crate::scene::stage::{Carrier, Slide, SlideEnd, Spring, Stage, StageKind, Strung};
 use crate::scene::stage_file::{CarrierFile, SlideEndName, SlideFile, SpringFile, StrungFile};
 use crate::scene::{Scene, Shape};
 
@@ -93,9 +93,9 @@ fn unfit(scene: &Scene, slide: &Slide) -> Option<(String, &'static str)> {
     let rolls = slide.rolling || matches!(slide.until, SlideEnd::Rolls);
     let goes_alone = slide.strings.is_empty() && !rolls;
     Some(match () {
-        () if rolls && !is_round => (
+        () if rolls && shape.shape.radius().is_none() => (
             format!("`{}` does not roll", shape.name),
-            "a disk, ring or sphere by itself does",
+            "a disk, ring or sphere does",
         ),
         () if is_rough && slide.gravity.is_none() => (
             String::from("what presses the body on the rough surface is not said"),
@@ -134,6 +134,27 @@ fn unfit(scene: &Scene, slide: &Slide) -> Option<(String, &'static str)> {
         ),
         () => return None,
     })
+}
+
+/// Refuses a round body that turns as it goes, with others that move along as if it did not.
+pub(super) fn loaded_wheel(base: &mut Resolver<'_>, stage: &Stage, span: Span) {
+    let StageKind::Slide(slide) = &stage.kind else {
+        return;
+    };
+    let turns = slide.rolling || slide.friction.is_some() && !slide.level;
+    let bodies = &stage.scene.bodies;
+    let wheel = &bodies[slide.body];
+    let Some(load) = slide.with.first().map(|b| &bodies[*b].name) else {
+        return;
+    };
+    if turns && wheel.shape.radius().is_some() {
+        let message = format!(
+            "`{}` turns as it goes over the surface, and `{load}` is to move along as if it did not",
+            wheel.name
+        );
+        let hint = "where the load sits at its center, give it the mass of both and the `inertia` that it has alone, in a scene that begins here; what slides without turning is no disk, ring or sphere";
+        base.report(span, message, hint);
+    }
 }
 
 /// What does not go together where the body below moves too.

@@ -45,12 +45,27 @@ pub(super) fn touches(
                 .any(|c| is_zero(c, &scene.domains) == Some(false))
             {
                 let [x, y] = center(scene, body);
-                let why = format!(
-                    "`{name}` is not where the particle `{}` is by then: at ({x}, {y})",
-                    body.name
-                );
-                let always = || format!("\"at\": \"{}\" is always where it is", body.name);
-                let hint = waits(scene, b, before).unwrap_or_else(always);
+                let mut others = bodies.iter().map(|o| &scene.bodies[*o]);
+                let other = others.find(|o| o.is_particle() && o.center == *at);
+                let (why, hint) = match other {
+                    Some(other) => (
+                        format!(
+                            "`{}` and `{}` do not meet at `{name}`: by then they are at ({}) and ({x}, {y})",
+                            other.name,
+                            body.name,
+                            center(scene, other).join(", ")
+                        ),
+                        "end the motion before where they meet, or give what waits its `center` there".into(),
+                    ),
+                    None => (
+                        format!(
+                            "`{name}` is not where the particle `{}` is by then: at ({x}, {y})",
+                            body.name
+                        ),
+                        format!("\"at\": \"{}\" is always where it is", body.name),
+                    ),
+                };
+                let hint = waits(scene, b, before).unwrap_or(hint);
                 return Err(Refused::new(&stage.name, why, hint));
             }
         }
