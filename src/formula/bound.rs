@@ -45,25 +45,34 @@ fn each(phrases: &[(Relation, &'static str)]) -> impl Iterator<Item = (&'static 
 }
 
 /// Bounds in words as relations, of what is named before them or of what was asked; nothing where a word could change what is
-/// said. A range between two values is without its ends.
+/// said. A range between two values is without its ends, one from a value to another with them.
 pub(super) fn in_words(text: &str, symbols: &Symbols) -> Option<Reading> {
     let small = text.to_ascii_lowercase();
     let words = Words { text, symbols };
     let mut parts = Vec::new();
-    if let Some(at) = place(&small, "between") {
-        let from = at + "between".len();
-        let middle = from + small[from..].find(" and ")?;
+    let ranges = [
+        ("between", " and ", Relation::Less),
+        ("from", " to ", Relation::LessEqual),
+    ];
+    let range = ranges
+        .into_iter()
+        .find_map(|(first, second, sign)| Some((place(&small, first)?, first.len(), second, sign)));
+    if let Some((at, length, second, sign)) = range {
+        let from = at + length;
+        let middle = from + small[from..].find(second)?;
         let low = words.value(from, middle)?;
-        let mut high = words.value(middle + " and ".len(), text.len())?;
+        let mut high = words.value(middle + second.len(), text.len())?;
         let name = words.subject(0, at)?.unwrap_or_else(unnamed);
         let sides = vec![low.content, name, high.content];
-        high.content = Content::Relations(sides, vec![Relation::Less; 2]).with_shared_unit();
-        high.notes.push(Note {
-            remark: Remark::Between,
-            start: at,
-            middle: from,
-            end: text.trim_end().len(),
-        });
+        high.content = Content::Relations(sides, vec![sign; 2]).with_shared_unit();
+        if sign == Relation::Less {
+            high.notes.push(Note {
+                remark: Remark::Between,
+                start: at,
+                middle: from,
+                end: text.trim_end().len(),
+            });
+        }
         high.literal = None;
         return Some(high);
     }

@@ -126,8 +126,7 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
         return Ok(between);
     }
     let mut usual = read_as(text, symbols, 0, held);
-    if usual.is_err()
-        && held.any(":")
+    if (usual.is_err() && held.any(":") || held.all("to "))
         && let Some(ratio) = prose::ratio(text)
     {
         usual = read_as(&ratio, symbols, 0, held);

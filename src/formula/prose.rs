@@ -88,8 +88,10 @@ pub(super) fn behind_words(text: &str, known: &dyn Fn(&str) -> bool) -> Option<u
     }
 }
 
-/// A ratio of two numbers, `5:2` and `m_1:m_2 = 1:3`, with a slash for its colon; nothing where a colon stands for anything else.
+/// A ratio of two numbers, `5:2`, `5 to 2` and `m_1:m_2 = 1:3`, with a slash for its colon and nothing moved; nothing where a
+/// colon stands for anything else.
 pub(super) fn ratio(text: &str) -> Option<String> {
+    let text = text.replace(" to ", "  : ");
     let inner = text.trim().trim_matches('$');
     let parts = |side: &str| {
         let (a, b) = side.split_once(':')?;

@@ -370,7 +370,7 @@ pub(crate) fn greek_name(c: char) -> Option<&'static str> {
     }
 }
 
-/// The plain letter behind one of the styled mathematical letters of Unicode, such as an italic m.
+/// The plain letter behind one of the styled letters of Unicode, such as an italic or a full-width m.
 fn mathematical(c: char) -> Option<&'static str> {
     const LATIN: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
     const CAPITALS: &str = "ΑΒΓΔΕΖΗΘΙΚΛΜΝΞΟΠΡΘΣΤΥΦΧΨΩ";
@@ -384,6 +384,12 @@ fn mathematical(c: char) -> Option<&'static str> {
             let at = (code - 0x1d6a8) as usize % 58;
             let mut letters = CAPITALS.chars().chain(SMALL.chars());
             letters.nth(at).and_then(greek_name)
+        }
+        // Full-width letters.
+        code @ (0xff21..=0xff3a | 0xff41..=0xff5a) => {
+            let small = usize::from(code > 0xff40);
+            let at = (code as usize & 0x1f) - 1 + 26 * small;
+            LATIN.get(at..=at)
         }
         _ => match c {
             'ℎ' => Some("h"),

@@ -40,8 +40,14 @@ impl Lexer<'_> {
                 self.pos += run;
                 return Ok(Tok::Degree);
             }
-            if word == "percent" && self.symbols.find(word).is_none() {
-                return self.percent(start, run);
+            let percent = ["percent", "per cent"].into_iter().find(|said| {
+                let behind = rest.strip_prefix(said);
+                behind.is_some_and(|b| !b.starts_with(|c: char| c.is_alphanumeric()))
+            });
+            if let Some(said) = percent
+                && self.symbols.find(word).is_none()
+            {
+                return self.percent(start, said.len());
             }
             if let Some(tok) = self.unit(false) {
                 return Ok(tok);

@@ -6,11 +6,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::unit::each_chain;
+use super::unit::{each_chain, misfit};
 use super::{Key, Question, declare};
 use crate::dimension;
 use crate::expr::{Expr, Symbol};
-use crate::formula::{self, Content, Fault, Note, Reading, Relation, Remark, Symbols};
+use crate::formula::{self, Content, Fault, Join, Note, Reading, Relation, Remark, Symbols};
 
 /// Quantities of mechanics that students bring in although a collision does not know them.
 const STRANGERS: [&str; 6] = ["g", "t", "mu", "h", "dt", "F"];
@@ -127,6 +127,12 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         return Ok(reading);
     }
     let mut usual = formula::read(text, &key.readable);
+    if let Ok(reading) = &usual
+        && let Some((at, _)) = misfit(key, text, reading)
+        && let Ok(product) = answer(key, &format!("{}*{}", &text[..at], &text[at..]))
+    {
+        return Ok(product);
+    }
     // `between 0 and 1` says nothing of its ends.
     if let Ok(Reading {
         content: Content::Relations(_, signs),
@@ -146,13 +152,22 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
     {
         usual = Ok(range);
     }
-    // `2,3`, where several values are asked.
+    // `2,3` and `(2, 3)`, where several values are asked.
     if matches!(key.reading.content.answer(), Content::Either(_))
         && !usual.as_ref().is_ok_and(either)
         && text.contains(',')
     {
-        let spaced = formula::read(&text.replace(',', ", "), &key.readable);
+        let inside = text.trim().strip_prefix('(');
+        let inside = inside.and_then(|rest| rest.strip_suffix(')'));
+        let spaced = inside.unwrap_or(text).replace(',', ", ");
+        let spaced = formula::read(&spaced, &key.readable);
         usual = spaced.ok().filter(either).map_or(usual, Ok);
+    }
+    if usual.is_err()
+        && let Some(named) = named_in_order(key, text)
+        && let Ok(reading) = formula::read(&named, &key.readable)
+    {
+        return worded(key, &named, reading);
     }
     // A result in each line, where several are asked.
     if matches!(key.reading.content, Content::Joined(..))
@@ -180,6 +195,16 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         if let Some(Ok(reading)) = read.find(|reading| reading.as_ref().is_ok_and(vector)) {
             return worded(key, text, reading);
         }
+        // `2, 3` without its brackets.
+        let bracketed = format!("({text})");
+        if vector(&key.reading)
+            && !text.contains(['±', '(', '='])
+            && text.contains([',', ';'])
+            && let Ok(reading) = formula::read(&bracketed, &key.readable.clone().with_lists())
+            && vector(&reading)
+        {
+            return worded(key, &bracketed, reading);
+        }
     }
     // `2000 g` for `m = 2 kg`: where a quantity is asked, a letter behind a number is a unit if it can be one.
     if quantitative(&key.reading) && !usual.as_ref().is_ok_and(quantitative) {
@@ -195,6 +220,34 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         Ok(reading) => worded(key, text, reading),
         Err(fault) => mended(key, text, fault),
     }
+}
+
+/// Values of several kinds with the names of what is asked, in this order: `3 m/s, 30°` and `3 m/s at 30°` for
+/// `v = 3 m/s, θ = 30°`.
+fn named_in_order(key: &Key, text: &str) -> Option<String> {
+    const WORDS: [&str; 4] = [" at an angle of ", " at ", " and ", "; "];
+    let Content::Joined(Join::And, asked) = &key.reading.content else {
+        return None;
+    };
+    let text = WORDS
+        .iter()
+        .fold(text.to_string(), |text, word| text.replace(word, ", "));
+    let given: Vec<&str> = text.split(", ").collect();
+    let name = |part: &Content| match part {
+        Content::Relations(sides, signs) if signs == &[Relation::Equal] => {
+            sides[0].expr()?.as_symbol().cloned()
+        }
+        _ => None,
+    };
+    let names: Vec<Symbol> = asked.iter().map(name).collect::<Option<_>>()?;
+    if names.len() != given.len() || text.contains('=') {
+        return None;
+    }
+    let named = names.iter().zip(given);
+    let named: Vec<String> = named
+        .map(|(name, value)| format!("{name} = {value}"))
+        .collect();
+    Some(named.join(", "))
 }
 
 /// Whether a bound belongs to what it bounds.

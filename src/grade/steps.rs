@@ -127,10 +127,14 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
     worked.min_by_key(slips).expect("one at least")
 }
 
-fn check_with(sheet: &Sheet, text: &str, options: &Options, acceleration: Option<Expr>) -> Worked {
+fn check_with(
+    sheet: &Sheet,
+    text: &str,
+    options: &Options,
+    acceleration: Option<(Symbol, Expr)>,
+) -> Worked {
     let mut desk = Desk::new(sheet);
-    let named = acceleration.map(|value| (Symbol::from(names::ACCELERATION), value));
-    desk.closed.extend(named);
+    desk.closed.extend(acceleration);
     let read = desk.in_names(text);
     desk.ahead = names::definitions(&read);
     desk.along_normal(&read);
@@ -276,7 +280,9 @@ impl<'a> Desk<'a> {
         for q in self.sheet.answered() {
             let parts: Vec<String> = [format!("{}_x", q.name), format!("{}_y", q.name)].into();
             let told = |name: &String| self.finals.contains_key(name);
-            if told(&q.name) || !parts.iter().any(told) {
+            // `a_y` is no part of an angular acceleration a.
+            let vector = self.components(&q.name).is_some();
+            if told(&q.name) || !vector || !parts.iter().any(told) {
                 out.push((q.name.clone(), self.finals.get(&q.name).cloned()));
             } else {
                 out.extend(

@@ -6,7 +6,7 @@ use super::compare::{Context, Finding, scalars};
 use super::{Diagnosis, Key, Tolerance, Verdict};
 use crate::dimension::{self, Clash, Dimension, Unit};
 use crate::expr::Expr;
-use crate::formula::{self, Content, Quantity, Reading, write_plain};
+use crate::formula::{self, Content, Quantity, Reading, Remark, write_plain};
 
 /// The unit behind a vector, a pair, or a formula in symbols, which carry none in their content.
 ///
@@ -189,6 +189,16 @@ pub(super) fn missing(unit: &str) -> Finding {
 
 fn is_coherent(unit: &Unit) -> bool {
     unit.value().is_one()
+}
+
+/// The place of a letter behind a formula in symbols that was read as a unit and measures something else than what is asked, as
+/// in `v − μ g t`: it may be a name.
+pub(super) fn misfit(key: &Key, text: &str, reading: &Reading) -> Option<(usize, usize)> {
+    let mut notes = reading.notes.iter();
+    let note = notes.find(|n| n.remark == Remark::UnitOfSymbols)?;
+    let letter = text.get(note.start..note.end)?.trim_end();
+    let fits = asked(key)? == reading.unit.as_ref()?.dimension;
+    (letter.len() == 1 && !fits).then_some((note.start, note.start + 1))
 }
 
 /// Dimension of what is asked, where it is known and not that of a number.

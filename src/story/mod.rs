@@ -256,7 +256,7 @@ pub struct StageTold {
     pub way: Option<Expr>,
     /// Angle through which a rotation leads, counterclockwise \[rad\]; `None` where it is not decided.
     pub turned: Option<Expr>,
-    /// Acceleration along the line of a motion along one \[m/s²\].
+    /// Acceleration along the line of a motion along one \[m/s²\], or of the coordinate of a linkage, where it stays the same.
     pub acceleration: Option<Expr>,
     /// Pulls of the strings at bodies, by index of body \[N\].
     pub tensions: Vec<(usize, Expr)>,

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::super::{Given, Key, key_of, read, show};
+use super::super::{Given, Key, key_of, read, show, unit};
 use super::{Entry, Sheet};
 use crate::expr::{Expr, Symbol};
+use crate::formula::Reading;
 
 impl Sheet {
     /// An answer with the right values put in for the names of earlier answers, and these in words; nothing where the answer
@@ -18,7 +19,13 @@ impl Sheet {
         let (key, values) = self.key_with_earlier(entry);
         // A time that was asked for is no stranger.
         let named = |name: &Symbol| read::is_stranger(name) && values.contains_key(name);
-        if alone.is_ok_and(|reading| !reading.symbols().iter().any(named)) {
+        // And a way that was asked for is no second.
+        let unit = |reading: &Reading| {
+            let (from, to) = unit::misfit(&entry.key, answer, reading)?;
+            values.contains_key(&answer[from..to]).then_some(())
+        };
+        let used = |r: &Reading| r.symbols().iter().any(named) || unit(r).is_some();
+        if alone.is_ok_and(|reading| !used(&reading)) {
             return None;
         }
         let content = read::answer(&key, answer).ok()?.content;

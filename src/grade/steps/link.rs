@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::super::relation::{proportional, solve_for};
 use super::super::sheet::{Entry, Sheet};
 use super::super::{Diagnosis, Options, Verdict};
-use super::names::ACCELERATION;
+use super::names::ACCELERATIONS;
 use super::text::supposition;
 use super::{Desk, Final, Status};
 use crate::algebra::{self, Field, Sign};
@@ -552,7 +552,7 @@ impl Desk<'_> {
         let answers = &self.sheet.derivation.answers;
         let asked = |a: &crate::answer::Answer| *a.name == **name || *a.question == **name;
         // Answers may stand on an acceleration that nobody asked for.
-        let lent = &**name == ACCELERATION && self.closed.contains_key(name);
+        let lent = ACCELERATIONS.contains(&&**name) && self.closed.contains_key(name);
         let given = |e: &Expr| {
             let parameters = &self.sheet.scene.parameters;
             let used = self.with_own(e).symbols();

@@ -65,16 +65,27 @@ pub(super) fn behind(text: &str, reading: &Reading) -> Option<(usize, usize)> {
     Some((note.start + last, note.start + unit.len()))
 }
 
-/// What everybody calls an acceleration.
-pub(super) const ACCELERATION: &str = "a";
+/// Whether a side is a name and nothing else.
+fn is_alone(side: &Content, name: &str) -> bool {
+    side.expr()
+        .and_then(Expr::as_symbol)
+        .is_some_and(|symbol| &**symbol == name)
+}
 
-/// The accelerations that the letter a of a worked solution may stand for, counted either way: those of the scene, where it
+/// What people call an acceleration, along a line or of a center of mass.
+pub(super) const ACCELERATIONS: [&str; 9] = [
+    "a", "a_G", "a_cm", "a_CM", "a_C", "a_c", "a_S", "a_x", "a_y",
+];
+
+/// The accelerations that such a name in a worked solution may stand for, counted either way: those of the scene, where it
 /// has no such name itself and the solution says that of nothing else. `None` stands for whatever the solution says it is.
-pub(super) fn accelerations(sheet: &Sheet, text: &str) -> Vec<Option<Expr>> {
+pub(super) fn accelerations(sheet: &Sheet, text: &str) -> Vec<Option<(Symbol, Expr)>> {
     let scene = &sheet.scene;
     let asked = sheet.derivation.answers.iter().map(|answer| &*answer.name);
-    let mut taken = scene.parameters.iter().map(|p| &*p.name).chain(asked);
-    if taken.any(|name| name == ACCELERATION) || sheet.accelerations.is_empty() {
+    let taken: BTreeSet<&str> = (scene.parameters.iter().map(|p| &*p.name))
+        .chain(asked)
+        .collect();
+    if sheet.accelerations.is_empty() {
         return vec![None];
     }
     let mut symbols = Symbols::open();
@@ -90,20 +101,17 @@ pub(super) fn accelerations(sheet: &Sheet, text: &str) -> Vec<Option<Expr>> {
         .take(super::MAX_LINES)
         .flat_map(super::text::equations);
     let readings = parts.filter_map(|part| formula::read(part, &symbols).ok());
-    let (mut used, mut fits) = (false, true);
-    for reading in readings {
-        used |= reading.symbols().contains(ACCELERATION);
-        if let Content::Relations(sides, _) = &reading.content
-            && let [first, rest @ ..] = sides.as_slice()
-            && first
-                .expr()
-                .and_then(Expr::as_symbol)
-                .is_some_and(|s| &**s == ACCELERATION)
-        {
-            fits &= rest.iter().all(is_rate);
-        }
-    }
-    if !(used && fits) {
+    let readings: Vec<Reading> = readings.collect();
+    let used: BTreeSet<Symbol> = readings.iter().flat_map(Reading::symbols).collect();
+    let free = |name: &&&str| !taken.contains(**name) && used.contains(**name);
+    let Some(name) = ACCELERATIONS.iter().find(free) else {
+        return vec![None];
+    };
+    let fits = readings.iter().all(|reading| match &reading.content {
+        Content::Relations(sides, _) if is_alone(&sides[0], name) => sides[1..].iter().all(is_rate),
+        _ => true,
+    });
+    if !fits {
         return vec![None];
     }
     // Bodies that turn, fall or press a spring have others.
@@ -114,8 +122,12 @@ pub(super) fn accelerations(sheet: &Sheet, text: &str) -> Vec<Option<Expr>> {
     };
     let all = scene.stages.iter().all(|stage| steady(&stage.kind));
     let each = sheet.accelerations.iter();
-    let both = each.flat_map(|value| [value.clone(), -value].map(Some));
-    both.take(MOST_WAYS).chain((!all).then_some(None)).collect()
+    let both = each.flat_map(|value| [value.clone(), -value]);
+    let named = both.map(|value| Some((Symbol::from(*name), value)));
+    named
+        .take(MOST_WAYS)
+        .chain((!all).then_some(None))
+        .collect()
 }
 
 /// Whether a letter behind a formula is a quantity first: a speed V rather than volts, a time t rather than tonnes.

@@ -74,10 +74,15 @@ pub(in crate::story) fn linkage(
             after.spin[*b] = w?;
         }
     }
-    let time = time(stage, linkage, [&rate, &speed])?;
+    let acceleration = steady(stage, linkage)?;
+    let time = match &acceleration {
+        Some(grows) => Some(time(stage, linkage, [&rate, &speed], grows)?),
+        None => None,
+    };
     assumptions.extend(meanwhile::others(stage, &before, &mut after, time.as_ref()));
     let mut out = StageTold::new(stage, before, after);
     out.time = time;
+    out.acceleration = acceleration;
     let why = match linkage.gravity {
         Some(_) => "joints and guides do no work, and weight has a potential",
         None => "joints and guides do no work",
@@ -107,24 +112,30 @@ pub(crate) fn by_coordinate(stage: &Stage, linkage: &Linkage) -> [Expr; 2] {
     [Expr::sum(inertia), g * Expr::sum(lifted)]
 }
 
-/// How long it takes from one rate of the coordinate to another, where its acceleration is the same all the way.
-fn time(
-    stage: &Stage,
-    linkage: &Linkage,
-    [rate, speed]: [&Expr; 2],
-) -> Result<Option<Expr>, Refused> {
+/// The acceleration of the coordinate, where it is the same all the way.
+fn steady(stage: &Stage, linkage: &Linkage) -> Result<Option<Expr>, Refused> {
     let [mass, drawn] = by_coordinate(stage, linkage);
     let (mass, drawn) = (tidied(stage, &mass)?, tidied(stage, &drawn)?);
     let changes = |e: &Expr| e.symbols().contains(&linkage.coordinate);
     if changes(&mass) || changes(&drawn) {
         return Ok(None);
     }
+    tidied(stage, &-(&drawn / &mass)).map(Some)
+}
+
+/// How long it takes from one rate of the coordinate to another at this acceleration.
+fn time(
+    stage: &Stage,
+    linkage: &Linkage,
+    [rate, speed]: [&Expr; 2],
+    acceleration: &Expr,
+) -> Result<Expr, Refused> {
     let [begin, end] = &linkage.ends;
-    let time = match drawn.is_zero() {
+    let time = match acceleration.is_zero() {
         true => &(end - begin) / rate,
-        false => -(&(&(speed - rate) * &mass) / &drawn),
+        false => &(speed - rate) / acceleration,
     };
-    tidied(stage, &time).map(Some)
+    tidied(stage, &time)
 }
 
 /// Accelerations of a body of a linkage along x and y, and the angular one, with this kinetic energy where the coordinate has this
