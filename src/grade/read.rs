@@ -185,26 +185,10 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
     if crossed && let Some(reading) = arrows_put(key, text) {
         return worded(key, text, reading);
     }
-    let several = matches!(key.reading.content, Content::Joined(..));
-    if (vector(&key.reading) || several) && !usual.as_ref().is_ok_and(vector) {
-        // Where a vector is asked, `(2,3)` is one, and so is `2i + 3j`.
-        let lists = key.readable.clone().with_lists();
-        let axes = lists.clone().with_axes();
-        let both = [lists, axes].into_iter();
-        let mut read = both.map(|names| formula::read(text, &names));
-        if let Some(Ok(reading)) = read.find(|reading| reading.as_ref().is_ok_and(vector)) {
-            return worded(key, text, reading);
-        }
-        // `2, 3` without its brackets.
-        let bracketed = format!("({text})");
-        if vector(&key.reading)
-            && !text.contains(['±', '(', '='])
-            && text.contains([',', ';'])
-            && let Ok(reading) = formula::read(&bracketed, &key.readable.clone().with_lists())
-            && vector(&reading)
-        {
-            return worded(key, &bracketed, reading);
-        }
+    if !usual.as_ref().is_ok_and(vector)
+        && let Some((text, reading)) = as_vector(key, text)
+    {
+        return worded(key, &text, reading);
     }
     // `2000 g` for `m = 2 kg`: where a quantity is asked, a letter behind a number is a unit if it can be one.
     if quantitative(&key.reading) && !usual.as_ref().is_ok_and(quantitative) {
@@ -220,6 +204,26 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         Ok(reading) => worded(key, text, reading),
         Err(fault) => mended(key, text, fault),
     }
+}
+
+/// Where a vector is asked, `(2,3)` and `2, 3` are one, and so is `2i + 3j`.
+fn as_vector(key: &Key, text: &str) -> Option<(String, Reading)> {
+    let several = matches!(key.reading.content, Content::Joined(..));
+    if !several && !vector(&key.reading) {
+        return None;
+    }
+    let lists = key.readable.clone().with_lists();
+    let axes = lists.clone().with_axes();
+    let bare = !several && !text.contains(['±', '(', '=']) && text.contains([',', ';']);
+    let bare = bare.then(|| (format!("({text})"), &lists));
+    let mut all = [&lists, &axes]
+        .map(|names| (text.to_string(), names))
+        .into_iter()
+        .chain(bare);
+    all.find_map(|(text, names)| {
+        let reading = formula::read(&text, names).ok().filter(vector)?;
+        Some((text, reading))
+    })
 }
 
 /// Values of several kinds with the names of what is asked, in this order: `3 m/s, 30°` and `3 m/s at 30°` for

@@ -273,7 +273,8 @@ fn equation(text: &str) -> &str {
             ""
         };
     }
-    let rest = without_remark(without_reason(rest).trim_end_matches(['$', ' ', '.', ',', ';']));
+    let rest =
+        without_remark(without_reason(rest).trim_end_matches(['$', ' ', '.', ',', ';', ':']));
     let moment = MOMENTS
         .split('|')
         .find_map(|words| rest.strip_suffix(words));
