@@ -8,7 +8,7 @@ use super::formulas::Quantity;
 use super::record::{Formula, Text, is_sound};
 use super::resolve::{Resolver, text};
 use super::{
-    ALONE, Contact, ContactLaw, Friction, Hypothesis, Known, KnownQuantity, Mode, Scene,
+    ALONE, Body, Contact, ContactLaw, Friction, Hypothesis, Known, KnownQuantity, Mode, Scene,
     beside_friction,
 };
 use crate::expr::{Expr, Vector, minus};
@@ -23,11 +23,20 @@ const REBOUND: (&str, &str) = ("restitution", "a number or a symbol from 0 to 1"
 impl Resolver<'_> {
     pub(super) fn contact(&mut self, name: &Text, contact: &ContactFile, scene: &mut Scene) {
         let bodies = self.pair(&contact.bodies.items, contact.bodies.span, "contact");
-        let at = match &contact.at {
-            Some(at) => self.position(at),
-            None => self.where_particle_is(name, contact),
+        let collides = matches!(contact.law, Some(LawName::Frictionless | LawName::Friction));
+        let normal = match (&contact.normal, bodies) {
+            (Some(normal), _) => Some(self.direction(normal)),
+            (None, Some(bodies)) if collides => self.from_center_to_center(bodies, scene).map(Some),
+            _ => None,
         };
-        let normal = contact.normal.as_ref().map(|n| self.direction(n));
+        let at = match (&contact.at, bodies) {
+            (Some(at), _) => self.position(at),
+            (None, Some(bodies)) => {
+                let normal = normal.as_ref().and_then(Option::as_ref);
+                self.where_they_touch(name, contact, bodies, (scene, normal))
+            }
+            (None, None) => None,
+        };
         let restitution = contact.restitution.as_ref().map(|e| {
             let value = self.read(e, Quantity::NUMBER);
             if let Some(value) = &value {
@@ -87,17 +96,42 @@ impl Resolver<'_> {
         }
     }
 
-    /// The place of a contact that is not given: that of the particle in it.
-    fn where_particle_is(&mut self, name: &Text, contact: &ContactFile) -> Option<Vector> {
-        let bodies = &self.file.bodies.0;
-        let find = |text: &Text| bodies.iter().position(|(body, _)| body.text == text.text);
-        let is_particle = |i: &usize| {
-            let body = bodies[*i].1.as_ref();
-            body.is_some_and(|body| body.shape == ShapeName::Particle)
+    /// The unit normal between two bodies of which one is round and the other is too, or a particle: along the line of their
+    /// centers, which are apart by their radii where they touch.
+    fn from_center_to_center(&mut self, bodies: [usize; 2], scene: &Scene) -> Option<Vector> {
+        let shapes = bodies.map(|b| &scene.bodies[b]);
+        let radius = |b: &Body| match b.is_particle() {
+            true => Some(Expr::zero()),
+            false => b.shape.radius().cloned(),
         };
-        let mut all = contact.bodies.items.iter().filter_map(find);
-        if let Some(i) = all.find(is_particle) {
-            return self.center(i);
+        let [a, b] = shapes.map(radius);
+        let apart = a? + b?;
+        let [from, to] = bodies.map(|b| self.center(b));
+        let gap = minus(&to?, &from?);
+        (!apart.is_zero()).then(|| gap.map(|c| &c / &apart))
+    }
+
+    /// The place of a contact that is not given: that of the particle in it, or where the normal leaves what is round.
+    fn where_they_touch(
+        &mut self,
+        name: &Text,
+        contact: &ContactFile,
+        bodies: [usize; 2],
+        (scene, normal): (&Scene, Option<&Vector>),
+    ) -> Option<Vector> {
+        if let Some(particle) = bodies.into_iter().find(|b| self.is_particle(*b)) {
+            return self.center(particle);
+        }
+        let round = bodies
+            .into_iter()
+            .find_map(|b| Some((b, scene.bodies[b].shape.radius()?)));
+        if let (Some((round, radius)), Some(normal)) = (round, normal) {
+            let out = match round == bodies[0] {
+                true => radius.clone(),
+                false => -radius,
+            };
+            let [x, y] = self.center(round)?;
+            return Some([&x + &(&out * &normal[0]), &y + &(&out * &normal[1])]);
         }
         if is_sound(contact.span, &self.faults) {
             let fault = Fault::new(contact.span, "the field `at` is missing").shown_at(name.span);
