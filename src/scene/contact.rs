@@ -26,7 +26,7 @@ impl Resolver<'_> {
         let collides = matches!(contact.law, Some(LawName::Frictionless | LawName::Friction));
         let normal = match (&contact.normal, bodies) {
             (Some(normal), _) => Some(self.direction(normal)),
-            (None, Some(bodies)) if collides => self.from_center_to_center(bodies, scene).map(Some),
+            (None, Some(bodies)) if collides => self.line_of_centers(bodies, scene).map(Some),
             _ => None,
         };
         let at = match (&contact.at, bodies) {
@@ -98,7 +98,7 @@ impl Resolver<'_> {
 
     /// The unit normal between two bodies of which one is round and the other is too, or a particle: along the line of their
     /// centers, which are apart by their radii where they touch.
-    fn from_center_to_center(&mut self, bodies: [usize; 2], scene: &Scene) -> Option<Vector> {
+    fn line_of_centers(&mut self, bodies: [usize; 2], scene: &Scene) -> Option<Vector> {
         let shapes = bodies.map(|b| &scene.bodies[b]);
         let radius = |b: &Body| match b.is_particle() {
             true => Some(Expr::zero()),
