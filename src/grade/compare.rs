@@ -11,7 +11,7 @@ use super::{
 use crate::dimension::{self, Dimension};
 use crate::domain::Sample;
 use crate::equality::{self};
-use crate::expr::{Expr, Node, Symbol, ratio};
+use crate::expr::{Expr, Function, Node, Symbol, ratio};
 use crate::formula::{self, Content, Reading, Relation, write_unicode};
 use crate::interval::{Interval, Outcome, evaluate};
 pub(crate) use scalar::{WRITTEN, is_short, quotient, same_number, scalars};
@@ -250,7 +250,8 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
         (Claim::Relations([left, right], [Relation::Equal]), Claim::Value(None, value))
             if left.expr().is_some_and(|e| {
                 let (theirs, mine) = (right.symbols(), value.symbols());
-                of_two_names(e, &|name| !theirs.contains(name) && !mine.contains(name))
+                let free = |name: &Symbol| !theirs.contains(name) && !mine.contains(name);
+                of_two_names(e, &free) || is_size(e, &free) && !matches!(value, Content::Either(_))
             }) =>
         {
             values(ctx, right, value)
@@ -470,6 +471,22 @@ fn of_two_names(e: &Expr, free: &dyn Fn(&Symbol) -> bool) -> bool {
     }
 }
 
+/// Whether a formula is the size of a name, as in `|v|`, or of a vector.
+fn is_size(e: &Expr, free: &dyn Fn(&Symbol) -> bool) -> bool {
+    let square = |e: &Expr| match e.node() {
+        Node::Product(parts) => {
+            let mut names = parts.iter().map(Expr::as_symbol);
+            names.all(|name| name.is_some_and(|name| formula::is_component(name) && free(name)))
+        }
+        _ => false,
+    };
+    match e.node() {
+        Node::Call(Function::Abs, inner) => inner.as_symbol().is_some_and(free),
+        Node::Power(base, _) => matches!(base.node(), Node::Sum(parts) if parts.iter().all(square)),
+        _ => false,
+    }
+}
+
 /// The sides of an equation between vectors, names with an arrow and sums of them in their components.
 fn spread(sides: &[Content]) -> Vec<Content> {
     let vectors = sides.iter().any(|side| matches!(side, Content::Vector(_)));
@@ -598,6 +615,9 @@ pub(super) fn values(ctx: &Context, expected: &Content, answer: &Content) -> Fin
             };
             let hint = "the answer is a single value: decide which sign it has";
             Finding::told("DIFF_TWO_FOR_ONE", "kind", words, hint)
+        }
+        (Content::Quantity(e), Content::Either(_)) => {
+            values(ctx, &Content::Scalar(e.value.clone()), answer)
         }
         (Content::Vector(e), Content::Scalar(a)) => {
             // `a × a = 0`

@@ -203,8 +203,12 @@ pub(super) fn misfit(key: &Key, text: &str, reading: &Reading) -> Option<(usize,
 
 /// Dimension of what is asked, where it is known and not that of a number.
 fn asked(key: &Key) -> Option<Dimension> {
-    let unit = key.reading.unit.as_ref().map(|unit| &unit.dimension);
-    if let Some(dimension) = unit.or(key.question.dimension.as_ref()) {
+    let unit = match key.reading.content.answer() {
+        Content::Quantity(quantity) => Some(&quantity.unit),
+        _ => key.reading.unit.as_ref(),
+    };
+    let dimension = unit.map(|unit| &unit.dimension);
+    if let Some(dimension) = dimension.or(key.question.dimension.as_ref()) {
         return Some(dimension.clone());
     }
     let known = |name: &str| {
