@@ -178,7 +178,7 @@ struct Desk<'a> {
     moving: BTreeSet<Symbol>,
     /// Names the student introduced.
     own: BTreeMap<Symbol, Expr>,
-    /// Names that were defined with a slip: the line, the name, and its value without the slip.
+    /// Names that were defined with a slip, or may have been: the line that shows it, the name, and its value without the slip.
     slipped: Vec<(usize, Symbol, Expr)>,
     /// All definitions in the solution, as text.
     ahead: Vec<(Symbol, String)>,
@@ -592,6 +592,12 @@ impl<'a> Desk<'a> {
                     .filter(|(_, d)| matches!(d.node(), Node::Sum(_)))
                     .collect();
                 self.wrong.extend(own);
+                // It may be such a name that is wrong, which later lines use as well.
+                let names = all.iter().flat_map(|d| self.own_needed(d));
+                let names: Vec<_> = names
+                    .map(|(name, [_, truth])| (number, name, truth))
+                    .collect();
+                self.slipped.extend(names);
                 Status::Wrong
             }
         }

@@ -283,8 +283,9 @@ fn equation(text: &str) -> &str {
 
 /// An equation without the reason in words behind it: `T1 = T2 since the pulley is light`, `…, where v' is the speed after`.
 fn without_reason(text: &str) -> &str {
-    const REASONS: [&str; 7] = [
+    const REASONS: [&str; 8] = [
         " where ",
+        " which ",
         " because ",
         " since ",
         " using ",

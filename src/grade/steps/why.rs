@@ -149,17 +149,25 @@ impl Desk<'_> {
         own.substitute(&others)
     }
 
-    /// One of the student's own names whose value is off by a number where the equation is right, or the other way round.
-    fn own_value(&self, left: &Expr, right: &Expr) -> Option<Diagnosis> {
+    /// The student's own names in an equation that does not hold: what each stands for, and what it would have to stand for.
+    pub(super) fn own_needed(&self, gap: &Expr) -> Vec<(Symbol, [Expr; 2])> {
         let domains = &self.sheet.scene.domains;
-        let gap = left - right;
         let used = gap.symbols();
         let own = self.own.keys().filter(|name| used.contains(*name));
-        own.into_iter().find_map(|name| {
+        let needed = own.filter_map(|name| {
             let mut others = self.own.clone();
             let value = self.with_own(&others.remove(name)?);
             let rest = gap.substitute(&others).substitute(&self.closed);
-            let needed = solve_for(&rest, name, domains)?;
+            let needed = solve_for(&rest, name, domains).filter(|needed| !needed.is_zero())?;
+            Some((name.clone(), [value, needed]))
+        });
+        needed.collect()
+    }
+
+    /// One of the student's own names whose value is off by a number where the equation is right, or the other way round.
+    fn own_value(&self, left: &Expr, right: &Expr) -> Option<Diagnosis> {
+        let each = self.own_needed(&(left - right)).into_iter();
+        let mut found = each.filter_map(|(name, [value, needed])| {
             let share = self.share(&value.substitute(&self.closed), &needed)?;
             let [value, needed] = [&value, &needed].map(formula::write_plain);
             (!share.is_one()).then(|| {
@@ -169,7 +177,8 @@ impl Desk<'_> {
                     "either that value or this line is off by a factor: check both",
                 )
             })
-        })
+        });
+        found.next()
     }
 
     /// The term with whose other sign an equation holds.
