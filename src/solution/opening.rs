@@ -207,8 +207,13 @@ impl Writer<'_> {
         if given.is_empty() {
             return;
         }
-        let lead = [say("It is given that just after ")];
-        self.text(lead.into_iter().chain(given).chain([say(".")]).collect());
+        let lead = [say("It is given that ")];
+        self.text(
+            lead.into_iter()
+                .chain(given)
+                .chain([say(" just after.")])
+                .collect(),
+        );
     }
 
     /// The motion just before, where the scene has symbols for it that it does not explain.

@@ -171,9 +171,9 @@ fn not_carried(slide: &Slide, is_round: bool) -> Option<(String, &'static str)> 
             String::from("a round body on a body that moves too slips until it rolls"),
             "write \"until\": \"rolls\", or a time `for`",
         ),
-        () if slide.friction.is_none() => (
-            String::from("without friction the body below does not feel what slides on it"),
-            "add \"friction\": \"mu\" between the two, or let each `slide` by itself",
+        () if slide.friction.is_none() && matches!(slide.until, SlideEnd::Together) => (
+            String::from("without friction what slides goes on sliding on the body below"),
+            "add \"friction\": \"mu\" between the two",
         ),
         () if matches!(slide.until, SlideEnd::Stops) => (
             String::from("whether it stops on the body below it or over the ground is not said"),

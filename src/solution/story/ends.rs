@@ -128,7 +128,7 @@ impl Page<'_> {
         let by_rolling = || self.rolled(here, &ask, formula);
         let flown = self.flown(here, &ask, answer).or_else(by_energy);
         let by_ratio = || self.tied(here, &ask, answer, formula);
-        let by_plank = || self.gone_below(here, &ask);
+        let by_plank = || self.gone_along(here, &ask);
         let flown = flown
             .or_else(by_rolling)
             .or_else(by_ratio)
@@ -227,8 +227,8 @@ impl Page<'_> {
             .then(|| [by_letter, by_value].map(|speed| &way * &speed / radius))
     }
 
-    /// Where the body below one that slides on it has come to, x + V t + A t²/2, by letters and in full.
-    fn gone_below(&self, told: &StageTold, ask: &Ask) -> Option<[Expr; 2]> {
+    /// Where a body that slides on another has come to, or the one below it, x + V t + A t²/2, by letters and in full.
+    fn gone_along(&self, told: &StageTold, ask: &Ask) -> Option<[Expr; 2]> {
         let (
             StageKind::Slide(slide),
             Ask::Position {
@@ -242,9 +242,14 @@ impl Page<'_> {
         };
         let (on, along) = (slide.on.as_ref()?, along.as_ref()?);
         let way = tidied(self.scene, &dot(along, &slide.along));
-        let is_below = on.company().contains(body) && (way.is_one() || (-&way).is_one());
+        let letter = match () {
+            () if on.company().contains(body) => "A",
+            () if slide.company().contains(body) => "a",
+            () => return None,
+        };
+        let is_along = way.is_one() || (-&way).is_one();
         let step = |letter: &str| told.steps.iter().find(|s| s.letter == letter);
-        let (time, rate) = (step("t")?, step("A")?);
+        let time = step("t")?;
         let [from, speed] = [&told.before.center[*body], &told.before.velocity[*body]]
             .map(|v| tidied(self.scene, &dot(v, along)));
         let speed = self.named(&speed);
@@ -252,8 +257,12 @@ impl Page<'_> {
             let gained = Expr::ratio(1, 2) * &way * rate * time.powi(2);
             &from + &speed * time + gained
         };
-        let [t, a] = [time, rate].map(|s| self.letter_of(told, s));
-        is_below.then(|| [after(&a, &t), after(&rate.value, &time.value)])
+        let [by_letters, in_full] = match step(letter).filter(|s| !s.value.is_zero()) {
+            Some(rate) => [self.letter_of(told, rate), rate.value.clone()],
+            None => [Expr::zero(), Expr::zero()],
+        };
+        let t = self.letter_of(told, time);
+        is_along.then(|| [after(&by_letters, &t), after(&in_full, &time.value)])
     }
 
     /// What strings tie to the body that moves along a line, in a fixed ratio to what stands above: half as fast, or turning

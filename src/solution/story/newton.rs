@@ -14,6 +14,19 @@ const WORTH_A_NAME: usize = 6;
 /// The speed at the beginning of a motion along a line.
 const START: &str = "v_0";
 
+/// Why nothing speeds a motion along a line up or slows it down.
+fn steady(told: &StageTold) -> &'static str {
+    match &told.placed.kind {
+        StageKind::Slide(s) if told.work.is_empty() && s.on.is_some() => {
+            "No force acts along the line, so both velocities stay as they are."
+        }
+        StageKind::Slide(s) if told.work.is_empty() && s.strings.is_empty() => {
+            "No force acts along the line, so the velocity stays as it is."
+        }
+        _ => "The forces along the line balance, so the velocity stays as it is.",
+    }
+}
+
 impl Page<'_> {
     /// A motion by Newton's laws: what the letters stand for, then forces, accelerations, and what they come to.
     pub(super) fn steps(&mut self, told: &StageTold) {
@@ -100,8 +113,7 @@ impl Page<'_> {
             });
         }
         if self.is_steady(told) {
-            self.solution
-                .say("The forces along the line balance, so the velocity stays as it is.");
+            self.solution.say(steady(told));
         }
         self.meant(letters);
         self.solution.display(lines);
@@ -175,6 +187,9 @@ impl Page<'_> {
             "t" => is_asked || told.steps.iter().any(|s| !s.by_time.is_empty()),
             "s" => is_asked,
             "a" | "v" | "omega" if self.is_steady(told) => self.answering(told, step).is_some(),
+            "V" if self.is_steady(told) && told.steps.iter().all(|s| s.letter != "A") => {
+                self.answering(told, step).is_some()
+            }
             "v" | "V" => {
                 let moves = |ask: &Ask| {
                     matches!(
@@ -323,8 +338,14 @@ impl Page<'_> {
         let StageKind::Slide(slide) = &told.placed.kind else {
             return None;
         };
-        let along = dot(&told.before.velocity[slide.body], &slide.along);
-        let speed = self.named(&tidied(self.scene, &along));
+        let along = |b: usize| dot(&told.before.velocity[b], &slide.along);
+        let own = along(slide.body);
+        // Of what slides on another body along that one.
+        let own = slide
+            .on
+            .as_ref()
+            .map_or(own.clone(), |on| own - along(on.body));
+        let speed = self.named(&tidied(self.scene, &own));
         match (self.is_steady(told), step.letter) {
             (true, "s") => Some(speed * told.time.as_ref()?),
             (true, "t") => Some(told.way.as_ref()? / &speed),

@@ -69,6 +69,8 @@ impl<'a> Supposed<'a> {
     ) -> Result<bool, Refused> {
         match sign(e, &self.stage.scene.domains) {
             Seen::Proved(sign) if is_so(sign) => Ok(true),
+            // It is positive but at a bound.
+            Seen::Proved(Sign::NotNegative) => Ok(false),
             Seen::Proved(_) | Seen::Negative => Err(refused()),
             _ => Ok(false),
         }

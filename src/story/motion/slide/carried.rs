@@ -12,7 +12,7 @@ use crate::answer::calc::is_zero;
 use crate::expr::{Expr, dot};
 use crate::formula::write_plain;
 use crate::scene::{Body, Carrier, Slide, SlideEnd, Stage};
-use crate::story::{Refused, StageTold, State, Step};
+use crate::story::{Kept, Refused, StageTold, State, Step};
 
 /// The upper body and the lower one, each with what moves along with it; velocities and forces along the line.
 struct Pair<'a> {
@@ -91,7 +91,7 @@ pub(super) fn carried(
     let energies = [energy(&pair.speeds, &spins[0])?, energy(&ends, &spins[1])?];
     let slipped = &(&slip * &time) + &half(&(&rate * &time.powi(2)));
     let work = pair.work(&works, &slipped);
-    let (momentum, belt) = (pair.keeps_momentum(), pair.is_belt());
+    let (momentum, rubs, energy_kept) = (pair.keeps_momentum(), pair.rubs(), pair.energy_kept());
     let Pair {
         mut supposed,
         accelerations,
@@ -101,12 +101,8 @@ pub(super) fn carried(
         .words
         .extend(meanwhile::others(stage, &before, &mut after, Some(&time)));
     let mut out = StageTold::new(stage, before, after);
-    let why = match belt {
-        true => "what drives the belt and friction do work",
-        false => "friction does work against the slip",
-    };
-    out.kept = vec![kept("energy", false, why)];
-    if momentum {
+    out.kept = vec![energy_kept];
+    if momentum && rubs {
         let why = "friction between the two is the only force along the line";
         out.kept.push(kept("momentum", true, why));
     }
@@ -277,9 +273,16 @@ impl<'a> Pair<'a> {
         }
         if begins && self.is_undriven() {
             let why = "it moves with the body below already, and no force makes it slide";
-            return Err(self.refused(upper, why, ""));
+            let hint = "what walks on it sets off by an impact, with a velocity `relative_to` the body below, and keeps it in a slide without friction";
+            return Err(self.refused(upper, why, hint));
         }
+        let slope = self.slide.force.is_none() && self.below.force.is_none();
         let (left, why, hint) = match begins {
+            true if slope && !self.rubs() => (
+                rate.clone(),
+                format!("down a smooth slope `{below}` goes as fast as it does"),
+                "a wedge that goes sideways over a floor is a `linkage` with its block: the coordinate is the way down the wedge, and the wedge stands where their common center of mass has not moved sideways",
+            ),
             true => (
                 rate.clone(),
                 format!("friction is enough to take it along with `{below}`"),
@@ -401,8 +404,12 @@ impl<'a> Pair<'a> {
 
     /// Friction, by its size, and accelerations, as they follow from each other.
     fn steps(&self) -> Vec<Step> {
+        const OWN: &str = "the acceleration along the line";
         let [m, below] = &self.masses;
         let [a, b] = &self.accelerations;
+        if self.keeps_momentum() && !self.rubs() {
+            return vec![Step::by_newton("a", [&Expr::zero(), m], a, OWN)];
+        }
         let tidy = |e: Expr| self.tidied(&e).unwrap_or(e);
         let size = tidy(&self.sense * &self.friction);
         let friction = &(&self.sense * &size);
@@ -411,12 +418,7 @@ impl<'a> Pair<'a> {
         let driven = &(friction + &rest) + &self.floor;
         let mut out = vec![
             Step::new("F", &size, &size, "the friction between the two"),
-            Step::by_newton(
-                "a",
-                [&(&own - friction), m],
-                a,
-                "the acceleration along the line",
-            ),
+            Step::by_newton("a", [&(&own - friction), m], a, OWN),
         ];
         if !self.is_belt() {
             let why = "that of the body below";
@@ -474,6 +476,9 @@ impl<'a> Pair<'a> {
             Expr::sum(forces.filter_map(|(f, s)| Some(f.as_ref()? * s))),
         ));
         out.retain(|(_, w)| !w.is_zero());
+        if !self.rubs() {
+            return out;
+        }
         // A belt takes its energy from what drives it.
         let rubbed = match self.is_belt() {
             true => -(&self.friction * &gone[0]),
@@ -481,6 +486,26 @@ impl<'a> Pair<'a> {
         };
         out.push(("friction", rubbed));
         out
+    }
+
+    /// Whether friction acts, between the two or on the floor.
+    fn rubs(&self) -> bool {
+        let domains = &self.stage.scene.domains;
+        let is_none = |e: &Expr| is_zero(e, domains) == Some(true);
+        !is_none(&self.friction) || !is_none(&self.floor)
+    }
+
+    fn energy_kept(&self) -> Kept {
+        let (conserved, why) = match () {
+            () if self.is_belt() => (false, "what drives the belt and friction do work"),
+            () if self.rubs() => (false, "friction does work against the slip"),
+            () if self.slide.force.is_some() || self.below.force.is_some() => {
+                (false, "the force does work, its size times the distance")
+            }
+            () if self.is_undriven() => (true, "no force acts along the line"),
+            () => (true, "the surfaces are smooth, and weight has a potential"),
+        };
+        kept("energy", conserved, why)
     }
 
     /// Whether nothing from outside acts along the line.
