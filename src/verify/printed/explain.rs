@@ -8,7 +8,7 @@ use super::Finding;
 use super::desk::Desk;
 use super::number::{last_place, number_of};
 use crate::algebra::{self, Sign};
-use crate::dimension;
+use crate::dimension::{self, Clash};
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Point, Rational, Symbol, ratio};
 use crate::formula::{Content, Reading, Relation};
@@ -182,11 +182,15 @@ impl Desk<'_> {
             if self.is_same(closed, value) {
                 continue;
             }
-            let dimensions = [closed, value].map(|e| dimension::of(e, &known).ok().flatten());
-            if let [Some(a), Some(b)] = &dimensions
-                && a != b
-            {
-                finding.caught_by = Some(format!("dimensions: {b} instead of {a}"));
+            let by = match [closed, value].map(|e| dimension::of(e, &known)) {
+                [Ok(Some(a)), Ok(Some(b))] if a != b => Some(format!("{b} instead of {a}")),
+                [Ok(_), Err(clash)] if !matches!(*clash, Clash::Unknown(_)) => {
+                    Some(clash.message(&|e| self.say(e)))
+                }
+                _ => None,
+            };
+            if let Some(by) = by {
+                finding.caught_by = Some(format!("dimensions: {by}"));
                 return;
             }
             if self.is_same(closed, &-value) {
