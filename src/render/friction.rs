@@ -81,7 +81,8 @@ pub fn text(
             let Some(impact) = each.told.alone() else {
                 continue;
             };
-            for answer in &impact.derivation.answers {
+            let is_common = |a: &&Answer| about.iter().any(|b| b.name == a.name);
+            for answer in each.told.answers.iter().filter(|a| !is_common(a)) {
                 if let Form::Value { short, .. } = &answer.form {
                     say(&format!("  {} = {}", answer.name, unicode(scene, short)));
                 }

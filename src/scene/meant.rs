@@ -3,7 +3,7 @@
 /// What there is for a word of mechanics that is no word of scene files.
 /// `here` are the words that could stand in its place.
 pub(super) fn meant(word: &str, here: &[&str]) -> Option<&'static str> {
-    let word = word.to_lowercase();
+    let word = word.to_lowercase().replace(' ', "_");
     match among(&word, here) {
         Some(meant) => meant,
         None => anywhere(&word),
@@ -27,6 +27,7 @@ pub(super) fn example(fields: &[&str]) -> Option<&'static str> {
         _ if fields.contains(&"threshold") => {
             Some("such as {\"velocity\": \"A\", \"along\": \"x\"}")
         }
+        _ if fields.starts_with(&["unit", "meaning"]) => Some("such as {\"unit\": \"kg\"}"),
         _ if fields.starts_with(&["body", "with", "friction"]) => Some(
             "what is slid `on` moves too, such as {\"body\": \"plank\"}; fixed ground has no `on`",
         ),
@@ -48,7 +49,7 @@ fn among(word: &str, here: &[&str]) -> Option<Option<&'static str>> {
         "rest" | "stop" | "stopped" | "over" | "end" if has("stops") => {
             "a motion that ends at rest has \"until\": \"stops\""
         }
-        "point" | "position" | "place" | "location" if !has("center") => {
+        "point" | "position" | "place" | "location" if !has("center") && !has("particle") => {
             return Some(has("at").then_some("its place is `at`"));
         }
         "to" | "angle" if has("by") && has("until") => {
@@ -191,6 +192,10 @@ fn anywhere(word: &str) -> Option<&'static str> {
             "a box is a `rectangle` with `width` and `height`"
         }
         "hoop" | "tube" => "a thin hoop is a `ring` with `radius`",
+        "triangle" | "semicircle" | "cone" | "shell" | "hollow_sphere" | "ellipse" => {
+            "what has no shape of its own here is a `body` with its `inertia` or `radius_of_gyration`"
+        }
+        "side" => "the sides of a `rectangle` are its `width` and its `height`",
         "circle" | "cylinder" | "wheel" => {
             "a uniform wheel is a `disk` with `radius`, a thin one a `ring`"
         }

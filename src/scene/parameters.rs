@@ -43,10 +43,11 @@ pub(super) fn resolve(
             let message = format!("`{}` and `{other}` are one symbol in formulas", name.text);
             faults.push(Fault::new(name.span, message));
         }
-        let unit = match entry.as_ref().and_then(|p| p.unit.as_ref()) {
+        // One that could not be read is told by itself: of what dimension it would be is open.
+        let unit = entry.as_ref().and_then(|p| match &p.unit {
             None => dimension::unit("1").ok(),
             Some(text) => read_unit(text, faults),
-        };
+        });
         let dimension = unit.as_ref().map(|u| u.dimension.clone());
         dimensions.insert(name.text.as_str().into(), dimension);
         units.push(unit);

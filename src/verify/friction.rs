@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Check;
 use crate::algebra::{Field, Sign};
+use crate::answer::calc::{Seen, sign};
 use crate::derive::friction::{Bound, Case, Direction, Table};
 use crate::domain::Domains;
 use crate::expr::number::to_f64;
@@ -227,16 +228,18 @@ fn picked(scene: &Scene, table: &Table) -> Option<usize> {
 }
 
 /// Signs at the values of a scene: in fractions, and where these do not do by enclosures or the signs of algebraic numbers.
-struct Signs {
+struct Signs<'a> {
     exact: Option<Point<Rational>>,
     values: BTreeMap<Symbol, Expr>,
+    domains: &'a Domains,
 }
 
-impl Signs {
-    fn of(scene: &Scene) -> Signs {
+impl Signs<'_> {
+    fn of(scene: &Scene) -> Signs<'_> {
         Signs {
             exact: numeric::exact_values(scene).ok(),
             values: scene.values(),
+            domains: &scene.domains,
         }
     }
 
@@ -246,7 +249,13 @@ impl Signs {
         }
         let e = e.substitute(&self.values);
         if e.symbols().iter().any(|s| &**s != "pi") {
-            return None;
+            // What has no value may play no part in the sign, such as a mass.
+            return match sign(&e, self.domains) {
+                Seen::Proved(Sign::Positive) => Some(std::cmp::Ordering::Greater),
+                Seen::Proved(Sign::Zero) => Some(std::cmp::Ordering::Equal),
+                Seen::Proved(Sign::Negative) => Some(std::cmp::Ordering::Less),
+                _ => None,
+            };
         }
         if let Some(value) = evaluate::<Interval>(&e, &Point::default()).value() {
             if value.low > 0.0 {

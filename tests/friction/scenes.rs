@@ -267,6 +267,25 @@ fn a_scene_left_open_names_the_cases_it_has() {
 }
 
 #[test]
+fn what_is_made_of_the_answers_of_a_case_stands_with_them() {
+    let out = std::process::Command::new(env!("CARGO_BIN_EXE_carom"))
+        .args([
+            "derive",
+            "tests/friction/puck-glances-off-a-rough-rail.json",
+        ])
+        .output()
+        .expect("carom runs");
+    let text = String::from_utf8_lossy(&out.stdout).to_string();
+    let told = ["phi = −atan((μ (1 + e) cosα − sinα)/(e cosα))", "phi = 0"];
+    let counts = told.map(|line| text.matches(line).count());
+    assert_eq!(
+        counts,
+        [1, 2],
+        "one where it slides, two where it sticks: {text}"
+    );
+}
+
+#[test]
 fn laws_are_compared_at_an_impact_inside_stages_with_the_motion_handed_on() {
     let said = |arguments: &[&str]| {
         let out = std::process::Command::new(env!("CARGO_BIN_EXE_carom"))
