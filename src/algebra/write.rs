@@ -106,12 +106,36 @@ impl Field {
             below.take(self.taken_apart(f), *k);
         }
         strike(&mut above, &mut below, &self.fuel);
+        self.take_roots(&mut above, &mut below);
         above.join_conjugates();
         below.join_conjugates();
         let quotient = self.assemble(&above, &below);
         let others = [self.parted(x), self.with_rebound(x, quotient.size())];
         let all = std::iter::once(quotient).chain(others.into_iter().flatten());
         all.min_by_key(Expr::size).unwrap_or_else(Expr::zero)
+    }
+
+    /// `x/√x` is `√x`, which has a value where x is zero too.
+    fn take_roots(&self, above: &mut Parts, below: &mut Parts) {
+        let roots = below.factors.clone().into_iter().filter_map(|(f, k)| {
+            let root = f
+                .variables()
+                .first()
+                .copied()
+                .filter(|_| k == 1 && f.len() == 1)?;
+            match (&self.gens[root].kind, &self.gens[root].relation) {
+                (Kind::Root, Some((2, value))) => Some((f, value.clone())),
+                _ => None,
+            }
+        });
+        for (root, value) in roots.collect::<Vec<_>>() {
+            if let Some(at) = above.factors.iter().position(|(f, _)| *f == value) {
+                above.factors[at].1 -= 1;
+                above.factors.retain(|(_, k)| *k > 0);
+                above.note(root.clone(), 1);
+                below.factors.retain(|(f, _)| *f != root);
+            }
+        }
     }
 
     /// A quotient with what stands above with the whole denominator taken out: `(g (M + m) − F)/(M + m)` is `g − F/(M + m)`.
