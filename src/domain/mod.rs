@@ -276,6 +276,16 @@ impl Domains {
         self.completed(&roles(formulas)).0
     }
 
+    /// The domain without the ends of its intervals.
+    pub fn inside(&self) -> Domains {
+        let mut out = self.clone();
+        let all = out.symbols.values_mut();
+        for end in all.flat_map(|d| [&mut d.low, &mut d.high]).flatten() {
+            end.open = true;
+        }
+        out
+    }
+
     /// The first points at which some formulas may be tried.
     pub fn points(&self, formulas: &[&Expr], count: usize) -> Vec<Sample> {
         let roles = roles(formulas);

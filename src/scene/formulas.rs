@@ -177,7 +177,11 @@ impl Symbols {
             }
             Ok(Some(found)) if found != quantity.dimension() => {
                 let message = format!("expected {}, found {found}", quantity.dimension());
-                faults.push(Fault::new(formula.span, message).hint(quantity.hint));
+                let fault = Fault::new(formula.span, message);
+                faults.push(match named_like_its_unit(&formula.text, quantity) {
+                    Some(hint) => fault.hint(hint),
+                    None => fault.hint(quantity.hint),
+                });
                 None
             }
             Ok(_) => Some(e),
@@ -314,4 +318,15 @@ fn scalar(content: Content, formula: &Formula, faults: &mut Vec<Fault>) -> Optio
 fn is_finite(e: &Expr) -> bool {
     let mut numbers = e.parts().filter_map(Expr::as_number);
     numbers.all(|value| to_f64(value).is_finite())
+}
+
+/// What to write for a number with a unit that is also the name of a parameter: `3 m` where m is a mass.
+fn named_like_its_unit(text: &str, quantity: Quantity) -> Option<String> {
+    let text = text.trim();
+    let unit = text.trim_start_matches(|c: char| c.is_ascii_digit() || matches!(c, '.' | ' '));
+    let number = text.strip_suffix(unit).map(str::trim)?;
+    let is_meant = dimension::unit(unit).is_ok_and(|u| u == Unit::coherent(quantity.dimension()));
+    (is_meant && !number.is_empty()).then(|| {
+        format!("`{unit}` is a parameter here: write {number} alone, which is in SI units")
+    })
 }
