@@ -80,9 +80,10 @@ pub fn read(text: &str) -> Result<Scene, Faults> {
         questions::order::order(&mut file);
         stages::spread(&mut file);
         let lone = stages::lone(&file).or_else(|| questions::with_parts(&file));
-        let file = lone.as_ref().unwrap_or(&file);
-        let (scene, all) = resolve::resolve(file, turns, std::mem::take(faults));
+        let whole = lone.as_ref().unwrap_or(&file);
+        let (mut scene, all) = resolve::resolve(whole, turns, std::mem::take(faults));
         *faults = all;
+        questions::name_centers(&file, &mut scene);
         scene
     })
 }

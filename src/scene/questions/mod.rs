@@ -438,6 +438,23 @@ fn parts_of_center(earlier: &[Entry], name: &Text, q: &QuestionFile) -> Vec<Entr
     out
 }
 
+/// Says of the coordinates that an instantaneous center is put together from what they are.
+pub(super) fn name_centers(file: &SceneFile, scene: &mut Scene) {
+    for (name, q) in entries(file.questions.as_ref()) {
+        let Some(body) = &q.instantaneous_center else {
+            continue;
+        };
+        for question in &mut scene.questions {
+            let axis = question.name.strip_prefix(&name.text);
+            if let (Some(axis @ ("_x" | "_y")), Ask::Value { meaning, .. }) =
+                (axis, &mut question.ask)
+            {
+                *meaning = format!("instantaneous center of `{}`, {}", body.text, &axis[1..]);
+            }
+        }
+    }
+}
+
 /// A question and a parameter need different names, unless that parameter is what is sought.
 fn name_is_free(r: &mut Resolver<'_>, name: &Text, q: &QuestionFile) {
     if !is_own(name, q) && answers::parameter_names(r.file).contains(&name.text.as_str()) {
