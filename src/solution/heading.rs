@@ -41,6 +41,7 @@ pub(super) fn goes_on(before: &Ask, ask: &Ask) -> bool {
             },
         ) => (of, parameter, to) == (f, p, t),
         (Ask::Turn { .. }, Ask::Turn { .. }) => true,
+        (Ask::Value { meaning: a, .. }, Ask::Value { meaning: b, .. }) if !a.is_empty() => a == b,
         _ => plain(before) && plain(ask),
     }
 }
@@ -53,7 +54,10 @@ pub(super) fn further(solution: &mut Solution, ask: &Ask, answer: &Answer) {
             None => String::from("The leading term is"),
         });
     }
-    if let Ask::Turn { .. } = ask {
+    let is_one = |meaning: &str| !meaning.is_empty();
+    if matches!(ask, Ask::Turn { .. })
+        || matches!(ask, Ask::Value { meaning, .. } if is_one(meaning))
+    {
         return;
     }
     let Some(section) = solution.sections.last_mut() else {

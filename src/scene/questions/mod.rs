@@ -446,10 +446,8 @@ pub(super) fn name_centers(file: &SceneFile, scene: &mut Scene) {
         };
         for question in &mut scene.questions {
             let axis = question.name.strip_prefix(&name.text);
-            if let (Some(axis @ ("_x" | "_y")), Ask::Value { meaning, .. }) =
-                (axis, &mut question.ask)
-            {
-                *meaning = format!("instantaneous center of `{}`, {}", body.text, &axis[1..]);
+            if let (Some("_x" | "_y"), Ask::Value { meaning, .. }) = (axis, &mut question.ask) {
+                *meaning = format!("instantaneous center of `{}`", body.text);
             }
         }
     }
