@@ -83,6 +83,10 @@ pub fn explain(written: &Written, whole: bool) -> (Vec<Diagnosis>, Vec<Diagnosis
     let Some(trials) = trials(written) else {
         return (Vec::new(), Vec::new());
     };
+    // A right number of which the unit is missing needs no belief.
+    if trials.fits(written, &Slip::none(written.scene)) {
+        return (Vec::new(), Vec::new());
+    }
     let quantities = others::quantities(written);
     let evidence = trials.evidence(written, &quantities);
     if evidence.is_some_and(|chance| chance > COINCIDENCE) {
