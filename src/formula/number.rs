@@ -278,7 +278,9 @@ fn comma(text: &str, at: usize, end: usize) -> Faulty<()> {
     if digits == 0 {
         return Ok(());
     }
-    let (whole, part) = (&text[at..end], &rest[length..length + digits]);
+    let part = &rest[length..length + digits];
+    // The points of `1.000,5` divide thousands.
+    let whole = text[at..end].replace('.', "");
     let mut hint = format!("write {whole}.{part} for a decimal number");
     if digits == 3 {
         hint.push_str(&format!(", {whole}{part} for thousands"));
