@@ -603,6 +603,10 @@ fn every_check_of_a_random_story_holds_and_many_stories_can_be_told() {
             let Ok(found) = tell(&scene) else {
                 return Ok(());
             };
+            // What moved away meets nothing there.
+            if found.refusals().iter().any(|why| why.contains("does not lie on")) {
+                return Ok(());
+            }
             told.fetch_add(1, Ordering::Relaxed);
             let stages = found.stages.iter().flat_map(|s| &s.checks);
             let wrong: Vec<_> = stages

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use super::Check;
 use super::calc::{
-    Roots, Seen, Unsolved, above_zero, by_signs, end_of, essential, is_zero, sign, solve, tidy,
+    Roots, Seen, Unsolved, above_zero, by_signs, end_of, essential, sign, solve, tidy,
 };
 use super::inequality::{everywhere, sign_words};
 use super::{Answer, Form, intervals, limit, undo};
@@ -232,13 +232,12 @@ fn sides(
     }
 }
 
-/// The sign of the slope of a difference that is linear in the parameter, where it is proved and never zero.
+/// The sign of the slope of a difference without poles, where it is proved and never zero: it only grows or only falls wherever it
+/// has a value.
 fn slope(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sign> {
-    let at = |k: i64| gap.put(parameter, &Expr::from(k));
-    let (start, slope) = (at(0), at(1) - at(0));
-    let line = &start + &(&slope * &Expr::symbol(parameter));
-    let is_linear = is_zero(&(gap - &line), domains) == Some(true);
-    match is_linear.then(|| sign(&slope, domains))? {
+    // Without a common denominator poles were not looked for.
+    limit::common(gap, domains)?;
+    match sign(&gap.derivative(parameter), domains) {
         Seen::Proved(sign @ (Sign::Positive | Sign::Negative)) => Some(sign),
         _ => None,
     }

@@ -14,7 +14,7 @@ use super::refute::sign_at;
 use crate::algebra::{Field, Sign};
 use crate::domain::{Coordinate, Domain, Domains, Limit, Roles, Sample};
 use crate::expr::number::from_f64;
-use crate::expr::{Expr, Function, Int, Node, Point, Rational, Symbol};
+use crate::expr::{Expr, Function, Int, Node, Point, Rational, Symbol, ratio};
 use crate::interval::{Interval, Outcome, evaluate};
 
 /// Most points that come out.
@@ -287,7 +287,7 @@ pub(super) fn tested(
         }
         let starts = |count| near.iter().take(count);
         // What takes fewer steps first.
-        let ways: [&dyn Fn() -> Vec<Sample>; 6] = [
+        let ways: [&dyn Fn() -> Vec<Sample>; 7] = [
             &|| {
                 starts(1)
                     .flat_map(|start| corners(e, start, domains))
@@ -296,6 +296,11 @@ pub(super) fn tested(
             &|| {
                 starts(1)
                     .filter_map(|start| vertex(e, start, domains))
+                    .collect()
+            },
+            &|| {
+                starts(2)
+                    .flat_map(|start| edges(e, start, domains))
                     .collect()
             },
             &|| {
@@ -428,6 +433,31 @@ fn kinks(e: &Expr, start: &Sample, domains: &Domains) -> Vec<Sample> {
                     let zeros = zeros.filter_map(from_f64).filter(|z| domain.contains(z));
                     out.extend(zeros.map(|z| moved.moved(follows, Coordinate::Number(z))));
                 }
+            }
+        }
+    }
+    out
+}
+
+/// Points close to where an expression stops having a value, or bends: with one symbol led along its domain, what stands in a
+/// logarithm, a root, an arc or an absolute value vanishes. `ln(x − 1)` is below all bounds in a strip next to x = 1 alone.
+fn edges(e: &Expr, start: &Sample, domains: &Domains) -> Vec<Sample> {
+    let mut out = Vec::new();
+    for (inner, _) in arguments(&[e]).into_iter().take(4) {
+        for name in free_symbols(std::slice::from_ref(&inner), domains, start) {
+            let Some(domain) = along(&name, start, domains) else {
+                continue;
+            };
+            for zero in rough_zeros(&inner, &name, &start.doubles(), domain) {
+                let size = zero.abs().max(1e-2);
+                let [Some(zero), Some(size)] = [zero, size].map(from_f64) else {
+                    continue;
+                };
+                let shares = [10, 1_000, 1_000_000].into_iter();
+                let shares = shares.flat_map(|k| [ratio(1, k), ratio(-1, k)]);
+                let near = shares.map(|share| &zero + &(&share * &size));
+                let near = near.filter(|x| domain.contains(x));
+                out.extend(near.map(|x| start.moved(&name, Coordinate::Number(x))));
             }
         }
     }

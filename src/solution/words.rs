@@ -2,6 +2,7 @@
 
 use super::{Inline, Math, Meaning, Name};
 use crate::derive::Derivation;
+use crate::dimension;
 use crate::expr::{Expr, Symbol};
 pub use crate::formula::{capital, either, listed};
 use crate::laws::{Place, Unknown};
@@ -186,7 +187,8 @@ pub fn with_symbols(scene: &Scene, text: &str) -> Vec<Inline> {
         let word = whole.trim_start_matches(|c: char| c.is_ascii_digit());
         let is_factor = word.len() < whole.len();
         let in_formula = is_factor || word == "a" && after.starts_with(')');
-        let Some(symbol) = symbol_in(scene, word, in_formula) else {
+        let symbol = symbol_in(scene, word, in_formula);
+        let Some(symbol) = symbol.filter(|_| !is_unit(&words, word, after)) else {
             words.push_str(whole);
             continue;
         };
@@ -207,6 +209,17 @@ pub fn with_symbols(scene: &Scene, text: &str) -> Vec<Inline> {
     }
     out.push(say(words));
     out
+}
+
+/// Whether a word is the beginning of a unit behind a number: the m of `120 m/s`.
+fn is_unit(before: &str, word: &str, after: &str) -> bool {
+    let below = after.strip_prefix('/').unwrap_or("");
+    let end = below.find(|c: char| !c.is_alphanumeric() && c != '^');
+    let below = &below[..end.unwrap_or(below.len())];
+    let number = before.strip_suffix(' ').unwrap_or("");
+    number.ends_with(|c: char| c.is_ascii_digit())
+        && !below.is_empty()
+        && dimension::unit(&format!("{word}/{below}")).is_ok()
 }
 
 /// The symbol that a word of a sentence stands for, as it is typed or as it is set: `omega_0`, `ω₀`. Words of the language stay

@@ -223,9 +223,11 @@ impl Change<'_> {
 
 /// Whether a value is above zero where some others are not negative; `None` where that is not known.
 pub(super) fn way(e: &Expr, domains: &Domains, given: &[&Expr]) -> Option<bool> {
-    let s = sign(e, domains);
-    if s.is_positive() || s.is_negative() {
-        return Some(s.is_positive());
+    // What was only seen at points is not said.
+    match sign(e, domains) {
+        Seen::Proved(Sign::Positive) => return Some(true),
+        Seen::Proved(Sign::Negative) => return Some(false),
+        _ => {}
     }
     let rest = essential(e, domains);
     let is_given = |f: &Expr| {

@@ -124,7 +124,7 @@ impl Page<'_> {
         };
         let ask = here.placed.asked(question).clone();
         // What it comes from goes by the names that were told before.
-        let by_energy = || self.lost(here, &ask);
+        let by_energy = || self.in_speeds(here, &ask);
         let by_rolling = || self.rolled(here, &ask, formula);
         let flown = self.flown(here, &ask, answer).or_else(by_energy);
         let by_ratio = || self.tied(here, &ask, answer, formula);
@@ -165,12 +165,12 @@ impl Page<'_> {
         let several = here.cases.len() > 1;
         let name = if several { plain.as_str() } else { &symbol };
         let mut math = vec![Math::Expr(Expr::symbol(name)), Math::Op("=")];
-        if Self::is_end_energy(here, answer) {
+        if Self::is_end_energy(here, answer) && here.steps.is_empty() {
             math.extend([words::kinetic("", "+"), Math::Op("=")]);
         }
         end.steps
             .extend(self.energy_in(here, &question.ask, &symbol, formula));
-        if let Some([shown, _]) = flown {
+        if let Some([shown, _]) = flown.filter(|[shown, _]| shown != formula) {
             math.extend([Math::Expr(shown), Math::Op("=")]);
         }
         math.extend(made.into_iter().flatten());
@@ -187,13 +187,19 @@ impl Page<'_> {
         end.number(self.scene, &symbol, answer);
     }
 
-    /// The energy that a motion loses, where its energies stand nowhere above: in the speeds, and to be held against the answer.
-    fn lost(&self, told: &StageTold, ask: &Ask) -> Option<[Expr; 2]> {
-        let when = EnergyWhen::Lost;
-        let is_asked = matches!(ask, Ask::Energy { when: w, of: None } if *w == when);
-        let [start, end] = told.energy.as_ref()?;
+    /// The energy that a motion loses, or ends with, where its energies stand nowhere above: in the speeds, and to be held against
+    /// the answer.
+    fn in_speeds(&self, told: &StageTold, ask: &Ask) -> Option<[Expr; 2]> {
+        let Ask::Energy { when, of: None } = ask else {
+            return None;
+        };
+        let [start, end] = told.energy.as_ref().filter(|_| !told.steps.is_empty())?;
         let [before, after] = [&told.before, &told.after].map(|s| self.energy_at(told, s));
-        (is_asked && !told.steps.is_empty()).then(|| [before - after, start - end])
+        match when {
+            EnergyWhen::Lost => Some([before - after, start - end]),
+            EnergyWhen::After => Some([after, end.clone()]),
+            EnergyWhen::Before => None,
+        }
     }
 
     /// The angular velocity of what has come to roll, by its speed over its radius.

@@ -212,7 +212,7 @@ fn kept(scene: &Scene, one_sided: &[OneSided], cases: &[Case]) -> Vec<Kept> {
             conserved: closed.is_zero(),
             why: match spared {
                 _ if closed.is_zero() => "none is lost at the contacts".into(),
-                _ if sign(closed, &scene.domains).is_negative() => {
+                _ if sign(closed, &scene.domains).side() == Some(false) => {
                     sentence!("{} is gained", &-closed)
                 }
                 Some(e) => sentence!("{} is lost, nothing where {} = 1", closed, e),
