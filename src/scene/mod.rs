@@ -55,6 +55,7 @@ pub use friction::{
 pub use geometry::direction;
 pub use joined::{HINGED, Joint, joints, left_behind, unsaid};
 pub use printed::{Print, Printed};
+pub use questions::INSTANTANEOUS_CENTER;
 pub use stage::{
     Carrier, Fall, FallEnd, Linkage, Lump, OneSided, Slide, SlideEnd, Spring, Stage, StageKind,
     Strung, Turn, Turns, Until, Wind,

@@ -6,7 +6,7 @@ use super::{Inline, Math, Solution};
 use crate::answer::Answer;
 use crate::expr::Expr;
 use crate::formula::Relation;
-use crate::scene::{Ask, Scene};
+use crate::scene::{Ask, INSTANTANEOUS_CENTER, Scene};
 
 /// Why a coefficient of friction is the least or the largest with which something happens.
 pub(super) fn because(meaning: &str) -> Option<&'static str> {
@@ -27,7 +27,7 @@ pub(super) fn because(meaning: &str) -> Option<&'static str> {
 /// Whether a question needs no heading of its own after the one before: values one after the other, and one formula to
 /// several orders.
 pub(super) fn goes_on(before: &Ask, ask: &Ask) -> bool {
-    let plain = |ask: &Ask| matches!(ask, Ask::Value { with, meaning, .. } if with.is_empty() && meaning.is_empty());
+    let plain = |ask: &Ask| matches!(ask, Ask::Value { with, meaning, .. } if with.is_empty() && !is_headed(meaning));
     match (before, ask) {
         (
             Ask::Approximate {
@@ -41,9 +41,13 @@ pub(super) fn goes_on(before: &Ask, ask: &Ask) -> bool {
             },
         ) => (of, parameter, to) == (f, p, t),
         (Ask::Turn { .. }, Ask::Turn { .. }) => true,
-        (Ask::Value { meaning: a, .. }, Ask::Value { meaning: b, .. }) if !a.is_empty() => a == b,
         _ => plain(before) && plain(ask),
     }
+}
+
+/// Whether what a value means stands in its heading: the coordinates of a point go by their names.
+fn is_headed(meaning: &str) -> bool {
+    !meaning.is_empty() && !meaning.starts_with(INSTANTANEOUS_CENTER)
 }
 
 /// What a further question adds to the heading, or says before its answer.
@@ -54,10 +58,7 @@ pub(super) fn further(solution: &mut Solution, ask: &Ask, answer: &Answer) {
             None => String::from("The leading term is"),
         });
     }
-    let is_one = |meaning: &str| !meaning.is_empty();
-    if matches!(ask, Ask::Turn { .. })
-        || matches!(ask, Ask::Value { meaning, .. } if is_one(meaning))
-    {
+    if let Ask::Turn { .. } = ask {
         return;
     }
     let Some(section) = solution.sections.last_mut() else {
@@ -81,7 +82,7 @@ pub(super) fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> 
         Inline::Math(words::related(left, relation.sign(), right))
     };
     match ask {
-        Ask::Value { meaning, .. } if !meaning.is_empty() => {
+        Ask::Value { meaning, .. } if is_headed(meaning) => {
             vec![say(words::capital(&called(scene, meaning)))]
         }
         Ask::Value { with, .. } if with.is_empty() => {

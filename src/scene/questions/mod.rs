@@ -438,6 +438,9 @@ fn parts_of_center(earlier: &[Entry], name: &Text, q: &QuestionFile) -> Vec<Entr
     out
 }
 
+/// What the coordinates of such a point mean.
+pub const INSTANTANEOUS_CENTER: &str = "instantaneous center";
+
 /// Says of the coordinates that an instantaneous center is put together from what they are.
 pub(super) fn name_centers(file: &SceneFile, scene: &mut Scene) {
     for (name, q) in entries(file.questions.as_ref()) {
@@ -447,7 +450,7 @@ pub(super) fn name_centers(file: &SceneFile, scene: &mut Scene) {
         for question in &mut scene.questions {
             let axis = question.name.strip_prefix(&name.text);
             if let (Some("_x" | "_y"), Ask::Value { meaning, .. }) = (axis, &mut question.ask) {
-                *meaning = format!("instantaneous center of `{}`", body.text);
+                *meaning = format!("{INSTANTANEOUS_CENTER} of `{}`", body.text);
             }
         }
     }
