@@ -4,13 +4,22 @@
 //! students wrongly bring in, so that it is wrong rather than unreadable. A word that is no name is refused: read letter by
 //! letter it would be a formula nobody wrote.
 
-use std::collections::{BTreeMap, BTreeSet};
+mod direction;
+mod measured;
+mod named;
 
-use super::unit::{each_chain, misfit};
-use super::{Key, Question, declare};
+use std::collections::BTreeMap;
+
+use super::unit::misfit;
+use super::{Key, declare};
 use crate::dimension;
 use crate::expr::{Expr, Symbol};
-use crate::formula::{self, Content, Fault, Join, Note, Reading, Relation, Remark, Symbols};
+use crate::formula::{self, Content, Fault, Note, Reading, Relation, Remark, Symbols};
+use direction::direction;
+pub(super) use direction::{sense, with_sign};
+use measured::unit_apart;
+pub(super) use measured::{is_quantity, quantity};
+use named::{named_in_order, with_definitions};
 
 /// Quantities of mechanics that students bring in although a collision does not know them.
 const STRANGERS: [&str; 6] = ["g", "t", "mu", "h", "dt", "F"];
@@ -226,34 +235,6 @@ fn as_vector(key: &Key, text: &str) -> Option<(String, Reading)> {
     })
 }
 
-/// Values of several kinds with the names of what is asked, in this order: `3 m/s, 30°` and `3 m/s at 30°` for
-/// `v = 3 m/s, θ = 30°`.
-fn named_in_order(key: &Key, text: &str) -> Option<String> {
-    const WORDS: [&str; 4] = [" at an angle of ", " at ", " and ", "; "];
-    let Content::Joined(Join::And, asked) = &key.reading.content else {
-        return None;
-    };
-    let text = WORDS
-        .iter()
-        .fold(text.to_string(), |text, word| text.replace(word, ", "));
-    let given: Vec<&str> = text.split(", ").collect();
-    let name = |part: &Content| match part {
-        Content::Relations(sides, signs) if signs == &[Relation::Equal] => {
-            sides[0].expr()?.as_symbol().cloned()
-        }
-        _ => None,
-    };
-    let names: Vec<Symbol> = asked.iter().map(name).collect::<Option<_>>()?;
-    if names.len() != given.len() || text.contains('=') {
-        return None;
-    }
-    let named = names.iter().zip(given);
-    let named: Vec<String> = named
-        .map(|(name, value)| format!("{name} = {value}"))
-        .collect();
-    Some(named.join(", "))
-}
-
 /// Whether a bound belongs to what it bounds.
 fn includes_ends(content: &Content) -> bool {
     let closed = |sign: &Relation| matches!(sign, Relation::LessEqual | Relation::GreaterEqual);
@@ -262,83 +243,6 @@ fn includes_ends(content: &Content) -> bool {
         Content::Joined(_, parts) => parts.iter().any(includes_ends),
         _ => false,
     }
-}
-
-/// Most names that an answer says behind its formula.
-const MOST_DEFINITIONS: usize = 8;
-
-/// A formula with names of its own that are said behind it: `m d v/I where I = M l^2/3 + m d^2`.
-fn with_definitions(key: &Key, text: &str) -> Option<Reading> {
-    const WORDS: [&str; 6] = [
-        " where ",
-        " with ",
-        "\\text{where}",
-        "\\text{ where }",
-        "\\text{with}",
-        "\\text{ with }",
-    ];
-    let found = WORDS
-        .iter()
-        .filter_map(|word| Some((text.find(word)?, word.len())));
-    // `½ μ v², μ = …` and `½ μ v² (μ = …)`
-    let names = |sign: &str, at: usize| {
-        let (name, _) = text[at + sign.len()..].split_once('=')?;
-        (!name.trim().contains(' ')).then_some((at, sign.len()))
-    };
-    let behind = |sign: &str| {
-        let mut places = text.match_indices(sign).take(MOST_DEFINITIONS);
-        places.find_map(|(at, _)| names(sign, at))
-    };
-    let apart = || behind(", ").or_else(|| behind(" ("));
-    let (at, length) = found.min().or_else(apart)?;
-    let formula = text[..at]
-        .trim_end_matches([' ', ',', ';', '$'])
-        .trim_start_matches('$');
-    let said = &text[at + length..];
-    let said = match text[at..].starts_with(" (") {
-        true => said.strip_suffix(')')?,
-        false => said,
-    };
-    let said = said.replace(" and ", ", ").replace(';', ",");
-    let mut symbols = key.readable.clone();
-    let mut parts = Vec::new();
-    for part in said.split(", ") {
-        let Some((name, value)) = part.trim_matches([' ', '$', '.']).split_once('=') else {
-            // `and v_0 is the speed before`
-            part.contains(" is ").then_some(())?;
-            continue;
-        };
-        // `I = m l^2/3 is its moment of inertia`
-        let value = value.split(" is ").next().unwrap_or(value);
-        let name = formula::read(name, &Symbols::open()).ok()?;
-        let name = name.content.expr()?.as_symbol()?.clone();
-        if declared(key, &name) || value.contains('=') || parts.len() == MOST_DEFINITIONS {
-            return None;
-        }
-        symbols.declare(&name);
-        parts.push((name, value.to_string()));
-    }
-    let value = |(name, text): (Symbol, String)| {
-        let value = formula::read(&text, &symbols).ok()?;
-        let split = value.notes.iter().any(|n| n.remark == Remark::Letters);
-        Some((name, value.content.expr().filter(|_| !split)?.clone()))
-    };
-    let values: BTreeMap<Symbol, Expr> = parts.into_iter().map(value).collect::<Option<_>>()?;
-    let mut reading = formula::read(formula, &symbols).ok()?;
-    let used = values.keys().any(|name| reading.symbols().contains(name));
-    if !used || reading.unit.is_some() {
-        return None;
-    }
-    // One definition may use another.
-    for _ in 0..values.len() {
-        reading.content = reading.content.map(&|e| e.substitute(&values));
-    }
-    // Places in this text are not those of the whole.
-    reading.choices = 0;
-    reading.slashes = false;
-    reading.notes.clear();
-    let own = |name: &Symbol| values.contains_key(name);
-    (!reading.symbols().iter().any(own)).then_some(reading)
 }
 
 /// An answer that cannot be read with the names of its question alone: with a unit apart, or names of its own.
@@ -405,93 +309,6 @@ fn mended(key: &Key, text: &str, fault: Fault) -> Result<Reading, Fault> {
     named.ok_or(fault)
 }
 
-/// Words and arrows behind a formula for a direction, each with its sense along x and y or about the axis out of the page.
-const SENSES: [(&str, [i32; 3]); 31] = [
-    ("counterclockwise", [0, 0, 1]),
-    ("anticlockwise", [0, 0, 1]),
-    ("clockwise", [0, 0, -1]),
-    ("ccw", [0, 0, 1]),
-    ("cw", [0, 0, -1]),
-    ("to the right", [1, 0, 0]),
-    ("rightwards", [1, 0, 0]),
-    ("rightward", [1, 0, 0]),
-    ("to the left", [-1, 0, 0]),
-    ("leftwards", [-1, 0, 0]),
-    ("leftward", [-1, 0, 0]),
-    ("upwards", [0, 1, 0]),
-    ("upward", [0, 1, 0]),
-    ("up", [0, 1, 0]),
-    ("downwards", [0, -1, 0]),
-    ("downward", [0, -1, 0]),
-    ("down", [0, -1, 0]),
-    ("eastward", [1, 0, 0]),
-    ("westward", [-1, 0, 0]),
-    ("northward", [0, 1, 0]),
-    ("southward", [0, -1, 0]),
-    ("↺", [0, 0, 1]),
-    ("↻", [0, 0, -1]),
-    ("→", [1, 0, 0]),
-    ("←", [-1, 0, 0]),
-    ("↑", [0, 1, 0]),
-    ("↓", [0, -1, 0]),
-    ("\\rightarrow", [1, 0, 0]),
-    ("\\leftarrow", [-1, 0, 0]),
-    ("\\uparrow", [0, 1, 0]),
-    ("\\downarrow", [0, -1, 0]),
-];
-
-/// A formula without the direction in words behind it, and that direction: `9.31 rad/s clockwise`, `5 N (to the left)`.
-pub(super) fn sense(text: &str) -> Option<(&str, [i32; 3])> {
-    let said = text.trim_end_matches([' ', '.', ')', '}']);
-    SENSES.into_iter().find_map(|(word, sense)| {
-        let at = said.len().checked_sub(word.len())?;
-        let (before, end) = said.split_at_checked(at)?;
-        let apart =
-            before.ends_with([' ', '(', '~', ',', '{']) || !word.starts_with(char::is_alphabetic);
-        if !apart || !end.eq_ignore_ascii_case(word) {
-            return None;
-        }
-        let body = before.trim_end_matches([' ', ',', '(', '~']);
-        let body = body.strip_suffix("\\text{").unwrap_or(body).trim_end();
-        (!body.is_empty()).then_some((body, sense))
-    })
-}
-
-/// A value, maybe behind its name, as it stands or with the other sign.
-pub(super) fn with_sign(text: &str, same: bool) -> String {
-    let at = text.rfind('=').map_or(0, |at| at + 1);
-    let (name, value) = (&text[..at], text[at..].trim());
-    let positive = value.strip_prefix(['-', '−']);
-    let several = positive
-        .unwrap_or(value)
-        .contains(['+', '-', '−', '±', '∓']);
-    match (same, positive) {
-        (true, _) => format!("{name}{value}"),
-        (false, _) if several => format!("{name}-({value})"),
-        (false, Some(positive)) => format!("{name}{positive}"),
-        (false, None) => format!("{name}-{value}"),
-    }
-}
-
-/// Refuses a direction in words behind a formula.
-fn direction(text: &str) -> Option<Fault> {
-    let (body, [.., turn]) = sense(text)?;
-    let (what, message) = match turn {
-        0 => (
-            "direction",
-            "a direction in words is no part of the formula",
-        ),
-        _ => ("sense", "a sense of rotation is no part of the formula"),
-    };
-    let start = text.len()
-        - text[body.len()..]
-            .trim_start_matches([' ', ',', '(', '~'])
-            .len();
-    let end = text.trim_end_matches([' ', '.', ')', '}']).len();
-    let hint = format!("which {what} counts as positive is told by the question");
-    Some(*Fault::new(message, start, end).hint(hint))
-}
-
 /// Whether a side is worked out in what follows, as in `\sqrt{2gh} = 14 m/s`; with one symbol it would be an equation for it.
 fn computes(side: &str, open: &Symbols) -> bool {
     formula::read(side, open).is_ok_and(|reading| {
@@ -509,32 +326,6 @@ fn is_size(side: &str) -> bool {
         .trim_end_matches("\\right|");
     let bars = ["|", "\\|", "\\lVert", "\\lvert", "‖"];
     bars.iter().any(|bar| side.starts_with(bar)) && !side.contains(['+', '-'])
-}
-
-/// An answer whose unit a sign ties to its number, or brackets enclose: `9.81*m/s^2`, `5 (m/s)`; and `2.4 s-1`.
-fn unit_apart(key: &Key, text: &str) -> Option<Reading> {
-    let quantity = |from: usize, to: usize, last: bool| {
-        let mut text = text.to_string();
-        let instead = if &text[from..to] == "s-1" { "/s" } else { "" };
-        text.replace_range(from..to, &format!("{instead:width$}", width = to - from));
-        if last {
-            text.truncate(text.trim_end().len() - 1);
-        }
-        let reading = formula::read(&text, &key.readable).ok()?;
-        let plain = quantitative(&reading);
-        (plain && reading.symbols().is_empty()).then_some(reading)
-    };
-    let signs = ["s-1", "*", "·", "\\cdot", "\\times"];
-    let mut places = signs
-        .iter()
-        .flat_map(|sign| text.match_indices(sign).take(3));
-    places
-        .find_map(|(at, sign)| quantity(at, at + sign.len(), false))
-        .or_else(|| {
-            let at = text.rfind(['(', '{'])?;
-            let closed = text.trim_end().ends_with([')', '}']);
-            closed.then(|| quantity(at, at + 1, true)).flatten()
-        })
 }
 
 /// `x''` for `\ddot x`; `dv = a dt` for `a = dv/dt`, and `F = dp/dt` for `F dt = dp`: the derivative by the time is the quotient of the
@@ -593,87 +384,6 @@ pub(super) fn sizes<'a>(
     let free = names.into_iter().filter(|name| !known.contains(&name));
     let same: BTreeMap<Symbol, Expr> = free.filter_map(size).collect();
     (!same.is_empty()).then(|| content.map(&|e| e.substitute(&same)))
-}
-
-/// A text as a quantity with a unit, where no undeclared symbol is needed to read it, or none but names of quantities in the
-/// `open` reading of it.
-pub(super) fn quantity(text: &str, open: &Reading, question: &Question) -> Option<Reading> {
-    let mut symbols = Symbols::strict().briefly();
-    declare(&mut symbols, question);
-    let list = || {
-        let lists = text.contains(',').then(|| symbols.clone().with_lists());
-        let reading = lists.and_then(|lists| formula::read(text, &lists).ok());
-        reading
-            .or_else(|| along_axes(text, &symbols))
-            .filter(vector)
-    };
-    let direct = || match begins_unnamed(text, question) {
-        true => None,
-        false => formula::read(text, &symbols).ok(),
-    };
-    let plain = direct().or_else(list).filter(|reading| {
-        quantitative(reading) || reading.unit.is_some() && reading.symbols().is_empty()
-    });
-    plain.or_else(|| bounds(text, open, question))
-}
-
-/// A text that says of names alone which quantities they are, or lie between: `2 m < x < 3 m`, `v = 2 m/s; s = 4 m`.
-fn bounds(text: &str, open: &Reading, question: &Question) -> Option<Reading> {
-    let mut names = BTreeSet::new();
-    each_chain(&open.content, &mut |sides| {
-        let all = sides.iter().filter_map(|side| side.expr()?.as_symbol());
-        names.extend(all.cloned());
-    });
-    if names.is_empty() || !text.contains(|c: char| c.is_ascii_digit()) {
-        return None;
-    }
-    let mut symbols = Symbols::strict().briefly();
-    declare(&mut symbols, question);
-    names.iter().for_each(|name| symbols.declare(name));
-    let reading = formula::read(text, &symbols).ok()?;
-    let mut units = false;
-    each_chain(&reading.content, &mut |sides| {
-        units |= sides
-            .iter()
-            .any(|side| matches!(side, Content::Quantity(_)));
-    });
-    (units && reading.symbols() == names && measured(&reading.content)).then_some(reading)
-}
-
-/// Whether every side of some relations is a name, a quantity or a number.
-fn measured(content: &Content) -> bool {
-    let mut all = matches!(content, Content::Relations(..) | Content::Joined(..));
-    let plain = |e: &Expr| e.is_constant() || e.as_symbol().is_some();
-    each_chain(content, &mut |sides| {
-        all &= sides.iter().all(|side| side.expr().is_some_and(plain));
-    });
-    all
-}
-
-/// Whether a formula, with nothing before it that would be passed over, begins with a letter that is no declared name.
-fn begins_unnamed(text: &str, question: &Question) -> bool {
-    let plain = |b: u8| b.is_ascii() && !b"\\$>=:,".contains(&b);
-    let mut letters = text.chars().take_while(char::is_ascii_alphabetic);
-    match (letters.next(), letters.next()) {
-        (Some(letter), None) if letter != 'e' && text.bytes().all(plain) => {
-            !question.given().any(|g| g.name.starts_with(letter))
-        }
-        _ => false,
-    }
-}
-
-/// Whether an answer to a key that is a quantity is one too, or a bare number.
-pub(super) fn is_quantity(key: &Key, text: &str) -> bool {
-    answer(key, text).is_ok_and(|reading| {
-        matches!(reading.content.answer(), Content::Quantity(_))
-            || {
-                let mut none = true;
-                let answer = reading.content.answer();
-                answer.each(&mut |e: &Expr| none &= e.is_constant());
-                none && !matches!(answer, Content::Relations(..))
-            }
-            || measured(&reading.content)
-    })
 }
 
 fn declared(key: &Key, name: &Symbol) -> bool {

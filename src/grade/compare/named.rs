@@ -1,0 +1,265 @@
+//! Answers that say what they are values of, or leave it out: `v = …` where `u = …` is asked, a value for an equation, and an
+//! equation for a value.
+
+use super::super::{Diagnosis, Tolerance, Verdict, number, relation};
+use super::{Context, Finding, chain, kind, quotient, values};
+use crate::dimension::{self, Dimension};
+use crate::domain::Sample;
+use crate::expr::{Expr, Function, Node, Symbol, ratio};
+use crate::formula::{self, Content, Reading, Relation};
+use crate::interval::{Interval, Outcome, evaluate};
+
+/// Points at which an equation is tried before its solutions are compared.
+const POINTS: usize = 4;
+
+/// The sides of `x = 2` for the values of the only symbol of an equation.
+pub(super) fn only_unknown(equation: &Content, value: &Content) -> Option<[Content; 2]> {
+    let constant = match value {
+        Content::Scalar(e) => e.is_constant(),
+        Content::Either(values) => values.iter().all(Expr::is_constant),
+        _ => false,
+    };
+    let mut symbols = equation.symbols().into_iter().filter(|s| &**s != "pi");
+    match (symbols.next(), symbols.next()) {
+        (Some(name), None) if constant && !equation.is_bounded() => {
+            Some([Content::Scalar(Expr::symbol(&name)), value.clone()])
+        }
+        _ => None,
+    }
+}
+
+/// A value, possibly with the name it is given to.
+type Named<'a> = (Option<&'a Symbol>, &'a Content);
+
+/// Two values with their names.
+pub(super) fn named_values(
+    ctx: &Context,
+    answer: &Reading,
+    (mine, expected): Named,
+    (theirs, value): Named,
+) -> Finding {
+    let asked = &ctx.key.question.asked;
+    let is_asked = |name: &Symbol| asked.iter().any(|g| g.name == *name);
+    let inside = |c: &Content, name: &Symbol| c.expr().is_some_and(|e| e.symbols().contains(name));
+    let mut finding = values(ctx, expected, value);
+    if finding.verdict == Verdict::Different
+        && let Content::Relations(sides, signs) = &answer.content
+        && let [.., exact, rounded] = sides.as_slice()
+        && signs.last() == Some(&Relation::Approximately)
+        && signs.len() > 1
+        && close(ctx, expected, rounded)
+    {
+        finding = values(ctx, expected, exact);
+    }
+    match (mine, theirs) {
+        (Some(mine), Some(theirs)) if mine != theirs && !(is_asked(mine) && is_asked(theirs)) => {
+            // The same equation, solved for another of its symbols.
+            if let (Content::Relations(a, s), Content::Relations(b, t)) =
+                (&ctx.key.reading.content, &answer.content)
+                && inside(expected, theirs)
+                && inside(value, mine)
+            {
+                return relation::compare(ctx, (a, s), (b, t));
+            }
+            finding = other_name(finding, mine, theirs);
+        }
+        (Some(_), Some(theirs)) if !declared_symbol(ctx, theirs) => {
+            finding.assumed.retain(|a| !a.starts_with(&**theirs));
+        }
+        // A symbol of the expected formula cannot be the name of its value: `v = 3v/2` says something else.
+        (None, Some(theirs)) if inside(expected, theirs) && !is_asked(theirs) => {
+            let words = "a value is expected, and the answer is an equation for";
+            finding = Finding::different("DIFF_KIND", "kind", format!("{words} {theirs}"));
+        }
+        (None, Some(theirs)) if !is_asked(theirs) && declared_symbol(ctx, theirs) => {
+            if let Some(first) = asked.first() {
+                finding = other_name(finding, &first.name, theirs);
+            }
+        }
+        _ => {}
+    }
+    chain(ctx, answer, &mut finding);
+    finding
+}
+
+/// A relation where a value is expected: whether it says that the value is this.
+pub(super) fn solved(
+    ctx: &Context,
+    (name, expected): Named,
+    (mine, signs): (&[Content], &[Relation]),
+) -> Finding {
+    if let Some(finding) = nameless(ctx, expected, mine, signs) {
+        return finding;
+    }
+    let solved = |name: &Symbol| {
+        let sides = [Content::Scalar(Expr::symbol(name)), expected.clone()];
+        relation::compare(ctx, (&sides, &[Relation::Equal]), (mine, signs))
+    };
+    let asked = ctx.key.question.asked.first().map(|g| &g.name);
+    if let Some(name) = name.or(asked) {
+        return solved(name);
+    }
+    match strangers(ctx, mine).as_slice() {
+        [name] => solved(name),
+        // `mgh = ½mv²` says what v is, whatever m is.
+        names => {
+            let names = names.iter().take(3);
+            let mut found = names
+                .filter(|name| may_hold(ctx, mine, name, expected))
+                .map(solved);
+            found
+                .find(Finding::is_equivalent)
+                .unwrap_or_else(|| kind("a value is expected, and the answer is a relation"))
+        }
+    }
+}
+
+/// `3v/(2l) = 1.5 v/l` for `3v/(2l)`: a chain without a name, of which every side is the expected value; behind ≈ a rounded
+/// one will do.
+fn nameless(
+    ctx: &Context,
+    expected: &Content,
+    sides: &[Content],
+    signs: &[Relation],
+) -> Option<Finding> {
+    let plain = ctx.plain();
+    let (first, others) = sides.split_first()?;
+    let mut finding = values(&plain, expected, first);
+    // `KE = mv²/2`: letters that stand nowhere else are a name of the value.
+    if let [name, value] = sides
+        && name.expr().is_some_and(|e| is_word(ctx, e, expected))
+        && strangers(ctx, std::slice::from_ref(value)).is_empty()
+    {
+        finding = values(&plain, expected, value);
+    }
+    let right = finding.is_equivalent();
+    let follows = |(sign, side): (&Relation, &Content)| match sign {
+        Relation::Equal => values(&plain, expected, side).is_equivalent(),
+        Relation::Approximately => close(ctx, expected, side),
+        _ => false,
+    };
+    (right && signs.iter().zip(others).all(follows)).then_some(finding)
+}
+
+/// Whether a side behind ≈ is the expected value with its factor rounded: to two digits a number is at most 1/20 off.
+fn close(ctx: &Context, expected: &Content, side: &Content) -> bool {
+    let plain = ctx.plain();
+    let share = || quotient(side.expr()?, expected.expr()?, &plain);
+    let near = |share| number::within(&share, &Expr::one(), &Tolerance::Relative(ratio(1, 20)));
+    share().and_then(near) == Some(true)
+}
+
+/// Whether letters side by side, none of them of the question, are a name such as `KE`, `pe` or `Fnet`, or a product that
+/// measures what is asked, as `Iω` does for `m v l/2`; so are the letters of a velocity with an index, `vf` and `vx`, and what
+/// is made of two names.
+fn is_word(ctx: &Context, e: &Expr, expected: &Content) -> bool {
+    let free = |name: &Symbol| !declared_symbol(ctx, name);
+    if of_two_names(e, &free) {
+        return true;
+    }
+    let Node::Product(parts) = e.node() else {
+        return false;
+    };
+    let letters: Option<Vec<&Symbol>> = parts.iter().map(Expr::as_symbol).collect();
+    let index = |name: &Symbol| free(name) && matches!(&**name, "f" | "i" | "x" | "y");
+    let velocity = |name: &Symbol| matches!(&**name, "v" | "u" | "V");
+    letters.is_some_and(|letters| {
+        let capital = |name: &&Symbol| name.starts_with(char::is_uppercase);
+        let energy = || letters.iter().any(|name| &***name == "e");
+        let word = || letters.len() > 2 || energy() || letters.iter().all(capital);
+        let measured = |e: &Expr| dimension::of(e, &usual).ok().flatten();
+        let asked = expected.expr().filter(|e| !e.is_constant());
+        let fits = match asked.map(|asked| [e, asked].map(measured)) {
+            Some([Some(mine), Some(asked)]) => mine == asked,
+            Some(_) => word(),
+            None => true,
+        };
+        fits && letters.iter().all(|name| free(name))
+            || matches!(letters.as_slice(), [a, b] if velocity(a) && index(b) || velocity(b) && index(a))
+    })
+}
+
+/// What a letter of mechanics nearly always measures.
+fn usual(name: &str) -> Option<Dimension> {
+    let (letter, _) = name.split_once('_').unwrap_or((name, ""));
+    let [mass, length, time] = match letter.trim_end_matches(|c: char| c.is_ascii_digit()) {
+        "m" | "M" => [1, 0, 0],
+        "h" | "l" | "L" | "d" | "r" | "R" | "x" | "s" => [0, 1, 0],
+        "t" => [0, 0, 1],
+        "v" | "u" => [0, 1, -1],
+        "a" | "g" => [0, 1, -2],
+        "omega" => [0, 0, -1],
+        "F" => [1, 1, -2],
+        "I" => [1, 2, 0],
+        _ => return None,
+    };
+    Some(Dimension::new(mass, length, time))
+}
+
+/// Whether a formula is the difference, the sum or the quotient of two names, as in `E_1 − E_2` and `K_2/K_1`.
+pub(super) fn of_two_names(e: &Expr, free: &dyn Fn(&Symbol) -> bool) -> bool {
+    let name = |e: &Expr| e.as_symbol().is_some_and(free);
+    let pair = |parts: &[Expr], turned: &dyn Fn(&Expr) -> Expr| matches!(parts, [a, b] if name(a) && name(&turned(b)) || name(&turned(a)) && name(b));
+    match e.node() {
+        Node::Sum(parts) => pair(parts, &|b| -b) || pair(parts, &Expr::clone),
+        Node::Product(parts) => pair(parts, &|b| b.powi(-1)),
+        _ => false,
+    }
+}
+
+/// Whether a formula is the size of a name, as in `|v|`, or of a vector.
+pub(super) fn is_size(e: &Expr, free: &dyn Fn(&Symbol) -> bool) -> bool {
+    let square = |e: &Expr| match e.node() {
+        Node::Product(parts) => {
+            let mut names = parts.iter().map(Expr::as_symbol);
+            names.all(|name| name.is_some_and(|name| formula::is_component(name) && free(name)))
+        }
+        _ => false,
+    };
+    match e.node() {
+        Node::Call(Function::Abs, inner) => inner.as_symbol().is_some_and(free),
+        Node::Power(base, _) => matches!(base.node(), Node::Sum(parts) if parts.iter().all(square)),
+        _ => false,
+    }
+}
+
+fn declared_symbol(ctx: &Context, name: &Symbol) -> bool {
+    ctx.key.question.symbols.iter().any(|g| g.name == *name)
+}
+
+/// The names of an equation that the expected value does not know.
+fn strangers(ctx: &Context, sides: &[Content]) -> Vec<Symbol> {
+    let mut found = std::collections::BTreeSet::new();
+    sides
+        .iter()
+        .for_each(|s| s.each(&mut |e| found.extend(e.symbols())));
+    found.retain(|name| !declared_symbol(ctx, name));
+    found.into_iter().collect()
+}
+
+/// Whether an equation can hold with a value in the place of a name: solutions are compared at much greater cost.
+fn may_hold(ctx: &Context, sides: &[Content], name: &Symbol, value: &Content) -> bool {
+    let ([left, right], Some(value)) = (sides, value.expr()) else {
+        return true;
+    };
+    let (Some(left), Some(right)) = (left.expr(), right.expr()) else {
+        return true;
+    };
+    let difference = (left - right).put(name, value);
+    let points = ctx.key.question.domains.points(&[&difference], POINTS);
+    let is_zero = |sample: &Sample| match evaluate::<Interval>(&difference, &sample.point(true)) {
+        Outcome::Value(value) => value.low <= 0.0 && value.high >= 0.0,
+        _ => true,
+    };
+    points.iter().all(is_zero)
+}
+
+fn other_name(finding: Finding, mine: &Symbol, theirs: &Symbol) -> Finding {
+    let words = format!("the answer speaks of {theirs}, and {mine} is asked for");
+    let message = match finding.is_equivalent() {
+        true => format!("{words}; the right side is the expected one"),
+        false => words.clone(),
+    };
+    Finding::different("DIFF_NAME", "kind", words.clone())
+        .with(Diagnosis::new("NAME", message, words))
+}

@@ -1,0 +1,120 @@
+//! Quantities with their units, where names are declared or stand for such quantities alone.
+
+use std::collections::BTreeSet;
+
+use super::super::unit::each_chain;
+use super::super::{Key, Question, declare};
+use super::{along_axes, answer, quantitative, vector};
+use crate::expr::Expr;
+use crate::formula::{self, Content, Reading, Symbols};
+
+/// An answer whose unit a sign ties to its number, or brackets enclose: `9.81*m/s^2`, `5 (m/s)`; and `2.4 s-1`.
+pub(super) fn unit_apart(key: &Key, text: &str) -> Option<Reading> {
+    let quantity = |from: usize, to: usize, last: bool| {
+        let mut text = text.to_string();
+        let instead = if &text[from..to] == "s-1" { "/s" } else { "" };
+        text.replace_range(from..to, &format!("{instead:width$}", width = to - from));
+        if last {
+            text.truncate(text.trim_end().len() - 1);
+        }
+        let reading = formula::read(&text, &key.readable).ok()?;
+        let plain = quantitative(&reading);
+        (plain && reading.symbols().is_empty()).then_some(reading)
+    };
+    let signs = ["s-1", "*", "·", "\\cdot", "\\times"];
+    let mut places = signs
+        .iter()
+        .flat_map(|sign| text.match_indices(sign).take(3));
+    places
+        .find_map(|(at, sign)| quantity(at, at + sign.len(), false))
+        .or_else(|| {
+            let at = text.rfind(['(', '{'])?;
+            let closed = text.trim_end().ends_with([')', '}']);
+            closed.then(|| quantity(at, at + 1, true)).flatten()
+        })
+}
+
+/// A text as a quantity with a unit, where no undeclared symbol is needed to read it, or none but names of quantities in the
+/// `open` reading of it.
+pub(in crate::grade) fn quantity(
+    text: &str,
+    open: &Reading,
+    question: &Question,
+) -> Option<Reading> {
+    let mut symbols = Symbols::strict().briefly();
+    declare(&mut symbols, question);
+    let list = || {
+        let lists = text.contains(',').then(|| symbols.clone().with_lists());
+        let reading = lists.and_then(|lists| formula::read(text, &lists).ok());
+        reading
+            .or_else(|| along_axes(text, &symbols))
+            .filter(vector)
+    };
+    let direct = || match begins_unnamed(text, question) {
+        true => None,
+        false => formula::read(text, &symbols).ok(),
+    };
+    let plain = direct().or_else(list).filter(|reading| {
+        quantitative(reading) || reading.unit.is_some() && reading.symbols().is_empty()
+    });
+    plain.or_else(|| bounds(text, open, question))
+}
+
+/// A text that says of names alone which quantities they are, or lie between: `2 m < x < 3 m`, `v = 2 m/s; s = 4 m`.
+fn bounds(text: &str, open: &Reading, question: &Question) -> Option<Reading> {
+    let mut names = BTreeSet::new();
+    each_chain(&open.content, &mut |sides| {
+        let all = sides.iter().filter_map(|side| side.expr()?.as_symbol());
+        names.extend(all.cloned());
+    });
+    if names.is_empty() || !text.contains(|c: char| c.is_ascii_digit()) {
+        return None;
+    }
+    let mut symbols = Symbols::strict().briefly();
+    declare(&mut symbols, question);
+    names.iter().for_each(|name| symbols.declare(name));
+    let reading = formula::read(text, &symbols).ok()?;
+    let mut units = false;
+    each_chain(&reading.content, &mut |sides| {
+        units |= sides
+            .iter()
+            .any(|side| matches!(side, Content::Quantity(_)));
+    });
+    (units && reading.symbols() == names && measured(&reading.content)).then_some(reading)
+}
+
+/// Whether every side of some relations is a name, a quantity or a number.
+fn measured(content: &Content) -> bool {
+    let mut all = matches!(content, Content::Relations(..) | Content::Joined(..));
+    let plain = |e: &Expr| e.is_constant() || e.as_symbol().is_some();
+    each_chain(content, &mut |sides| {
+        all &= sides.iter().all(|side| side.expr().is_some_and(plain));
+    });
+    all
+}
+
+/// Whether a formula, with nothing before it that would be passed over, begins with a letter that is no declared name.
+fn begins_unnamed(text: &str, question: &Question) -> bool {
+    let plain = |b: u8| b.is_ascii() && !b"\\$>=:,".contains(&b);
+    let mut letters = text.chars().take_while(char::is_ascii_alphabetic);
+    match (letters.next(), letters.next()) {
+        (Some(letter), None) if letter != 'e' && text.bytes().all(plain) => {
+            !question.given().any(|g| g.name.starts_with(letter))
+        }
+        _ => false,
+    }
+}
+
+/// Whether an answer to a key that is a quantity is one too, or a bare number.
+pub(in crate::grade) fn is_quantity(key: &Key, text: &str) -> bool {
+    answer(key, text).is_ok_and(|reading| {
+        matches!(reading.content.answer(), Content::Quantity(_))
+            || {
+                let mut none = true;
+                let answer = reading.content.answer();
+                answer.each(&mut |e: &Expr| none &= e.is_constant());
+                none && !matches!(answer, Content::Relations(..))
+            }
+            || measured(&reading.content)
+    })
+}

@@ -1,0 +1,114 @@
+//! Names that an answer gives to its parts, or leaves out: values in the order of what is asked, and names of its own that are
+//! said behind the formula.
+
+use std::collections::BTreeMap;
+
+use super::super::Key;
+use super::declared;
+use crate::expr::{Expr, Symbol};
+use crate::formula::{self, Content, Join, Reading, Relation, Remark, Symbols};
+
+/// Values of several kinds with the names of what is asked, in this order: `3 m/s, 30°` and `3 m/s at 30°` for
+/// `v = 3 m/s, θ = 30°`.
+pub(super) fn named_in_order(key: &Key, text: &str) -> Option<String> {
+    const WORDS: [&str; 4] = [" at an angle of ", " at ", " and ", "; "];
+    let Content::Joined(Join::And, asked) = &key.reading.content else {
+        return None;
+    };
+    let text = WORDS
+        .iter()
+        .fold(text.to_string(), |text, word| text.replace(word, ", "));
+    let given: Vec<&str> = text.split(", ").collect();
+    let name = |part: &Content| match part {
+        Content::Relations(sides, signs) if signs == &[Relation::Equal] => {
+            sides[0].expr()?.as_symbol().cloned()
+        }
+        _ => None,
+    };
+    let names: Vec<Symbol> = asked.iter().map(name).collect::<Option<_>>()?;
+    if names.len() != given.len() || text.contains('=') {
+        return None;
+    }
+    let named = names.iter().zip(given);
+    let named: Vec<String> = named
+        .map(|(name, value)| format!("{name} = {value}"))
+        .collect();
+    Some(named.join(", "))
+}
+
+/// Most names that an answer says behind its formula.
+const MOST_DEFINITIONS: usize = 8;
+
+/// A formula with names of its own that are said behind it: `m d v/I where I = M l^2/3 + m d^2`.
+pub(super) fn with_definitions(key: &Key, text: &str) -> Option<Reading> {
+    const WORDS: [&str; 6] = [
+        " where ",
+        " with ",
+        "\\text{where}",
+        "\\text{ where }",
+        "\\text{with}",
+        "\\text{ with }",
+    ];
+    let found = WORDS
+        .iter()
+        .filter_map(|word| Some((text.find(word)?, word.len())));
+    // `½ μ v², μ = …` and `½ μ v² (μ = …)`
+    let names = |sign: &str, at: usize| {
+        let (name, _) = text[at + sign.len()..].split_once('=')?;
+        (!name.trim().contains(' ')).then_some((at, sign.len()))
+    };
+    let behind = |sign: &str| {
+        let mut places = text.match_indices(sign).take(MOST_DEFINITIONS);
+        places.find_map(|(at, _)| names(sign, at))
+    };
+    let apart = || behind(", ").or_else(|| behind(" ("));
+    let (at, length) = found.min().or_else(apart)?;
+    let formula = text[..at]
+        .trim_end_matches([' ', ',', ';', '$'])
+        .trim_start_matches('$');
+    let said = &text[at + length..];
+    let said = match text[at..].starts_with(" (") {
+        true => said.strip_suffix(')')?,
+        false => said,
+    };
+    let said = said.replace(" and ", ", ").replace(';', ",");
+    let mut symbols = key.readable.clone();
+    let mut parts = Vec::new();
+    for part in said.split(", ") {
+        let Some((name, value)) = part.trim_matches([' ', '$', '.']).split_once('=') else {
+            // `and v_0 is the speed before`
+            part.contains(" is ").then_some(())?;
+            continue;
+        };
+        // `I = m l^2/3 is its moment of inertia`
+        let value = value.split(" is ").next().unwrap_or(value);
+        let name = formula::read(name, &Symbols::open()).ok()?;
+        let name = name.content.expr()?.as_symbol()?.clone();
+        if declared(key, &name) || value.contains('=') || parts.len() == MOST_DEFINITIONS {
+            return None;
+        }
+        symbols.declare(&name);
+        parts.push((name, value.to_string()));
+    }
+    let value = |(name, text): (Symbol, String)| {
+        let value = formula::read(&text, &symbols).ok()?;
+        let split = value.notes.iter().any(|n| n.remark == Remark::Letters);
+        Some((name, value.content.expr().filter(|_| !split)?.clone()))
+    };
+    let values: BTreeMap<Symbol, Expr> = parts.into_iter().map(value).collect::<Option<_>>()?;
+    let mut reading = formula::read(formula, &symbols).ok()?;
+    let used = values.keys().any(|name| reading.symbols().contains(name));
+    if !used || reading.unit.is_some() {
+        return None;
+    }
+    // One definition may use another.
+    for _ in 0..values.len() {
+        reading.content = reading.content.map(&|e| e.substitute(&values));
+    }
+    // Places in this text are not those of the whole.
+    reading.choices = 0;
+    reading.slashes = false;
+    reading.notes.clear();
+    let own = |name: &Symbol| values.contains_key(name);
+    (!reading.symbols().iter().any(own)).then_some(reading)
+}
