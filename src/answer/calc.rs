@@ -8,7 +8,7 @@ use num_integer::Integer;
 use super::Check;
 pub use crate::algebra::tidy;
 use crate::algebra::{Element, Field, Powers, Sign, Stop};
-use crate::domain::{Domain, Domains, Relation, roles, samples_until};
+use crate::domain::{Domain, Domains, Relation, roles, samples, samples_until};
 use crate::expr::{Expr, Function, Node, Point, Symbol};
 use crate::formula::{Sentence, sentence};
 use crate::interval::{Interval, Outcome, evaluate};
@@ -143,7 +143,7 @@ pub fn constant(e: &Expr) -> Option<Sign> {
 
 /// The sign at points of the domain, by enclosures.
 fn seen(e: &Expr, domains: &Domains) -> Seen {
-    match met(e, domains, POINTS) {
+    match met_anywhere(e, domains) {
         (3.., 0) => Seen::Positive,
         (0, 3..) => Seen::Negative,
         _ => Seen::Mixed,
@@ -179,6 +179,34 @@ fn met(e: &Expr, domains: &Domains, most: usize) -> (usize, usize) {
         tried += 1;
         tried == most || above > 0 && below > 0
     });
+    (above, below)
+}
+
+/// The same at all of them, and far out where these agree: `v − 120` is above zero for a bullet.
+fn met_anywhere(e: &Expr, domains: &Domains) -> (usize, usize) {
+    let (mut above, mut below) = met(e, domains, POINTS);
+    if (above > 0) == (below > 0) {
+        return (above, below);
+    }
+    let roles = roles(&[e]);
+    let (domains, _) = domains.completed(&roles);
+    let names = roles
+        .symbols
+        .keys()
+        .filter(|name| !domains.is_component(name));
+    let starts = samples(&roles, &domains, 1);
+    let led = names.flat_map(|name| {
+        starts
+            .iter()
+            .flat_map(|start| start.led_far(name, &domains))
+    });
+    for sample in led.filter(|sample| domains.admits(sample)) {
+        match evaluate::<Interval>(e, &sample.point(roles.radians)) {
+            Outcome::Value(v) if v.low > 0.0 => above += 1,
+            Outcome::Value(v) if v.high < 0.0 => below += 1,
+            _ => {}
+        }
+    }
     (above, below)
 }
 

@@ -21,7 +21,7 @@ pub use coordinate::Coordinate;
 pub use generic::generic_point;
 pub use relation::Relation;
 pub use roles::{Role, Roles, roles};
-pub use sample::{Sample, at_ends, samples, samples_until, within};
+pub use sample::{Sample, at_ends, far, samples, samples_until, within};
 
 /// One end of an interval: `value`, or `value`·π.
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -8,7 +8,7 @@ use num_traits::{One, Zero};
 use super::coordinate::{CIRCLE, Lcg, directions, numbers, random_number};
 use super::roles::{Role, Roles, roles};
 use super::{Coordinate, Domain, Domains};
-use crate::expr::{Expr, Function, Point, Rational, Scalar, Symbol, Table, ratio};
+use crate::expr::{Expr, Function, Int, Point, Rational, Scalar, Symbol, Table, ratio};
 use crate::interval::{Certified, Outcome};
 
 /// An exact point of a domain.
@@ -202,6 +202,24 @@ pub fn at_ends(near: &[Sample], domains: &Domains) -> Vec<Sample> {
     out
 }
 
+/// Numbers far out and near the ends of a domain.
+pub fn far(domain: &Domain) -> Vec<Coordinate> {
+    let mut out = Vec::new();
+    for k in [-9i32, -4, -2, 1, 2, 3, 4, 6, 12] {
+        let power = Rational::from(Int::from(10).pow(k.unsigned_abs()));
+        let size = if k < 0 { power.recip() } else { power };
+        out.extend([size.clone(), -size.clone()]);
+        for end in domain.ends() {
+            if !end.of_pi {
+                out.extend([&end.value + &size, &end.value - &size]);
+            }
+        }
+    }
+    out.push(Rational::zero());
+    out.retain(|v| domain.contains(v));
+    out.into_iter().map(Coordinate::Number).collect()
+}
+
 /// A simple value of a symbol in a part of its domain.
 pub fn within(part: &Domain, domain: &Domain, role: &Role) -> Option<Coordinate> {
     let fits = |x: &Rational| part.contains(x) && domain.contains(x);
@@ -272,6 +290,14 @@ impl Sample {
         let mut moved = self.clone();
         moved.coordinates.insert(name.clone(), value);
         moved
+    }
+
+    /// Points with a symbol that has a number here led far out and near the ends of its domain.
+    pub fn led_far(&self, name: &Symbol, domains: &Domains) -> Vec<Sample> {
+        let number = matches!(self.coordinates.get(name), Some(Coordinate::Number(_)));
+        let domain = domains.symbols.get(name).filter(|_| number);
+        let all = domain.map(far).unwrap_or_default().into_iter();
+        all.map(|value| self.moved(name, value)).collect()
     }
 
     /// The point in doubles; angles have their values, but no directions.

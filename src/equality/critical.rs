@@ -12,7 +12,7 @@ use super::Assumption;
 use super::line::{lowest, rough_zeros};
 use super::refute::sign_at;
 use crate::algebra::{Field, Sign};
-use crate::domain::{Coordinate, Domain, Domains, Limit, Roles, Sample};
+use crate::domain::{Coordinate, Domain, Domains, Limit, Roles, Sample, far};
 use crate::expr::number::from_f64;
 use crate::expr::{Expr, Function, Int, Node, Point, Rational, Symbol, ratio};
 use crate::interval::{Interval, Outcome, evaluate};
@@ -331,16 +331,13 @@ pub(super) fn tested(
 
 /// Points with each symbol of an expression led far out and near the ends of its domain.
 fn far_out(e: &Expr, near: &[Sample], domains: &Domains) -> Vec<Sample> {
-    let mut out = Vec::new();
-    for start in near {
-        for name in free_symbols(std::slice::from_ref(e), domains, start) {
-            if let Some(domain) = along(&name, start, domains) {
-                let far = far(domain).into_iter();
-                out.extend(far.map(|value| start.moved(&name, value)));
-            }
-        }
-    }
-    out
+    let led = |start: &Sample| {
+        let names = free_symbols(std::slice::from_ref(e), domains, start).into_iter();
+        names
+            .flat_map(|name| start.led_far(&name, domains))
+            .collect::<Vec<_>>()
+    };
+    near.iter().flat_map(led).collect()
 }
 
 /// The point to which going down leads: symbol by symbol to where the expression is least along the domain, first to simple
@@ -503,22 +500,4 @@ fn near_ends(domain: &Domain) -> [Rational; 2] {
         [None, Some(high)] => [&high.value - &far, &high.value - inside(high)],
         [None, None] => [-far.clone(), far],
     }
-}
-
-/// Numbers far out and near the ends of a domain.
-fn far(domain: &Domain) -> Vec<Coordinate> {
-    let mut out = Vec::new();
-    for k in [-9i32, -4, -2, 1, 2, 3, 4, 6, 12] {
-        let power = Rational::from(Int::from(10).pow(k.unsigned_abs()));
-        let size = if k < 0 { power.recip() } else { power };
-        out.extend([size.clone(), -size.clone()]);
-        for end in domain.ends() {
-            if !end.of_pi {
-                out.extend([&end.value + &size, &end.value - &size]);
-            }
-        }
-    }
-    out.push(Rational::zero());
-    out.retain(|v| domain.contains(v));
-    out.into_iter().map(Coordinate::Number).collect()
 }

@@ -192,10 +192,7 @@ pub(super) fn surroundings(
     if let StageKind::Slide(slide) = kind
         && let along = stage.values.pair(&slide.along)?
         && !slide.level
-        && slide
-            .on
-            .iter()
-            .all(|on| stage.scene.bodies[on.body].is_fixed())
+        && slide.on.iter().all(|on| on.is_belt(stage.scene))
         && (slide.rolling
             || slide.friction.is_some()
             || slide.gravity.is_some() && along[0].abs() > 1e-9)
@@ -239,7 +236,7 @@ fn measures(
                 _ => first,
             };
             // The mark on a belt runs on with it.
-            let on_belt = (slide.on.iter()).any(|on| stage.scene.bodies[on.body].is_fixed());
+            let on_belt = slide.on.iter().any(|on| on.is_belt(stage.scene));
             if let Some(label) = label.filter(|_| !on_belt) {
                 beside(sheet, first, last, label);
             }

@@ -524,6 +524,11 @@ pub struct Carrier {
 }
 
 impl Carrier {
+    /// Whether it is a belt, which runs with a prescribed velocity.
+    pub fn is_belt(&self, scene: &Scene) -> bool {
+        scene.bodies[self.body].is_fixed()
+    }
+
     /// The body and those that move along with it.
     pub fn company(&self) -> Vec<usize> {
         [&[self.body], self.with.as_slice()].concat()

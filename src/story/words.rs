@@ -270,7 +270,7 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
             true => "slides",
             false => "slide",
         };
-        let goes = match (stage.scene.bodies[on.body].is_fixed(), &on.friction) {
+        let goes = match (on.is_belt(&stage.scene), &on.friction) {
             (true, _) => "keeps its velocity",
             (_, Some(_)) => "moves on a rough floor",
             (_, None) => "moves on a smooth floor",

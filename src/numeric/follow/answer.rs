@@ -252,22 +252,12 @@ impl InStage<'_> {
         };
         let along = pair(&self.course, &slide.along)?;
         let far = gone(self.passed, slide.body, along)?;
-        let Some(below) = &slide.on else {
-            return Ok(far);
-        };
-        let far = far - gone(self.passed, below.body, along)?;
-        let speed = |b: usize| -> Result<f64, Unanswered> {
-            let [u, v] = self.passed.before.bodies[b].velocity.clone();
-            Ok(dot(&[u?, v?], &along))
-        };
-        let mut slip = speed(slide.body)? - speed(below.body)?;
-        let radius = self.course.scene.bodies[slide.body].shape.radius();
-        if let Some(radius) = radius.filter(|_| slide.with.is_empty()) {
-            let radius = self.course.number(radius, "radius");
-            let rim = radius.map_err(Unanswered::Lost)? * along[0].signum();
-            slip += rim * self.passed.before.bodies[slide.body].spin.clone()?;
-        }
-        Ok(if slip < 0.0 { -far } else { far })
+        let below = slide.on.as_ref();
+        let below = below.map_or(Ok(0.0), |on| gone(self.passed, on.body, along))?;
+        Ok(match self.moved()?.slides_back {
+            true => below - far,
+            false => far - below,
+        })
     }
 
     /// The angle by which a body turned \[rad\], counterclockwise.

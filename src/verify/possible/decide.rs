@@ -90,7 +90,9 @@ pub(super) fn as_like(e: &Expr, like: Option<&Decided>, domains: &Domains) -> De
         Some(s) if s.is_not_negative() => plain(Verdict::Everywhere),
         Some(Sign::Negative) => plain(Verdict::Nowhere),
         // What is zero at an end of the domain at most is no case.
-        Some(Sign::NotPositive) if is_below_zero(e, domains) => plain(Verdict::Nowhere),
+        Some(Sign::NotPositive) if proved(e, &domains.inside()) == Some(Sign::Negative) => {
+            plain(Verdict::Nowhere)
+        }
         Some(_) => on_a_part(),
         None if e.size() <= LARGEST && has_both_signs(e, domains) => on_a_part(),
         None => UNDECIDED,
@@ -114,21 +116,6 @@ pub(super) fn need(need: &Need, domains: &Domains) -> Decided {
             _ => where_it_is(e, domains),
         },
     }
-}
-
-/// Whether an expression is below zero at all points tried inside the domain.
-fn is_below_zero(e: &Expr, domains: &Domains) -> bool {
-    let roles = roles(&[e]);
-    let domains = domains.completed(&roles).0.inside();
-    let (mut seen, mut reaches) = (0, false);
-    samples_until(&roles, &domains, POINTS, |sample| {
-        if let Outcome::Value(x) = evaluate::<Interval>(e, &sample.point(roles.radians)) {
-            seen += 1;
-            reaches = x.high >= 0.0;
-        }
-        reaches
-    });
-    seen > 0 && !reaches
 }
 
 /// Whether one expression is nowhere below zero where the other is above it, and the reverse, at the points tried.

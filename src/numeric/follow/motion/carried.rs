@@ -268,6 +268,7 @@ pub(super) fn carried(
     });
     let moved = Moved {
         bodies: movers.bodies.clone(),
+        slides_back: pair.sense < 0.0,
         driven: driven.collect(),
         samples,
         ..Moved::default()

@@ -48,6 +48,8 @@ pub struct Moved {
     /// Index of each body of a rotation or a linkage, with its acceleration along x and y [m/s²] and its angular one [rad/s²], at the
     /// beginning and at the end.
     pub accelerations: Vec<(usize, [[f64; 3]; 2])>,
+    /// Whether what slides on another body slides back over it; its distance along that one counts so.
+    pub slides_back: bool,
     /// What drives each body of a motion along a line; empty for other motions.
     pub driven: Vec<Driven>,
     /// Places on the way, for pictures; empty where something is open.

@@ -201,7 +201,7 @@ impl<'a> Pair<'a> {
 
     /// Whether the velocity of what is below is prescribed.
     fn is_belt(&self) -> bool {
-        self.stage.scene.bodies[self.below.body].is_fixed()
+        self.below.is_belt(&self.stage.scene)
     }
 
     fn name(&self, body: usize) -> &'a str {
