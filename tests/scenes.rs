@@ -488,3 +488,22 @@ fn a_formula_may_name_an_answer_that_is_asked_further_down() {
     let found = names(&[u, w, share].join(", "));
     assert_eq!(found, ["u", "w", "share"]);
 }
+
+#[test]
+fn round_bodies_touch_on_the_line_of_their_centers() {
+    let text = r#"{
+      "parameters": {"m": {"unit": "kg"}, "R": {"unit": "m"}, "v": {"unit": "m/s"}},
+      "bodies": {
+        "A": {"shape": "sphere", "mass": "m", "radius": "R", "center": [0, "R"], "velocity": ["v", 0]},
+        "B": {"shape": "sphere", "mass": "m", "radius": "2*R", "center": ["3*R", "R"]}
+      },
+      "contacts": {"C": {"bodies": ["A", "B"], "law": "frictionless", "restitution": 1}},
+      "questions": {"u": {"velocity": "B"}}
+    }"#;
+    let scene = scene::read(text).unwrap_or_else(|f| panic!("{}", f.render("a", text)));
+    let contact = &scene.contacts[0];
+    let radius = Expr::symbol("R");
+    // Nothing is left of what cancels.
+    assert_eq!(contact.normal, Some([Expr::one(), Expr::zero()]));
+    assert_eq!(contact.at, [radius.clone(), radius]);
+}

@@ -11,6 +11,7 @@ use super::{
     ALONE, Body, Contact, ContactLaw, Friction, Hypothesis, Known, KnownQuantity, Mode, Scene,
     beside_friction,
 };
+use crate::algebra;
 use crate::expr::{Expr, Vector, minus};
 
 /// Fields that laws need, with what they hold.
@@ -108,7 +109,11 @@ impl Resolver<'_> {
         let apart = a? + b?;
         let [from, to] = bodies.map(|b| self.center(b));
         let gap = minus(&to?, &from?);
-        (!apart.is_zero()).then(|| gap.map(|c| &c / &apart))
+        let along = |c: Expr| {
+            let along = &c / &apart;
+            algebra::tidy(&along, &scene.domains).unwrap_or(along)
+        };
+        (!apart.is_zero()).then(|| gap.map(along))
     }
 
     /// The place of a contact that is not given: that of the particle in it, or where the normal leaves what is round.
