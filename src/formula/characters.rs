@@ -48,24 +48,37 @@ impl Lexer<'_> {
     }
 }
 
+/// A text with plain characters for full-width ones and digits of other styles, byte for byte: blanks fill up behind each
+/// word. Nothing where there are none.
+pub(super) fn plain_width(text: &str) -> Option<String> {
+    let plain = |c: char| match u32::from(c) {
+        code @ 0xff01..=0xff5e => char::from_u32(code - 0xfee0),
+        code @ 0x1d7ce..=0x1d7ff => char::from_digit((code - 0x1d7ce) % 10, 10),
+        _ => None,
+    };
+    text.contains(|c| plain(c).is_some()).then(|| {
+        let (mut out, mut owed) = (String::with_capacity(text.len()), 0);
+        for c in text.chars() {
+            if c.is_whitespace() {
+                out.extend(std::iter::repeat_n(' ', std::mem::take(&mut owed)));
+            }
+            let written = plain(c).unwrap_or(c);
+            owed += c.len_utf8() - written.len_utf8();
+            out.push(written);
+        }
+        out.extend(std::iter::repeat_n(' ', owed));
+        out
+    })
+}
+
 /// What one character stands for by itself.
 fn sign(c: char) -> Option<Tok> {
     Some(match c {
-        '−' | '–' | '—' | '‐' | '‑' | '﹣' | '－' => Tok::Minus,
-        '＋' => Tok::Plus,
-        '（' => Tok::Open('('),
-        '）' => Tok::Close(')'),
-        '［' => Tok::Open('['),
-        '］' => Tok::Close(']'),
-        '｛' => Tok::Open('{'),
-        '｝' => Tok::Close('}'),
-        '／' => Tok::Slash,
-        '＾' => Tok::Caret,
-        '，' => Tok::Comma,
+        '−' | '–' | '—' | '‐' | '‑' | '﹣' => Tok::Minus,
         '∥' | '‖' => Tok::Bar,
         '±' => Tok::PlusMinus,
         '∓' => Tok::MinusPlus,
-        '·' | '⋅' | '∙' | '•' | '∗' | '＊' => Tok::Times,
+        '·' | '⋅' | '∙' | '•' | '∗' => Tok::Times,
         '×' | '⨯' | '✕' => Tok::Cross,
         '÷' | '∕' | '⁄' => Tok::Slash,
         '√' => Tok::Root(2),
@@ -74,7 +87,7 @@ fn sign(c: char) -> Option<Tok> {
         '≥' | '⩾' | '≧' => Tok::Relation(Relation::GreaterEqual),
         '≠' => Tok::Relation(Relation::NotEqual),
         '≈' | '≃' | '≅' => Tok::Relation(Relation::Approximately),
-        '≡' | '＝' => Tok::Relation(Relation::Equal),
+        '≡' => Tok::Relation(Relation::Equal),
         '°' | '∘' | 'º' | '˚' => Tok::Degree,
         '⟨' => Tok::Open('<'),
         '⟩' => Tok::Close('>'),

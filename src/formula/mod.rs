@@ -115,6 +115,11 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     {
         return read(&text, symbols);
     }
+    if held.any("\u{ff10}")
+        && let Some(text) = characters::plain_width(text)
+    {
+        return read(&text, symbols);
+    }
     if several::is_likely(text, held)
         && let Some(pair) = several::values(text, symbols)
     {
