@@ -6,7 +6,7 @@ use super::super::relation::{proportional, solve_for};
 use super::super::sheet::{Entry, Sheet};
 use super::super::{Diagnosis, Options, Verdict};
 use super::names::ACCELERATIONS;
-use super::text::supposition;
+use super::text::{self, supposition};
 use super::{Desk, Final, Status};
 use crate::algebra::{self, Field, Sign};
 use crate::answer::Answer;
@@ -144,18 +144,48 @@ impl Desk<'_> {
         pairs.map(|pair| self.link(&pair[0], &pair[1])).collect()
     }
 
+    /// What a line says of a limit, where it does not hold as it stands.
+    fn in_limit(&self, text: &str) -> Option<Status> {
+        if !text::tends(text) {
+            return None;
+        }
+        let none = BTreeMap::new();
+        let holds = |equation: &str| {
+            let reading = formula::read(equation, &self.symbols(equation)).ok();
+            let links = reading.and_then(|reading| self.links(&reading));
+            links.is_some_and(|links| {
+                let mut all = links.iter();
+                all.all(|link| self.all_zero(&link.differences, &none) == Some(true))
+            })
+        };
+        let equations = text::equations(text);
+        let hold = !equations.is_empty() && equations.into_iter().all(holds);
+        (!hold).then_some(Status::Comment)
+    }
+
     /// Whether what a line says of one value of a parameter is so: `For θ = 0: ω = 3v/(2l)`. Nothing later hangs on it.
     pub(super) fn in_case(&mut self, text: &str) -> Option<Status> {
+        if let Some(status) = self.in_limit(text) {
+            return Some(status);
+        }
         let (given, behind) = supposition(text)?;
         let [read, then] = [given, behind].map(|part| formula::read(part, &self.symbols(part)));
         let (Content::Relations(sides, signs), then) = (read.ok()?.content, then.ok()?) else {
             return None;
         };
-        let ([name, value], [Relation::Equal]) = (&sides[..], &signs[..]) else {
-            return None;
+        let ([left, right], [Relation::Equal]) = (&sides[..], &signs[..]) else {
+            // What holds where an inequality does is not known to hold.
+            return Some(Status::Undecided);
         };
-        let (name, value) = (name.expr()?.as_symbol()?, value.expr()?);
-        let is_parameter = self.sheet.scene.parameters.iter().any(|p| p.name == *name);
+        let is_parameter = |side: &Content| {
+            let name = side.expr().and_then(Expr::as_symbol);
+            name.is_some_and(|name| self.sheet.scene.parameter(name).is_some())
+        };
+        let (name, value) = match !is_parameter(left) && is_parameter(right) {
+            true => (right.expr()?.as_symbol()?, left.expr()?),
+            false => (left.expr()?.as_symbol()?, right.expr()?),
+        };
+        let is_parameter = self.sheet.scene.parameter(name).is_some();
         if !is_parameter {
             // `s = d when u = √(2 μ g d)`: what is supposed, and what follows from it.
             let (links, given) = (self.links(&then)?, self.link(&sides[0], &sides[1])?);
@@ -169,18 +199,27 @@ impl Desk<'_> {
         }
         let there = BTreeMap::from([(name.clone(), value.clone())]);
         let links = self.links(&then)?;
-        let differences = links.iter().flat_map(|link| &link.differences);
-        let zero = differences.map(|d| {
-            let left = self.put_in(d, &BTreeMap::new()).substitute(&there);
-            equality::decide(&left, &Expr::zero(), &self.sheet.scene.domains).equality
-        });
-        let zero: Vec<Equality> = zero.collect();
-        Some(if zero.iter().all(|z| matches!(z, Equality::Same { .. })) {
-            Status::Holds
-        } else if zero.iter().any(|z| matches!(z, Equality::Different(_))) {
-            Status::Wrong
-        } else {
-            Status::Undecided
+        let differences = || links.iter().flat_map(|link| &link.differences);
+        let zero = |instead: &BTreeMap<Symbol, Expr>| {
+            // Without a value there, nothing is said.
+            let domains = &self.sheet.scene.domains;
+            let zero = differences().map(|d| {
+                let left = self.put_in(d, instead).substitute(&there);
+                equality::decide(&left, &Expr::zero(), domains).equality
+            });
+            let zero: Vec<Equality> = zero.collect();
+            let same = zero.iter().all(|z| matches!(z, Equality::Same { .. }));
+            let apart = zero.iter().any(Equality::is_different);
+            (same || apart).then_some(same)
+        };
+        let mut implied = self.believed.iter().rev();
+        Some(match zero(&BTreeMap::new()) {
+            Some(true) => Status::Holds,
+            None => Status::Undecided,
+            Some(false) => match implied.find(|(_, values)| zero(values) == Some(true)) {
+                Some((cause, _)) => Status::Carried(*cause),
+                None => Status::Wrong,
+            },
         })
     }
 

@@ -67,6 +67,7 @@ const WHICH: [&str; 6] = ["before", "after", "lost", "gained", "initially", "fin
 /// What is `asked` of the moment just after is its own name then.
 pub(super) fn in_names(line: &str, asked: &dyn Fn(&str) -> bool) -> String {
     let line = line.replace("K.E.", "KE").replace("P.E.", "PE");
+    let line = moment_first(&line, asked).unwrap_or(line);
     let words: Vec<&str> = line.split(' ').collect();
     let sign = |word: &str| word.ends_with(['=', '+', '-', '−', '≈', ':', ',']);
     let mut out: Vec<String> = Vec::new();
@@ -98,6 +99,29 @@ pub(super) fn in_names(line: &str, asked: &dyn Fn(&str) -> bool) -> String {
         }
     }
     line
+}
+
+/// `v = √(2gh) just before the hit` as what the name `v_before` is where v is asked of another moment; without the words else.
+fn moment_first(line: &str, asked: &dyn Fn(&str) -> bool) -> Option<String> {
+    let sides = [" before", " after"].into_iter();
+    let (said, side) = sides
+        .filter_map(|s| Some((&line[..line.rfind(s)?], s)))
+        .max()?;
+    let behind = line[said.len() + side.len()..].trim_end_matches(['.', ',']);
+    let words = behind.split(' ').skip(1);
+    let few = behind.is_empty() || behind.starts_with(' ') && words.clone().count() < 4;
+    let (name, _) = said
+        .split_once('=')
+        .filter(|_| few && words.clone().all(is_word))?;
+    let said = [" just", " immediately", " right"]
+        .iter()
+        .find_map(|word| said.strip_suffix(word))
+        .unwrap_or(said);
+    let name = name.trim();
+    Some(match side == " before" && asked(name) {
+        true => said.replacen(name, &format!("{name}_before"), 1),
+        false => said.to_string(),
+    })
 }
 
 /// Which value words behind a name speak of, and how many words that takes: `just after the hit`.
@@ -137,26 +161,76 @@ fn is_letters(word: &str) -> bool {
     plain && (1..3).contains(&letters) && !WORDS.contains(&word)
 }
 
-/// What a line supposes and what follows then: `For θ = 0: ω = 3v/(2l)`, `If e = 1, E = 0`.
+/// Words before a line that tries a special case.
+const TRIALS: &str = "check|test|special case|in particular|especially|e.g.|for example|then";
+
+/// What a line supposes and what follows then: `For θ = 0: ω = 3v/(2l)`, `If e = 1, E = 0`, `Check: M = 0 gives a = g`.
 pub(super) fn supposition(text: &str) -> Option<(&str, &str)> {
+    let lower = text.to_ascii_lowercase();
+    let tries = TRIALS.split('|').find(|words| {
+        let behind = lower.strip_prefix(*words);
+        behind.is_some_and(|behind| behind.starts_with([' ', ':', ',']))
+    });
+    let text = text[tries.map_or(0, str::len)..].trim_start_matches([':', ',', ' ']);
     let lead = text.split(' ').next()?;
-    let supposes = ["for", "if", "when", "setting", "at"].contains(&&*lead.to_ascii_lowercase());
+    let leads = ["for", "if", "when", "setting", "at", "with", "take", "let"];
+    let supposes = leads.contains(&&*lead.to_ascii_lowercase());
     if !supposes {
         let words = [" for ", " if ", " when "].into_iter();
-        let (said, given) = words.filter_map(|word| text.split_once(word)).next()?;
-        let both = relates(said) && relates(given);
-        let given = given.trim_end_matches('.').trim_matches([' ', '$']);
-        return both.then(|| (given, equation(said)));
+        if let Some((said, given)) = words.filter_map(|word| text.split_once(word)).next() {
+            let both = relates(said) && relates(given);
+            let given = given.trim_end_matches('.').trim_matches([' ', '$']);
+            return both.then(|| (given, equation(said)));
+        }
     }
-    let rest = text.get(lead.len()..)?;
-    let ends = [": ", ", ", " gives ", " then ", " we get ", " we find "];
-    let (at, end) = ends
+    let rest = &text[if supposes { lead.len() } else { 0 }..];
+    let ends = [
+        ": ",
+        " gives ",
+        ", ",
+        " then ",
+        " we get ",
+        " we find ",
+        " we have ",
+    ];
+    let ends = &ends[..if supposes { ends.len() } else { 2 }];
+    let end = ends
         .iter()
-        .filter_map(|end| Some((rest.find(end)?, end)))
-        .min()?;
-    let (given, behind) = (&rest[..at], &rest[at + end.len()..]);
+        .filter_map(|end| Some((rest.find(end)?, end.len())))
+        .min();
+    // `for θ = 0 ω = 3v/(2l)`: the second equation begins with its name.
+    let second = || {
+        let (before, _) = rest.rsplit_once('=')?;
+        Some((before.trim_end().rfind(' ').filter(|_| supposes)?, 1))
+    };
+    let (at, length) = end.or_else(second)?;
+    let (given, behind) = (&rest[..at], &rest[at + length..]);
     let both = relates(given) && relates(behind);
     both.then(|| (given.trim_matches([' ', '$']), equation(behind)))
+}
+
+/// Whether a line speaks of what something tends to.
+pub(super) fn tends(text: &str) -> bool {
+    const PHRASES: &str =
+        "≫|≪|>>|<<|\\gg|\\ll|\\lim|very large|very small|very heavy|very light|for large|for small";
+    const WORDS: [&str; 4] = ["lim", "limit", "tends", "approaches"];
+    // An arrow to a lone zero, and not to the equation `0 = …`.
+    let is_end = |to: &str| {
+        let to = to.trim_start().trim_start_matches(['+', '-', '−']);
+        let zero = to.strip_prefix('0').map(str::trim_start);
+        to.starts_with(['∞'])
+            || to.starts_with("\\infty")
+            || to.starts_with("inf")
+            || zero.is_some_and(|behind| {
+                !behind.starts_with(|c: char| c.is_alphanumeric() || "=.^*/+-−<>".contains(c))
+            })
+    };
+    let arrows = ["→", "->", "\\to", "\\rightarrow"];
+    let mut goes = arrows.iter().filter_map(|arrow| text.split_once(arrow));
+    let mut words = text.split(|c: char| !c.is_ascii_alphabetic());
+    goes.any(|(_, to)| is_end(to))
+        || PHRASES.split('|').any(|phrase| text.contains(phrase))
+        || words.any(|word| WORDS.iter().any(|w| word.eq_ignore_ascii_case(w)))
 }
 
 /// A line without what aligns it with others in LaTeX: `ω &= 3v/(2ℓ) \\\\`.
@@ -283,24 +357,29 @@ fn equation(text: &str) -> &str {
 
 /// An equation without the reason in words behind it: `T1 = T2 since the pulley is light`, `…, where v' is the speed after`.
 fn without_reason(text: &str) -> &str {
-    const REASONS: [&str; 8] = [
-        " where ",
-        " which ",
-        " because ",
-        " since ",
-        " using ",
-        " due to ",
-        " as the ",
-        " by the ",
-    ];
-    let found = REASONS
-        .iter()
-        .filter_map(|lead| Some((text.find(lead)?, lead.len())));
-    match found.min() {
-        Some((at, length)) if !relates(&text[at..]) && text[at + length..].contains(' ') => {
-            text[..at].trim_end_matches([' ', ','])
-        }
-        _ => text,
+    const REASONS: &str = " where | which | because | since | using | due to | as the | by the ";
+    const PLACES: &str = " at the | in the | in this | in that | on the | along the | during the | for the | until the | of the ";
+    // What turns a sign is no mere place.
+    const SENSES: &str = "up upward upwards down downward downwards left leftward right rightward opposite negative \
+        backward backwards clockwise counterclockwise anticlockwise";
+    let first = |leads: &str| {
+        let found = leads
+            .split('|')
+            .filter_map(|lead| Some((text.find(lead)?, lead.len())));
+        found.min()
+    };
+    let is_reason =
+        |&(at, length): &(usize, usize)| !relates(&text[at..]) && text[at + length..].contains(' ');
+    let is_place = |&(at, length): &(usize, usize)| {
+        let mut words = text[at + length..].split([' ', '-']);
+        let sense = |word: &str| SENSES.split_whitespace().any(|sense| sense == word);
+        relates(&text[..at])
+            && words.all(|word| word.chars().all(char::is_alphabetic) && !sense(word))
+    };
+    let place = || first(PLACES).filter(is_place);
+    match first(REASONS).filter(is_reason).or_else(place) {
+        Some((at, _)) => text[..at].trim_end_matches([' ', ',']),
+        None => text,
     }
 }
 
