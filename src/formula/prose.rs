@@ -128,14 +128,27 @@ pub(super) fn value(text: &str) -> Option<&str> {
     ];
     let text = text.trim_start();
     let signed = |sign: &&str| text.strip_prefix(*sign);
-    if let Some(behind) = ["≈", "\\approx", "="].iter().find_map(signed) {
+    if let Some(behind) = ["≈", "\\approx", "\\simeq", "\\sim", "="]
+        .iter()
+        .find_map(signed)
+    {
         return (!behind.starts_with(['=', '>', '<'])).then_some(behind);
+    }
+    let is_number = |text: &str| {
+        let number = text.trim_start();
+        number.starts_with(|c: char| c.is_ascii_digit() || "-−+.".contains(c))
+    };
+    // `\text{about } 5`
+    let framed = text.strip_prefix("\\text{").and_then(|r| r.split_once('}'));
+    if let Some((said, behind)) = framed {
+        let said = said.trim();
+        let known = WORDS.iter().any(|word| word.eq_ignore_ascii_case(said));
+        return (known && is_number(behind)).then_some(behind);
     }
     let said = |word: &str| {
         let (said, behind) = text.split_at_checked(word.len())?;
-        let number = behind.strip_prefix(' ')?.trim_start();
-        let is_number = number.starts_with(|c: char| c.is_ascii_digit() || "-−+.".contains(c));
-        (said.eq_ignore_ascii_case(word) && is_number).then_some(behind)
+        let number = behind.strip_prefix(' ').is_some_and(is_number);
+        (said.eq_ignore_ascii_case(word) && number).then_some(behind)
     };
     WORDS.into_iter().find_map(said)
 }

@@ -60,6 +60,10 @@ impl<'a> Lexer<'a> {
             "unit" | "si" if rest[length..].trim_start().starts_with('{') => {
                 self.spelled_unit(start)
             }
+            "mu" if self.is_micro(end) => {
+                self.pos = start;
+                self.unit(true).map_or_else(|| self.name(start, end), Ok)
+            }
             "operatorname" => self.operator(start),
             "begin" | "end" => self.environment(start, word == "begin"),
             "det" => Ok(Tok::Determinant),
@@ -193,6 +197,15 @@ impl<'a> Lexer<'a> {
                 .map(Tok::Pair)
                 .ok_or_else(|| Fault::new(format!("`{word}` is no function I know"), start, end)),
         }
+    }
+
+    /// Whether a μ that ends here stands before a unit in another font and behind a number, `5\,\mu\mathrm{m}`.
+    fn is_micro(&self, end: usize) -> bool {
+        let fonts = ["\\mathrm{", "\\text{", "\\textrm{"];
+        let rest = self.text[end..].trim_start();
+        matches!(self.before, Before::Number { .. })
+            && fonts.iter().any(|font| rest.starts_with(font))
+            && self.symbols.find("mu").is_none()
     }
 
     /// A piece in another font: a unit behind a number, a function, or a name.

@@ -268,13 +268,16 @@ pub(crate) fn plain_unit(side: &str) -> Option<String> {
                 rest = &rest[length..];
                 match word {
                     "mathrm" | "text" | "textrm" | "mathsf" | "rm" => {
-                        if !out.is_empty() {
+                        if !out.is_empty() && !out.ends_with('µ') {
                             out.push(' ');
                         }
                     }
                     "cdot" | "times" => out.push('·'),
                     "circ" => out.push('°'),
-                    "mu" => out.push('µ'),
+                    "mu" => {
+                        out.push('µ');
+                        rest = rest.trim_start();
+                    }
                     "frac" | "dfrac" | "tfrac" => out.push(FRACTION),
                     "" => {
                         out.push(' ');

@@ -198,10 +198,14 @@ pub(super) fn supposition(text: &str) -> Option<(&str, &str)> {
         .iter()
         .filter_map(|end| Some((rest.find(end)?, end.len())))
         .min();
-    // `for θ = 0 ω = 3v/(2l)`: the second equation begins with its name.
+    // `for θ = 0 ω = 3v/(2l)`: behind a number the second equation begins with its name.
     let second = || {
-        let (before, _) = rest.rsplit_once('=')?;
-        Some((before.trim_end().rfind(' ').filter(|_| supposes)?, 1))
+        let (before, _) = rest.rsplit_once('=').filter(|_| supposes)?;
+        let at = before.trim_end().rfind(' ')?;
+        let (_, value) = before[..at].split_once('=')?;
+        let value = value.replace("pi", "π");
+        let number = |c: char| c.is_ascii_digit() || " ./°π+-−\\".contains(c);
+        value.chars().all(number).then_some((at, 1))
     };
     let (at, length) = end.or_else(second)?;
     let (given, behind) = (&rest[..at], &rest[at + length..]);
