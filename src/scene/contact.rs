@@ -130,6 +130,9 @@ impl Resolver<'_> {
         let round = bodies
             .into_iter()
             .find_map(|b| Some((b, scene.bodies[b].shape.radius()?)));
+        let normal = normal
+            .cloned()
+            .or_else(|| self.line_of_centers(bodies, scene));
         if let (Some((round, radius)), Some(normal)) = (round, normal) {
             let out = match round == bodies[0] {
                 true => radius.clone(),

@@ -69,7 +69,8 @@ record! {
     ContactFile {
         /// Names of the two bodies; one may be fixed. The impulse is the one on the second.
         bodies: Pair<Text>,
-        /// Where they touch. Missing: where the particle of the two is, or where the normal leaves what is round.
+        /// Where they touch. Missing: where the particle of the two is, or where the normal, or the line to the center of another
+        /// round body, leaves what is round.
         at: Option<PositionFile>,
         /// Unit normal, out of the first body into the second. Missing between what is round and another such body or a
         /// particle: along the line of their centers.

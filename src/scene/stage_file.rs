@@ -68,8 +68,8 @@ record! {
     SupportFile {
         /// Names of the two bodies; one may be fixed.
         bodies: Pair<Text>,
-        /// Where it acts.
-        at: PositionFile,
+        /// Where it acts. Missing: as of a contact, where the particle of the two is, or where the normal leaves what is round.
+        at: Option<PositionFile>,
         /// Direction in which the second body is pushed or pulled.
         normal: DirectionFile,
     }

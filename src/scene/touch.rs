@@ -3,7 +3,8 @@
 //! In: a scene whose bodies stand where they are at the impact, with the values it gives. Out: words for a contact that lies
 //! off one of its bodies: at the given values, or whatever the parameters are. What depends on parameters without a value is
 //! no fault; `verify` tells the condition. A contact that sticks may also lie inside a body, as a bullet does in a block or
-//! an axle in a wheel; one that does not stick can only touch from outside.
+//! an axle in a wheel, and so may one with neither law nor normal, as of a man who walks on a turntable seen from above; any
+//! other can only touch from outside.
 
 use std::collections::BTreeMap;
 
@@ -30,17 +31,20 @@ pub struct Misplaced {
 
 /// Whether something may lie inside the bodies at this contact, and not on their outlines alone.
 pub fn may_lie_inside(contact: &Contact) -> bool {
+    sticks(contact) || contact.law == ContactLaw::None && contact.normal.is_none()
+}
+
+fn sticks(contact: &Contact) -> bool {
     contact.law == ContactLaw::Sticking
 }
 
 /// Whether two bodies stick at another contact before this one too: they are one body afterwards, and the second point only says so.
 /// It may lie beside them: disks that are glued together touch in one point.
 pub fn is_second_latch(scene: &Scene, contact: &Contact) -> bool {
-    let same = |other: &Contact| {
-        may_lie_inside(other) && other.bodies.iter().all(|b| contact.bodies.contains(b))
-    };
+    let same =
+        |other: &Contact| sticks(other) && other.bodies.iter().all(|b| contact.bodies.contains(b));
     let mut first = scene.contacts.iter().take_while(|c| c.name != contact.name);
-    may_lie_inside(contact) && first.any(same)
+    sticks(contact) && first.any(same)
 }
 
 /// The contacts that lie off their bodies.

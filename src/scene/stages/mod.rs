@@ -342,7 +342,7 @@ fn composed(
         let entry = entry.as_ref().map(|e| ContactFile {
             span: e.span,
             bodies: e.bodies.clone(),
-            at: Some(e.at.clone()),
+            at: e.at.clone(),
             normal: Some(e.normal.clone()),
             law: None,
             restitution: None,
