@@ -268,21 +268,33 @@ fn a_scene_left_open_names_the_cases_it_has() {
 
 #[test]
 fn what_is_made_of_the_answers_of_a_case_stands_with_them() {
-    let out = std::process::Command::new(env!("CARGO_BIN_EXE_carom"))
-        .args([
-            "derive",
-            "tests/friction/puck-glances-off-a-rough-rail.json",
-        ])
-        .output()
-        .expect("carom runs");
-    let text = String::from_utf8_lossy(&out.stdout).to_string();
-    let told = ["phi = −atan((μ (1 + e) cosα − sinα)/(e cosα))", "phi = 0"];
-    let counts = told.map(|line| text.matches(line).count());
-    assert_eq!(
-        counts,
-        [1, 2],
-        "one where it slides, two where it sticks: {text}"
-    );
+    for (scene, line, times, why) in [
+        (
+            "puck-glances-off-a-rough-rail",
+            "phi = −atan((μ (1 + e) cosα − sinα)/(e cosα))",
+            1,
+            "one case where it slides",
+        ),
+        (
+            "puck-glances-off-a-rough-rail",
+            "phi = 0",
+            2,
+            "two where it sticks",
+        ),
+        (
+            "ball-bounces-back-along-its-path",
+            "mu_0 = u/v",
+            2,
+            "the threshold with a spin that is an answer of each case",
+        ),
+    ] {
+        let out = std::process::Command::new(env!("CARGO_BIN_EXE_carom"))
+            .args(["derive", &format!("tests/friction/{scene}.json")])
+            .output()
+            .expect("carom runs");
+        let text = String::from_utf8_lossy(&out.stdout).to_string();
+        assert_eq!(text.matches(line).count(), times, "{why}: {text}");
+    }
 }
 
 #[test]

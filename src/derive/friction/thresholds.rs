@@ -14,7 +14,9 @@ pub(super) fn of_parameters(scene: &Scene, asked: Vec<Question>) -> Vec<Question
     let mut out = Vec::new();
     for question in asked {
         let formulas = question.ask.formulas();
-        if !formulas.is_empty() && formulas.iter().all(|e| e.symbols().is_subset(&known)) {
+        let mut put_in = question.ask.with().iter().map(|(_, e)| e);
+        let is_known = |e: &Expr| e.symbols().is_subset(&known);
+        if !formulas.is_empty() && formulas.iter().all(|e| is_known(e)) && put_in.all(is_known) {
             known.insert(question.name.as_str().into());
             out.push(question);
         }

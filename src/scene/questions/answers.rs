@@ -68,6 +68,11 @@ impl Reader<'_, '_> {
             // A product of parameters may bear such a name.
             let places = places(self.base.file, q, event.0);
             if !places.is_empty() || !declared.any(|d| *d.name == *event.0) {
+                if let Some((with, _)) = q.with.iter().flat_map(|m| &m.0).next() {
+                    let message = "nothing is put into a threshold of friction by `with`";
+                    let hint = "ask for it without, and take its name as the \"value\" of another question, `with` what you put in";
+                    return self.refuse(with, message, hint);
+                }
                 return self.sticking(&places, parameter, holds, event);
             }
         }
