@@ -11,7 +11,8 @@ use carom::{derive, render, verify};
 /// Parameters that every scene of the table may use.
 const PARAMETERS: &str = r#""m": {"unit": "kg"}, "M": {"unit": "kg"}, "I": {"unit": "kg m^2"}, "l": {"unit": "m"}, "d": {"unit": "m"},
     "a": {"unit": "m"}, "b": {"unit": "m"}, "h": {"unit": "m"}, "r": {"unit": "m"}, "v": {"unit": "m/s"}, "u": {"unit": "m/s"},
-    "g": {"unit": "m/s^2"}, "e": {"domain": {"min": 0, "max": 1}}, "s": {"unit": "m/s", "domain": "real"}"#;
+    "g": {"unit": "m/s^2"}, "e": {"domain": {"min": 0, "max": 1}}, "s": {"unit": "m/s", "domain": "real"},
+    "alpha": {"unit": "rad", "domain": {"min": 0, "max": "pi/2", "min_open": true, "max_open": true}}"#;
 
 struct Row {
     verdict: String,

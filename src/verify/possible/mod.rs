@@ -29,6 +29,7 @@ mod sides;
 
 use std::collections::BTreeMap;
 
+use crate::answer::calc::{self, Seen};
 use crate::derive::Derivation;
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, Vector, dot, minus};
@@ -148,7 +149,9 @@ impl Possible {
         let mut refusing = self.conditions.iter().filter(|c| refuses(c));
         let is_charge = refusing.all(|c| c.rule == Rule::Energy);
         let may = match is_charge {
-            true => "; where a charge or a spring gives it, the scene has \"gains_energy\": true",
+            true => {
+                "; where a charge, a spring or a motor gives it, the scene has \"gains_energy\": true"
+            }
             false => "",
         };
         Some(format!("not possible: {reasons}, {whatever}{may}"))
@@ -403,11 +406,18 @@ impl Judge<'_> {
                 continue;
             }
             let at_values = self.values.knows(e).then_some(true);
+            let is_off = decided.verdict == Verdict::Undecided
+                && at_values.is_none()
+                && calc::seen(e, &self.scene.domains) == Seen::Negative;
+            let (verdict, how) = match is_off {
+                true => (Verdict::Nowhere, " at any of the points tried"),
+                false => (decided.verdict, ""),
+            };
             self.conditions.push(Condition {
                 rule: Rule::Place,
                 words: format!("`{}` lies on `{}`", contact.name, body.name),
-                otherwise: format!("`{}` does not lie on `{}`", contact.name, body.name),
-                verdict: decided.verdict,
+                otherwise: format!("`{}` does not lie on `{}`{how}", contact.name, body.name),
+                verdict,
                 essential: decided.essential,
                 is_equation: matches!(need, Need::Zero(_)),
                 at_values,
