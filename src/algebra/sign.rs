@@ -150,7 +150,8 @@ impl Field {
             .or_else(|| self.by_bounds(p, depth))
     }
 
-    /// What is of the first degree in a sine or cosine lies between its values at −1 and 1, whatever the angle: 1 − cos x ≥ 0.
+    /// What is of the first degree in a sine or cosine lies between its values at −1 and 1, whatever the angle: 1 − cos x ≥ 0;
+    /// in the square of one between those at 0 and 1: 2 − cos² x > 0.
     /// Of a power of what is at most 1 it lies between those at 0 and at the highest that the exponent lets it be.
     fn by_bounds(&self, p: &Poly, depth: u32) -> Option<Sign> {
         let mut variables = p.variables().into_iter();
@@ -164,8 +165,10 @@ impl Field {
             _ => None,
         })?;
         let parts = p.by_power(v);
-        let [rest, slope] = parts.as_slice() else {
-            return None;
+        let (rest, slope, low) = match (parts.as_slice(), open) {
+            ([rest, slope], _) => (rest, slope, low),
+            ([rest, none, slope], false) if none.is_zero() => (rest, slope, Poly::zero()),
+            _ => return None,
         };
         let at = |end: &Poly| Some(rest.add(&self.mul_poly(slope, end).ok()?));
         let low = self.sign_sub(&at(&low)?, depth)?;

@@ -204,10 +204,20 @@ impl Field {
         if x.num.len() > MOST_GROUPED || !self.circles().into_iter().any(|(c, _)| both(c)) {
             return None;
         }
-        let mut above = factor(&x.num, &self.fuel);
+        let as_it_is = self.struck_as(x, Poly::clone);
+        as_it_is.or_else(|| self.struck_as(x, |p| self.of_one_degree(p)))
+    }
+
+    /// The same of the forms that `shown` gives.
+    fn struck_as(
+        &self,
+        x: &Element,
+        shown: impl Fn(&Poly) -> Poly,
+    ) -> Option<(Poly, Vec<(Poly, u32)>)> {
+        let mut above = factor(&shown(&x.num), &self.fuel);
         let mut below = Parts::one();
-        for (f, k) in den {
-            let parts = factor(f, &self.fuel);
+        for (f, k) in &x.den.factors {
+            let parts = factor(&shown(f), &self.fuel);
             // A factor of the denominator has no number in front.
             if !parts.content.is_one() {
                 return None;
@@ -225,8 +235,32 @@ impl Field {
         if degree(&below) == before {
             return None;
         }
+        for (f, _) in above.factors.iter_mut().chain(&mut below.factors) {
+            *f = self.reduce(f.clone()).ok()?;
+        }
         let num = multiplied(Poly::constant(above.content), &above.factors)?;
         Some((num, below.factors))
+    }
+
+    /// With every term brought to one degree in a cosine and its sine by cos² + sin² = 1, where that can be: for
+    /// 1 − (1 + μ²) cos² stands sin² − μ² cos², whose factors show.
+    fn of_one_degree(&self, p: &Poly) -> Poly {
+        let mut out = p.clone();
+        for (c, s) in self.circles() {
+            let degree = |m: &[u64]| exponent(m, c) + exponent(m, s);
+            let most = out.terms().map(|(m, _)| degree(m)).max().unwrap_or(0);
+            if out.terms().any(|(m, _)| (most - degree(m)) % 2 == 1) {
+                continue;
+            }
+            let square = |v| Poly::term(&mono_of(v, 2), Int::one());
+            let circle = square(c).add(&square(s));
+            let raised = out.terms().try_fold(Poly::zero(), |total, (m, k)| {
+                let by = circle.pow((most - degree(m)) / 2).ok()?;
+                Some(total.add(&Poly::term(m, k.clone()).mul(&by).ok()?))
+            });
+            out = raised.unwrap_or(out);
+        }
+        out
     }
 
     /// A generator as base and exponent.

@@ -279,6 +279,7 @@ fn a_cosine_lies_between_minus_one_and_one_whatever_the_angle() {
     let cos = s("phi").cos();
     for (e, sign) in [
         (n(1) - &cos, Some(Sign::NotNegative)),
+        (n(2) - cos.powi(2), Some(Sign::Positive)),
         (s("m") * (&cos - n(1)), Some(Sign::NotPositive)),
         (n(2) + &cos, Some(Sign::Positive)),
         (n(1) - n(2) * &cos, None),
@@ -356,6 +357,10 @@ fn results_are_written_as_a_person_would() {
         (&v - &(&v * &e), "(* v (+ 1 (* -1 e)))"),
         (&e - &n(1), "(+ e -1)"),
         (t.sin() / (n(1) - t.cos().powi(2)), "(^ (sin theta) -1)"),
+        (
+            (t.sin().powi(2) - &e.powi(2) * &t.cos().powi(2)) / (t.sin() + &e * &t.cos()).powi(3),
+            "(* (+ (sin theta) (* -1 e (cos theta))) (^ (+ (sin theta) (* e (cos theta))) -2))",
+        ),
         (
             t.cos() * u.cos() + t.sin() * u.sin(),
             "(cos (+ phi (* -1 theta)))",
