@@ -112,7 +112,10 @@ fn of_question(word: &str) -> Option<&'static str> {
         "before" => {
             "what was just before is asked `at` the stage before; in a scene without stages it has \"when\": \"start\""
         }
-        "energy_lost" | "lost" | "loss" | "energy_loss" | "heat" | "dissipated" => {
+        "heat" => {
+            "the energy lost is \"energy\": \"lost\", `at` one stage where there are several; where a body slides on another, friction times the way along it is a `value`, such as \"mu*m*g*d\" with its `distance` d"
+        }
+        "energy_lost" | "lost" | "loss" | "energy_loss" | "dissipated" => {
             "the energy lost is \"energy\": \"lost\", `at` one stage where there are several"
         }
         "kinetic_energy" | "energy_before" | "energy_after" => {
@@ -126,6 +129,9 @@ fn of_question(word: &str) -> Option<&'static str> {
         }
         "compression" | "extension" | "displacement" => {
             "how far a body gets in a stage, or presses a spring, is the `distance` of that stage"
+        }
+        "work" => {
+            "the work done on a body is the difference of its energies: \"energy\": \"before\" and \"after\", `at` a stage and `of` the body; that of a force is a `value`, the force times the way"
         }
         "max" | "maximize" | "greatest" => {
             "the greatest value of a formula is its `maximum`, with what may vary `over`"
@@ -146,6 +152,9 @@ fn of_question(word: &str) -> Option<&'static str> {
 /// What a word means wherever it stands.
 fn anywhere(word: &str) -> Option<&'static str> {
     Some(match word {
+        "gains_energy" | "relations" => {
+            "it stands at the top of the scene, beside `bodies`, for all its stages"
+        }
         "points" => {
             "the points of a scene stand at its top, as \"points\": {\"A\": [\"x\", \"y\"]}"
         }

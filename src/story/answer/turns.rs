@@ -20,6 +20,9 @@ use crate::story::{StageTold, State, through};
 const NO_LAW: &str =
     "what one turn hands on to the next grows neither by a constant nor by a constant factor";
 
+/// Longest ratio that is written out where it is no ratio of powers, in nodes.
+const LONGEST_RATIO: usize = 40;
+
 /// What is asked of the turns.
 struct Asked<'a> {
     scene: &'a Scene,
@@ -307,10 +310,13 @@ fn law(terms: &[Expr], number: &Symbol, domains: &Domains) -> Result<Law, Senten
     }
     let is_positive = |e: &Expr| sign(e, domains) == Seen::Proved(Sign::Positive);
     if !is_positive(&ratio) {
-        return Err(sentence!(
-            "its powers are taken of what is positive, and {} is not known to be",
-            &ratio
-        ));
+        return Err(match ratio.size() > LONGEST_RATIO {
+            true => "the ratio of one turn to the one before is not known to be positive".into(),
+            false => sentence!(
+                "its powers are taken of what is positive, and {} is not known to be",
+                &ratio
+            ),
+        });
     }
     if is(&(second - &(&ratio * first))) {
         return Ok(Law {
