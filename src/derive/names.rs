@@ -181,13 +181,13 @@ fn made_name(scene: &Scene, unknown: Unknown) -> (String, String) {
             false,
         ),
         Unknown::Normal(c) => made("P", "P", &identifier(&scene.contacts[c].name), None, false),
-        Unknown::Hinge(h, axis) => made(
-            "R",
-            "R",
-            &identifier(&scene.hinges[h].name),
-            Some(axis),
-            false,
-        ),
+        Unknown::Hinge(h, axis) => {
+            // A reaction, unless a radius has that letter.
+            let is_taken = scene.parameters.iter().any(|p| &*p.name == "R");
+            let letter = if is_taken { "P" } else { "R" };
+            let of = identifier(&scene.hinges[h].name);
+            made(letter, letter, &of, Some(axis), false)
+        }
         Unknown::Blow(i) => made("P", "P", &identifier(&scene.blows[i].name), None, false),
     }
 }
