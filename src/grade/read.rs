@@ -356,6 +356,13 @@ pub(super) fn differentials(key: &Key, reading: &mut Reading) {
             same.insert(name.clone(), Expr::symbol(&dotted));
         }
     }
+    // A single prime of the key may as well speak of the moment after.
+    for name in known.iter().filter(|name| !mine.contains(*name)) {
+        let twice = name.strip_suffix("''").map(|base| format!("{base}_ddot"));
+        if let Some(dotted) = twice.filter(|dotted| mine.contains(&**dotted)) {
+            same.insert(Symbol::from(dotted), Expr::symbol(name));
+        }
+    }
     if !same.is_empty() {
         reading.content = reading.content.map(&|e| e.substitute(&same));
     }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::super::{Given, Key, key_of, read, show, unit};
 use super::{Entry, Sheet};
 use crate::expr::{Expr, Symbol};
-use crate::formula::Reading;
+use crate::formula::{Content, Reading};
 
 impl Sheet {
     /// An answer with the right values put in for the names of earlier answers, and these in words; nothing where the answer
@@ -24,7 +24,15 @@ impl Sheet {
             let (from, to) = unit::misfit(&entry.key, answer, reading)?;
             values.contains_key(&answer[from..to]).then_some(())
         };
-        let used = |r: &Reading| r.symbols().iter().any(named) || unit(r).is_some();
+        // In `2K` an energy that was asked for is no kelvin.
+        let measured = |reading: &Reading| match reading.content.answer() {
+            Content::Quantity(q) => {
+                let fits = entry.key.question.dimension.as_ref() == Some(&q.unit.dimension);
+                !fits && values.contains_key(q.unit_text.as_str())
+            }
+            _ => false,
+        };
+        let used = |r: &Reading| r.symbols().iter().any(named) || unit(r).is_some() || measured(r);
         if alone.is_ok_and(|reading| !used(&reading)) {
             return None;
         }

@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use super::super::relation::{proportional, solve_for};
 use super::super::sheet::{Entry, Sheet};
 use super::super::{Diagnosis, Options, Verdict};
+use super::cause::size_in;
 use super::names::ACCELERATIONS;
 use super::text::{self, supposition};
-use super::{Desk, Final, Status};
+use super::{Desk, Final, MOST_CAUSES, Status};
 use crate::algebra::{self, Field, Sign};
 use crate::answer::Answer;
 use crate::equality::{self, Equality};
@@ -205,6 +206,7 @@ impl Desk<'_> {
             let domains = &self.sheet.scene.domains;
             let zero = differences().map(|d| {
                 let left = self.put_in(d, instead).substitute(&there);
+                let left = self.at_sought(left).substitute(&there);
                 equality::decide(&left, &Expr::zero(), domains).equality
             });
             let zero: Vec<Equality> = zero.collect();
@@ -223,6 +225,15 @@ impl Desk<'_> {
         })
     }
 
+    /// An expression at the values of parameters that are sought, where these were supposed.
+    fn at_sought(&self, e: Expr) -> Expr {
+        let supposed = self.supposed.iter().filter_map(|i| self.sought.get(*i));
+        supposed.fold(e, |e, s| match self.value_of(s) {
+            Some(value) => e.put(&s.parameter, &value),
+            None => e,
+        })
+    }
+
     /// Judges links one by one.
     pub(super) fn weigh(&self, text: &str, links: &[Link]) -> Weighed {
         if let Some(at) = self.in_another_unit(links) {
@@ -236,7 +247,7 @@ impl Desk<'_> {
                 _ if self.is_rounded(text, link, &none) => rounded = true,
                 None => open = true,
                 Some(false) if self.follows_condition(link) => {}
-                Some(false) => match self.cause(text, link) {
+                Some(false) => match self.cause(text, link).or_else(|| self.again(link)) {
                     Some(cause) => carried = carried.or(Some(cause)),
                     None => return Weighed::Slip(at),
                 },
@@ -248,6 +259,44 @@ impl Desk<'_> {
             (_, _, true) => Weighed::Rounded,
             _ => Weighed::Holds,
         }
+    }
+
+    /// The wrong line whose slip a later one repeats: another number in place of a parameter gives both, as √e for e does
+    /// in `h_1 = e h` and `h_2 = e² h`.
+    fn again(&self, link: &Link) -> Option<usize> {
+        let (scene, none) = (&self.sheet.scene, BTreeMap::new());
+        let value = |name: &Symbol, d: &Expr| solve_for(d, name, &scene.domains);
+        let [one] = link.differences.as_slice() else {
+            return None;
+        };
+        let name = link.sides[0].expr()?.as_symbol()?;
+        let right = self.closed.get(name)?;
+        let mine = value(name, &self.with_own(one))?;
+        let number = Symbol::from("another number");
+        let numbers = scene.parameters.iter().filter(|p| p.dimension.is_none());
+        let stands_for = |p: &Symbol, right: &Expr, mine: &Expr| {
+            let line = right.put(p, &Expr::symbol(&number)) - mine;
+            value(&number, &line).or_else(|| size_in(&line, &number, &scene.domains))
+        };
+        let repeats = |wrong: &Expr, p: &Symbol| {
+            let names = wrong.symbols();
+            let mut before = names.iter().filter_map(|n| Some((n, self.closed.get(n)?)));
+            let (Some((name, first)), None) = (before.next(), before.next()) else {
+                return false;
+            };
+            let Some(theirs) = value(name, wrong) else {
+                return false;
+            };
+            let other = stands_for(p, first, &theirs);
+            other.is_some_and(|other| {
+                let off = right.put(p, &other) - mine.put(name, &theirs);
+                self.all_zero(&[off], &none) == Some(true)
+            })
+        };
+        let numbers: Vec<&Symbol> = numbers.map(|p| &p.name).collect();
+        let mut wrong = self.wrong.iter().rev().take(MOST_CAUSES);
+        let found = wrong.find(|(_, wrong)| numbers.iter().any(|p| repeats(wrong, p)));
+        found.map(|(cause, _)| *cause)
     }
 
     /// The link of `lost = … = 6 kg` in which an answer of the scene gets a unit of another quantity.

@@ -362,7 +362,7 @@ fn equation(text: &str) -> &str {
 /// An equation without the reason in words behind it: `T1 = T2 since the pulley is light`, `…, where v' is the speed after`.
 fn without_reason(text: &str) -> &str {
     const REASONS: &str = " where | which | because | since | using | due to | as the | by the ";
-    const PLACES: &str = " at the | in the | in this | in that | on the | along the | during the | for the | until the | of the ";
+    const PLACES: &str = " at the | at rest| in the | in this | in that | on the | along the | during the | for the | until the | of the ";
     // What turns a sign is no mere place.
     const SENSES: &str = "up upward upwards down downward downwards left leftward right rightward opposite negative \
         backward backwards clockwise counterclockwise anticlockwise";
