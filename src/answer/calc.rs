@@ -142,7 +142,7 @@ pub fn constant(e: &Expr) -> Option<Sign> {
 }
 
 /// The sign at points of the domain, by enclosures.
-pub fn seen(e: &Expr, domains: &Domains) -> Seen {
+fn seen(e: &Expr, domains: &Domains) -> Seen {
     match met_anywhere(e, domains) {
         (3.., 0) => Seen::Positive,
         (0, 3..) => Seen::Negative,

@@ -8,13 +8,13 @@
 
 use std::collections::BTreeMap;
 
-use super::outline::{Need, Spot, distance, pieces};
+use super::outline::{Need, Piece, Spot, distance, pieces};
 use super::parameters::number_words;
 use super::proof::sign;
 use super::{Body, Contact, ContactLaw, Scene, Shape};
 use crate::algebra::Sign;
 use crate::domain::{Domains, generic_point, roles, samples};
-use crate::expr::{Expr, Point, Symbol, Vector};
+use crate::expr::{Expr, Point, Symbol, Vector, minus};
 
 /// A contact that does not lie on one of its bodies.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,6 +109,16 @@ fn off(scene: &Scene, contact: &Contact, body: &Body) -> Option<String> {
 pub fn spots(body: &Body, at: &Vector, inside: bool) -> Vec<Spot> {
     let pieces = pieces(body);
     pieces.iter().flat_map(|p| p.spots(at, inside)).collect()
+}
+
+/// What is below zero where a point lies too far to one side for a body that is round: r² − x² and r² − y².
+pub fn reach(body: &Body, at: &Vector) -> Vec<Expr> {
+    match pieces(body).as_slice() {
+        [Piece::Round { center, radius, .. }] => minus(at, center)
+            .map(|part| radius.powi(2) - part.powi(2))
+            .to_vec(),
+        _ => Vec::new(),
+    }
 }
 
 fn away(distance: f64, body: &str) -> String {

@@ -29,7 +29,6 @@ mod sides;
 
 use std::collections::BTreeMap;
 
-use crate::answer::calc::{self, Seen};
 use crate::derive::Derivation;
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, Vector, dot, minus};
@@ -399,6 +398,11 @@ impl Judge<'_> {
                 best = Some(needs);
             }
         }
+        let is_out_of_reach = || {
+            let reach = touch::reach(body, &contact.at);
+            let mut past = reach.iter().map(|e| decide(e, &self.scene.domains).verdict);
+            past.any(|verdict| verdict == Verdict::Nowhere)
+        };
         for (need, decided) in best.into_iter().flatten() {
             let (Need::Zero(e) | Need::NotNegative(e)) = &need;
             // Numbers and given values that are off the outline were refused when the scene was read.
@@ -406,17 +410,14 @@ impl Judge<'_> {
                 continue;
             }
             let at_values = self.values.knows(e).then_some(true);
-            let is_off = decided.verdict == Verdict::Undecided
-                && at_values.is_none()
-                && calc::seen(e, &self.scene.domains) == Seen::Negative;
-            let (verdict, how) = match is_off {
-                true => (Verdict::Nowhere, " at any of the points tried"),
-                false => (decided.verdict, ""),
+            let verdict = match decided.verdict {
+                Verdict::Undecided if at_values.is_none() && is_out_of_reach() => Verdict::Nowhere,
+                verdict => verdict,
             };
             self.conditions.push(Condition {
                 rule: Rule::Place,
                 words: format!("`{}` lies on `{}`", contact.name, body.name),
-                otherwise: format!("`{}` does not lie on `{}`{how}", contact.name, body.name),
+                otherwise: format!("`{}` does not lie on `{}`", contact.name, body.name),
                 verdict,
                 essential: decided.essential,
                 is_equation: matches!(need, Need::Zero(_)),
