@@ -1,7 +1,10 @@
 //! From which wrong line a later one follows: what each wrong line implies is kept, and tried.
 
+use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::convert::Infallible;
+
+use rustc_hash::FxHashMap;
 
 use super::super::relation::{follows, solve_for};
 use super::link::Link;
@@ -11,13 +14,16 @@ use crate::algebra::tidy;
 use crate::dimension::Dimension;
 use crate::domain::Domains;
 use crate::equality::{self};
-use crate::expr::{Expr, Node, Symbol, Vector};
+use crate::expr::{Expr, Node, Symbol, Vector, effort};
 use crate::formula::{Content, Reading};
 use crate::laws::{self, Geometry, Kinematics, Law, Unknown};
 use crate::scene::{Ask, EnergyWhen, Question, Scene};
 
 /// Most laws that may be used without being written.
 const MOST_LAWS: usize = 10;
+
+/// Most steps for the search of one line's cause.
+const MOST_STEPS: u64 = 600_000;
 
 impl Desk<'_> {
     /// The wrong line from which equations follow: they hold in the motion it implies, or say the same.
@@ -56,7 +62,7 @@ impl Desk<'_> {
             said.filter(|(_, f)| moves(f) && follows(f, &one, domains))
                 .map(|(cause, _)| *cause)
                 .next()
-                .or_else(|| self.eliminated(&one))
+                .or_else(|| effort::within(MOST_STEPS, || self.eliminated(&one)))
         })
     }
 
@@ -92,6 +98,16 @@ impl Desk<'_> {
             let rules = rules.iter();
             rules.fold(e.clone(), |e, (name, root)| e.put(name, root))
         };
+        // Without one law or another the lines before it lead to the same rules.
+        let solved: RefCell<FxHashMap<(Expr, bool), Option<(Symbol, Expr)>>> = RefCell::default();
+        let rule = |line: Expr, again: bool| {
+            if let Some(rule) = solved.borrow().get(&(line.clone(), again)) {
+                return rule.clone();
+            }
+            let rule = self.rule(&line, |name| again && !used.contains(name));
+            let mut solved = solved.borrow_mut();
+            solved.entry((line, again)).or_insert(rule).clone()
+        };
         let follows = |causes: &[usize], laws: &[&Expr], again: bool| {
             let hangs = |c: &Option<usize>| c.is_some_and(|c| causes.contains(&c));
             let wrong = self.stated.iter().filter(|(c, _)| hangs(c));
@@ -111,18 +127,8 @@ impl Desk<'_> {
             });
             let mut rules: Vec<(Symbol, Expr)> = Vec::new();
             for line in binding.into_iter().chain(said).chain(others) {
-                let line = reduced(line, &rules);
                 // What says nothing new, or contradicts those before, gives no rule.
-                let symbols = line.symbols();
-                let mut found: Vec<&Symbol> = symbols.iter().filter(|n| self.is_found(n)).collect();
-                found.sort_by_key(|name| again && !used.contains(*name));
-                let ways = [solve_for, angle_in, size_in, under_root];
-                let rule = ways.iter().find_map(|way| {
-                    found
-                        .iter()
-                        .find_map(|n| Some(((*n).clone(), way(&line, n, domains)?)))
-                });
-                rules.extend(rule);
+                rules.extend(rule(reduced(line, &rules), again));
             }
             equality::vanishes(&reduced(one, &rules), domains)
         };
@@ -160,6 +166,19 @@ impl Desk<'_> {
                     .copied()
                     .filter(|_| causes.len() > 1 && follows(&causes, &[], false))
             })
+    }
+
+    /// A line solved for one of the names that are found, those first that are not last.
+    fn rule(&self, line: &Expr, last: impl Fn(&Symbol) -> bool) -> Option<(Symbol, Expr)> {
+        let domains = &self.sheet.scene.domains;
+        let symbols = line.symbols();
+        let mut found: Vec<&Symbol> = symbols.iter().filter(|n| self.is_found(n)).collect();
+        found.sort_by_key(|name| last(name));
+        let ways = [solve_for, angle_in, size_in, under_root];
+        ways.iter().find_map(|way| {
+            let mut found = found.iter();
+            found.find_map(|n| Some(((*n).clone(), way(line, n, domains)?)))
+        })
     }
 
     /// A line `name = …` that holds says what the name is under every belief about the others.
