@@ -28,8 +28,18 @@ struct Case {
     lone: bool,
     functions: Vec<Function>,
     arguments: Vec<Vec<Vec<f64>>>,
+    /// What is true at each of them.
+    truths: Vec<Vec<f64>>,
     /// How many points of each function do not cancel.
     plain: Vec<usize>,
+}
+
+impl Case {
+    /// The arguments of each function, each with what is true there.
+    fn points(&self) -> impl Iterator<Item = impl Iterator<Item = (&Vec<f64>, f64)>> {
+        let both = self.arguments.iter().zip(&self.truths);
+        both.map(|(points, truths)| points.iter().zip(truths.iter().copied()))
+    }
 }
 
 /// How many points of a function are ordinary ones. Some follow in units that make arguments huge or tiny, then some at
@@ -73,22 +83,28 @@ fn case(path: &Path) -> Option<Case> {
     let mut dice = Dice(17);
     let mut plain = Vec::new();
     let mut points = |f: &Function| {
+        let formula = formula(f);
         // Where a root would be of a negative number there is nothing to compare.
         let tries = std::iter::repeat_with(|| dice.point(&scene, f)).take(50 * USUAL);
-        let usual = tries.filter(|x| truth(f, x).is_some()).take(USUAL);
-        let mut points: Vec<Vec<f64>> = usual.collect();
+        let usual = tries.filter_map(|x| Some((truth(f, &formula, &x)?, x)));
+        let (mut truths, mut points): (Vec<f64>, Vec<Vec<f64>>) = usual.take(USUAL).unzip();
         assert_eq!(points.len(), USUAL, "{}", f.formula);
         plain.push(points.len());
         // The formula of a stage may have poles and roots that come together: ordinary points only.
         if lone {
-            let cancelling = nearly_cancelling(&points, f);
-            let far: Vec<Vec<f64>> = points.iter().filter_map(|x| dice.far(f, x)).collect();
+            let cancelling = nearly_cancelling(&points, &truths, f, &formula);
+            let far = points.iter().filter_map(|x| dice.far(f, &formula, x));
+            let far: Vec<Vec<f64>> = far.collect();
             *plain.last_mut().expect("just added") += far.len();
-            points.extend(far.into_iter().chain(cancelling));
+            let more = far.into_iter().chain(cancelling);
+            for x in more {
+                truths.push(truth(f, &formula, &x).expect("a value"));
+                points.push(x);
+            }
         }
-        points
+        (points, truths)
     };
-    let arguments = functions.iter().map(&mut points).collect();
+    let (arguments, truths) = functions.iter().map(&mut points).unzip();
     let parts = path.with_extension("");
     let parts = parts.iter().map(|part| part.to_string_lossy());
     let name = parts.collect::<Vec<_>>().join("_").replace('-', "_");
@@ -98,24 +114,30 @@ fn case(path: &Path) -> Option<Case> {
         lone,
         functions,
         arguments,
+        truths,
         plain,
     })
 }
 
 /// Points at which the value is about to change sign: found by bisection between points of either sign.
-fn nearly_cancelling(points: &[Vec<f64>], f: &Function) -> Vec<Vec<f64>> {
-    let value = |x: &[f64]| truth(f, x).unwrap_or(f64::NAN);
+fn nearly_cancelling(
+    points: &[Vec<f64>],
+    truths: &[f64],
+    f: &Function,
+    formula: &Expr,
+) -> Vec<Vec<f64>> {
+    let value = |x: &[f64]| truth(f, formula, x).unwrap_or(f64::NAN);
     let mut found = Vec::new();
-    for pair in points.windows(2) {
+    for (pair, values) in points.windows(2).zip(truths.windows(2)) {
         if found.len() == 2 {
             break;
         }
         let [mut low, mut high] = [pair[0].clone(), pair[1].clone()];
-        let opposite = value(&low) * value(&high) < 0.0;
+        let opposite = values[0] * values[1] < 0.0;
         if !opposite {
             continue;
         }
-        let sign = value(&low) > 0.0;
+        let sign = values[0] > 0.0;
         for _ in 0..60 {
             let middle: Vec<f64> = low
                 .iter()
@@ -132,24 +154,30 @@ fn nearly_cancelling(points: &[Vec<f64>], f: &Function) -> Vec<Vec<f64>> {
     found
 }
 
-/// The formula in a function's comment, read back and evaluated at exactly these arguments.
-fn truth(f: &Function, x: &[f64]) -> Option<f64> {
-    let value = enclosed(f, x)?;
+/// The formula in a function's comment, read back.
+fn formula(f: &Function) -> Expr {
+    let mut symbols = Symbols::strict();
+    for argument in &f.arguments {
+        symbols.declare(&argument.symbol);
+    }
+    read_expr(&f.formula, &symbols).expect("carom reads what it writes")
+}
+
+/// Its value at exactly these arguments.
+fn truth(f: &Function, formula: &Expr, x: &[f64]) -> Option<f64> {
+    let value = enclosed(f, formula, x)?;
     Some(value.nearest().unwrap_or_else(|| value.middle()))
 }
 
-fn enclosed(f: &Function, x: &[f64]) -> Option<Enclosure> {
-    let mut symbols = Symbols::strict();
+fn enclosed(f: &Function, formula: &Expr, x: &[f64]) -> Option<Enclosure> {
     let mut point = Point::default();
     for (argument, v) in f.arguments.iter().zip(x) {
-        symbols.declare(&argument.symbol);
         let exact = from_f64(*v).expect("finite");
         point
             .values
             .insert(argument.symbol.clone(), Scalar::from_rational(&exact));
     }
-    let e = read_expr(&f.formula, &symbols).expect("carom reads what it writes");
-    match evaluate::<Big<512>>(&e, &point) {
+    match evaluate::<Big<512>>(formula, &point) {
         Outcome::Value(Big(value)) => Some(value),
         _ => None,
     }
@@ -168,7 +196,7 @@ impl Dice {
     }
 
     /// The same arguments measured in units of 10^±280 at most, such that doubles hold all of them and the value.
-    fn far(&mut self, f: &Function, x: &[f64]) -> Option<Vec<f64>> {
+    fn far(&mut self, f: &Function, formula: &Expr, x: &[f64]) -> Option<Vec<f64>> {
         f.units.as_ref()?;
         for _ in 0..50 {
             let [mass, length, time] =
@@ -185,7 +213,7 @@ impl Dice {
             }
             let values = x.iter().zip(&powers).map(|(x, p)| x * 10f64.powf(*p));
             let values: Vec<f64> = values.collect();
-            let fits = enclosed(f, &values)
+            let fits = enclosed(f, formula, &values)
                 .and_then(|v| v.nearest())
                 .is_some_and(|v| (1e-290..1e300).contains(&v.abs()));
             if fits {
@@ -303,11 +331,11 @@ fn hold(cases: &[Case], language: &str, output: &str) {
         .map(|l| l.trim().parse::<f64>().expect("a number"));
     let (mut cancelled, mut far) = (0, 0);
     for case in cases {
-        for ((f, points), plain) in case.functions.iter().zip(&case.arguments).zip(&case.plain) {
+        let functions = case.functions.iter().zip(case.points());
+        for ((f, points), plain) in functions.zip(&case.plain) {
             far += plain - USUAL;
-            for (i, x) in points.iter().enumerate() {
+            for (i, (x, truth)) in points.enumerate() {
                 let value = values.next().expect("a value for every call");
-                let truth = truth(f, x).expect("a value");
                 // Where no bound is stated, as for sines of what stages lead to, an ordinary point is right to six digits.
                 let Some(bound) = f.bound else {
                     let is_known = !case.lone || has_no_bound(&f.formula);
@@ -465,8 +493,7 @@ fn c_compiles_without_remarks_and_keeps_its_bound() {
     }
     let cases = cases();
     let folder = folder("c");
-    let mut printed = String::new();
-    for case in cases {
+    let printed = cases.par_iter().map(|case| {
         let text = text(case, Language::C);
         let mut main = String::from("#include <stdio.h>\nint main(void) {\n");
         for call in calls(case, &text) {
@@ -487,9 +514,10 @@ fn c_compiles_without_remarks_and_keeps_its_bound() {
                 .args([&target, Path::new(&source)])
                 .arg("-lm"),
         );
-        printed.push_str(&output(&mut Command::new(target)));
-    }
-    hold(cases, "C", &printed);
+        output(&mut Command::new(target))
+    });
+    let printed: Vec<String> = printed.collect();
+    hold(cases, "C", &printed.concat());
 }
 
 #[test]
@@ -567,8 +595,8 @@ fn the_formula_in_the_comment_is_what_the_independent_solver_finds() {
         if !case.scene.domains.unit_vectors.is_empty() || !case.lone {
             continue;
         }
-        for (f, points) in case.functions.iter().zip(&case.arguments) {
-            for x in &points[..3] {
+        for (f, points) in case.functions.iter().zip(case.points()) {
+            for (x, truth) in points.take(3) {
                 let mut scene = case.scene.clone();
                 for parameter in &mut scene.parameters {
                     let given = f.arguments.iter().position(|a| a.symbol == parameter.name);
@@ -578,7 +606,6 @@ fn the_formula_in_the_comment_is_what_the_independent_solver_finds() {
                         None => parameter.value.clone().unwrap_or(Expr::ratio(1, 2)),
                     });
                 }
-                let truth = truth(f, x).expect("a value");
                 // The values made up for other parameters may make no scene: a disk beside a step, say.
                 let Ok(found) = correct(&scene) else { continue };
                 let numbers = found.answers.iter().flat_map(|(name, a)| {

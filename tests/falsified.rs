@@ -297,6 +297,7 @@ fn over_shipped(
 
 #[test]
 fn a_falsified_step_threshold_limit_or_motion_handed_on_is_refused() {
+    let changes = rows("steps");
     let (refused, passed) = over_shipped(|tried, _, path, text, scene| {
         // Cases of friction in a scene of one impact have checks of their own, in `tests/friction`.
         if path.contains("friction") && !scene.has_stages() {
@@ -321,17 +322,17 @@ fn a_falsified_step_threshold_limit_or_motion_handed_on_is_refused() {
             if json["steps"][i]["defines"].is_string() || open.iter().any(|o| o == id) {
                 continue;
             }
-            for row in rows("steps") {
-                let mut tampered = json.clone();
-                let Some(side) = tampered["steps"][i]["after"][0].get_mut("right") else {
-                    continue;
-                };
-                let Some(right) = side.as_str() else { continue };
-                *side = row[0].replace('x', right).into();
-                tried.note(caught(&tampered), &kind, || {
-                    format!("{path}, step {id}, {}", row[1])
-                });
-            }
+            // One change for each step, the next one for the next: a solution is replayed whole each time.
+            let row = &changes[i / 3 % changes.len()];
+            let mut tampered = json.clone();
+            let Some(side) = tampered["steps"][i]["after"][0].get_mut("right") else {
+                continue;
+            };
+            let Some(right) = side.as_str() else { continue };
+            *side = row[0].replace('x', right).into();
+            tried.note(caught(&tampered), &kind, || {
+                format!("{path}, step {id}, {}", row[1])
+            });
         }
         let impacts: Vec<&serde_json::Value> =
             json["impacts"].as_array().into_iter().flatten().collect();

@@ -9,6 +9,7 @@ use carom::command;
 use carom::grade::sheet::{self, Sheet};
 use carom::grade::{Given, Grade, Options, Question, Strength, Verdict, entry, judge};
 use carom::scene;
+use rayon::prelude::*;
 
 #[path = "shared/clock.rs"]
 mod clock;
@@ -249,14 +250,14 @@ fn a_worked_solution_is_followed_beyond_its_first_slip() {
 #[test]
 fn worked_solutions_are_judged_line_by_line() {
     use carom::grade::steps::{Status, check};
-    let mut wrong = String::new();
     let mut files: Vec<PathBuf> = fs::read_dir(root().join("tests/grading/steps"))
         .expect("a folder of solutions")
         .map(|e| e.expect("an entry").path())
         .collect();
     files.sort();
     assert!(files.len() >= 19);
-    for file in files {
+    let misjudged = |file: PathBuf| {
+        let mut wrong = String::new();
         let text = fs::read_to_string(&file).expect("a solution");
         let (head, rows) = text.split_once('\n').expect("a scene and lines");
         let path = head.split_whitespace().nth(1).expect("the scene's path");
@@ -315,7 +316,9 @@ fn worked_solutions_are_judged_line_by_line() {
                 );
             }
         }
-    }
+        wrong
+    };
+    let wrong: String = files.into_par_iter().map(misjudged).collect();
     assert!(wrong.is_empty(), "{wrong}");
 }
 

@@ -7,11 +7,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
-use std::thread;
 
 use carom::solution::{Detail, Solution};
 use carom::worked::{self, Worked};
 use carom::{check, figure, render, scene, solution};
+use rayon::prelude::*;
 
 /// A scene, worked out once for all tests.
 struct Case {
@@ -19,6 +19,8 @@ struct Case {
     text: String,
     scene: scene::Scene,
     worked: Worked,
+    /// Its solutions by detail, each written once for all tests.
+    written: [OnceLock<Solution>; 3],
 }
 
 impl Case {
@@ -32,11 +34,12 @@ impl Case {
             text,
             scene: worked.scene.clone(),
             worked,
+            written: Default::default(),
         }
     }
 
-    fn solution(&self, detail: Detail) -> Solution {
-        self.worked.solution(detail)
+    fn solution(&self, detail: Detail) -> &Solution {
+        self.written[detail as usize].get_or_init(|| self.worked.solution(detail))
     }
 }
 
@@ -45,15 +48,7 @@ fn cases() -> &'static [Case] {
     static CASES: OnceLock<Vec<Case>> = OnceLock::new();
     CASES.get_or_init(|| {
         let files = shared::files("derivations", "json");
-        thread::scope(|scope| {
-            let each: Vec<_> = files
-                .into_iter()
-                .map(|path| scope.spawn(|| Case::read(path)))
-                .collect();
-            each.into_iter()
-                .map(|case| case.join().expect("a derivation"))
-                .collect()
-        })
+        files.into_par_iter().map(Case::read).collect()
     })
 }
 
@@ -67,7 +62,7 @@ fn solved(scene: &scene::Scene, detail: Detail) -> Solution {
 fn every_scene_has_its_generated_solution_beside_it() {
     let mut stale = Vec::new();
     for case in cases() {
-        let text = render::markdown::solution(&case.solution(Detail::Normal), &[]);
+        let text = render::markdown::solution(case.solution(Detail::Normal), &[]);
         let file = case.path.with_extension("md");
         if std::env::var_os("UPDATE").is_some() {
             fs::write(&file, &text).expect("a writable folder");
@@ -80,30 +75,30 @@ fn every_scene_has_its_generated_solution_beside_it() {
 
 #[test]
 fn every_step_of_every_solution_can_be_replayed() {
-    for case in cases() {
+    cases().par_iter().for_each(|case| {
         for detail in [Detail::Brief, Detail::Normal, Detail::Full] {
             let written = case.solution(detail);
-            let json = render::steps::solution(&written, &case.text, &[]).to_string();
+            let json = render::steps::solution(written, &case.text, &[]).to_string();
             let report = check::check(&json).expect("a usable solution");
             let name = case.path.display();
             assert!(report.failed.is_empty(), "{name}: {:?}", report.failed);
             assert!(report.open.is_empty(), "{name}: {:?}", report.open);
         }
-    }
+    });
 }
 
 #[test]
 fn steps_that_suppose_something_are_replayed_where_it_is_so() {
-    let mut supposed = 0;
-    for path in shared::files("tests/stories/scenes", "json") {
-        let text = fs::read_to_string(&path).expect("a scene");
+    // Whether the scene supposes something by which it stands and falls.
+    let supposes = |path: &PathBuf| {
+        let text = fs::read_to_string(path).expect("a scene");
         let scene = scene::read(&text).expect("a sound scene");
         // Cases that differ in what is known are refused with their conditions.
         let Ok(worked) = worked::in_cases(&scene) else {
-            continue;
+            return false;
         };
         let written = worked.solution(Detail::Normal);
-        let mut json = render::steps::solution(&written, &text, &[]);
+        let json = render::steps::solution(&written, &text, &[]);
         let failed = |json: &serde_json::Value| {
             let report = check::check(&json.to_string()).expect("a usable solution");
             report.failed
@@ -111,15 +106,17 @@ fn steps_that_suppose_something_are_replayed_where_it_is_so() {
         let path = path.display();
         assert_eq!(failed(&json).len(), 0, "{path}: {:?}", failed(&json));
         // The contrary supposed, the motion found is another.
-        for need in json["needs"].as_array_mut().into_iter().flatten() {
+        let mut contrary = json.clone();
+        for need in contrary["needs"].as_array_mut().into_iter().flatten() {
             *need = format!("-({})", need.as_str().expect("a formula")).into();
         }
-        for impact in json["impacts"].as_array_mut().into_iter().flatten() {
+        for impact in contrary["impacts"].as_array_mut().into_iter().flatten() {
             impact["needs"] = serde_json::json!([]);
         }
-        supposed += usize::from(!failed(&json).is_empty());
-    }
-    assert!(supposed > 0);
+        contrary != json && !failed(&contrary).is_empty()
+    };
+    let all = shared::files("tests/stories/scenes", "json");
+    assert!(all.par_iter().filter(|path| supposes(path)).count() > 0);
 }
 
 #[test]
@@ -202,7 +199,7 @@ fn claims<'a>(
 fn a_claim_typeset_as_another_is_caught_and_named() {
     let mut caught = 0;
     for case in cases().iter().step_by(6) {
-        let json = render::steps::solution(&case.solution(Detail::Normal), &case.text, &[]);
+        let json = render::steps::solution(case.solution(Detail::Normal), &case.text, &[]);
         let mut all = json.clone();
         let mut found = Vec::new();
         claims(&mut all["steps"], &mut found);
@@ -310,7 +307,7 @@ fn words_of_a_scene_are_never_obeyed() {
 #[test]
 fn the_page_needs_no_script_and_no_network() {
     for case in cases() {
-        let page = render::html::page(&case.solution(Detail::Normal), &[]);
+        let page = render::html::page(case.solution(Detail::Normal), &[]);
         let own = page.replace("src:url(data:font/woff2;base64,", "");
         for part in ["<script", "src=", "@import", "url(", "http://", "https://"] {
             assert!(!own.contains(part), "{}: {part}", case.path.display());
@@ -329,7 +326,7 @@ fn the_latex_document_compiles() {
     for case in cases() {
         let file = folder.join("solution.tex");
         let held: Vec<_> = pictures(case).into_iter().map(held).collect();
-        let text = render::latex_document::document(&case.solution(Detail::Normal), &held);
+        let text = render::latex_document::document(case.solution(Detail::Normal), &held);
         fs::write(&file, text).expect("a writable folder");
         let run = Command::new("pdflatex")
             .args([
@@ -847,7 +844,7 @@ fn a_brief_solution_tells_what_a_stage_hands_on() {
 fn points_with_names_in_words_have_their_articles_and_one_check_is_told() {
     let mut faults = Vec::new();
     for case in cases() {
-        let text = render::plain::solution(&case.solution(Detail::Normal));
+        let text = render::plain::solution(case.solution(Detail::Normal));
         let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
         let story = case.scene.stages.iter();
         let scenes = story.map(|s| &s.scene).chain([&case.scene]);
@@ -997,7 +994,7 @@ fn no_phrase_that_an_editor_would_strike() {
     ];
     for case in cases() {
         for detail in [Detail::Brief, Detail::Normal, Detail::Full] {
-            let text = render::plain::solution(&case.solution(detail)).to_lowercase();
+            let text = render::plain::solution(case.solution(detail)).to_lowercase();
             let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
             let struck = STRUCK.iter().filter(|_| detail != Detail::Full);
             for phrase in struck.chain(&NEVER) {
@@ -1142,7 +1139,7 @@ fn cases_of_one_impact_share_what_they_have_in_common() {
 #[test]
 fn results_in_numbers_name_the_values_they_rest_on() {
     for case in cases() {
-        let text = render::markdown::solution(&case.solution(Detail::Normal), &[]);
+        let text = render::markdown::solution(case.solution(Detail::Normal), &[]);
         let first = text.find("In numbers: ").unwrap_or(usize::MAX);
         let values = text.find("With the values in brackets, ");
         assert!(
@@ -1223,7 +1220,7 @@ fn a_body_of_parts_has_its_center_and_its_inertia_told() {
             matches!(b.shape, scene::Shape::Composite { .. }) && !b.inertia_given
         };
         let count = case.scene.bodies.iter().filter(of_parts).count();
-        let text = render::plain::solution(&case.solution(Detail::Normal));
+        let text = render::plain::solution(case.solution(Detail::Normal));
         let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
         assert_eq!(
             text.matches("have their common center of mass at").count(),
@@ -1288,7 +1285,7 @@ fn what_a_teacher_would_say_is_said_and_what_an_editor_would_strike_is_not() {
         };
         if last.0 != path {
             let case = Case::read(path.into());
-            let text = render::plain::solution(&case.solution(Detail::Normal));
+            let text = render::plain::solution(case.solution(Detail::Normal));
             let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
             last = (path.to_string(), text);
         }
