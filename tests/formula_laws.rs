@@ -454,6 +454,9 @@ fn places_count_from_the_start_of_the_text_even_inside_a_box() {
     let text = r"so \boxed{a + }";
     let fault = read(text, &Symbols::open()).unwrap_err();
     assert_eq!(&text[fault.start..], "}");
+    let text = "２＊omga";
+    let fault = read(text, &Symbols::from_iter(["omega"])).unwrap_err();
+    assert_eq!(&text[fault.start..fault.end], "omga");
     let text = r"so \boxed{ab}";
     let reading = read(text, &Symbols::open()).unwrap();
     assert_eq!(

@@ -552,11 +552,11 @@ fn every_character_of_every_format_has_a_glyph() {
         let name = case.path.display();
         let solution = case.solution(Detail::Full);
         let held: Vec<_> = pictures(case).into_iter().map(held).collect();
-        let tex = render::latex_document::document(&solution, &held);
+        let tex = render::latex_document::document(solution, &held);
         assert!(!tex.contains("[U+") && !tex.contains("\\square"), "{name}");
         let odd: Vec<char> = tex.chars().filter(|c| u32::from(*c) > 0x17f).collect();
         assert!(odd.is_empty(), "{name}: {odd:?}");
-        let page = render::html::page(&solution, &held);
+        let page = render::html::page(solution, &held);
         for formula in page.split("<math").skip(1) {
             let formula = formula.split("</math>").next().unwrap_or_default();
             let formula = formula.replace("&lt;", "<").replace("&gt;", ">");
@@ -679,7 +679,7 @@ fn no_equation_stands_twice() {
                     continue;
                 };
                 for line in lines {
-                    let text = render::math::latex(&solution, &line.math);
+                    let text = render::math::latex(solution, &line.math);
                     if text.contains("\\approx") {
                         continue;
                     }
@@ -739,7 +739,7 @@ fn no_equation_is_told_again_rearranged() {
                     a.iter().zip(&b).all(|(x, y)| close(*x, *y))
                 };
                 if same(1.0) || same(-1.0) {
-                    let text = render::math::latex(&solution, &pair[1].math);
+                    let text = render::math::latex(solution, &pair[1].math);
                     faults.push(format!("{}: {text}", case.path.display()));
                 }
             }
@@ -881,7 +881,7 @@ fn a_solution_keeps_to_four_hundred_words_a_stage() {
         let stages = case.scene.stages.len().max(1);
         // An impact with several outcomes is told once for each.
         let stages = stages.max(solution.scopes.len());
-        let (words, lines) = length(&solution);
+        let (words, lines) = length(solution);
         println!(
             "{}: {words} words, {lines} lines, {stages} stages",
             case.path.display()

@@ -48,26 +48,23 @@ impl Lexer<'_> {
     }
 }
 
-/// A text with plain characters for full-width ones and digits of other styles, byte for byte: blanks fill up behind each
-/// word. Nothing where there are none.
-pub(super) fn plain_width(text: &str) -> Option<String> {
+/// A text with plain characters for full-width ones and digits of other styles, and for each of its bytes, and its end, the
+/// place in the text as it was. Nothing where there are none.
+pub(super) fn plain_width(text: &str) -> Option<(String, Vec<usize>)> {
     let plain = |c: char| match u32::from(c) {
         code @ 0xff01..=0xff5e => char::from_u32(code - 0xfee0),
         code @ 0x1d7ce..=0x1d7ff => char::from_digit((code - 0x1d7ce) % 10, 10),
         _ => None,
     };
     text.contains(|c| plain(c).is_some()).then(|| {
-        let (mut out, mut owed) = (String::with_capacity(text.len()), 0);
-        for c in text.chars() {
-            if c.is_whitespace() {
-                out.extend(std::iter::repeat_n(' ', std::mem::take(&mut owed)));
-            }
+        let (mut out, mut places) = (String::with_capacity(text.len()), Vec::new());
+        for (at, c) in text.char_indices() {
             let written = plain(c).unwrap_or(c);
-            owed += c.len_utf8() - written.len_utf8();
             out.push(written);
+            places.extend(std::iter::repeat_n(at, written.len_utf8()));
         }
-        out.extend(std::iter::repeat_n(' ', owed));
-        out
+        places.push(text.len());
+        (out, places)
     })
 }
 

@@ -36,6 +36,13 @@ impl Fault {
         self
     }
 
+    /// The places that it and those beside it speak of.
+    pub(super) fn places(&mut self) -> impl Iterator<Item = &mut usize> {
+        let also = self.also.iter_mut();
+        let also = also.flat_map(|fault| [&mut fault.start, &mut fault.end]);
+        [&mut self.start, &mut self.end].into_iter().chain(also)
+    }
+
     /// The message with the line of the formula it speaks of and a caret below the place, for each fault.
     pub fn show(&self, text: &str) -> String {
         let mut out = String::new();

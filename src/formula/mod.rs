@@ -116,9 +116,9 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
         return read(&text, symbols);
     }
     if held.any("\u{ff10}")
-        && let Some(text) = characters::plain_width(text)
+        && let Some(reading) = read_full_width(text, symbols)
     {
-        return read(&text, symbols);
+        return reading;
     }
     if several::is_likely(text, held)
         && let Some(pair) = several::values(text, symbols)
@@ -161,6 +161,23 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
         return Err(*fault.hint("values and bounds are joined by words, as in x = 1 or x = 2"));
     }
     usual.map_err(|fault| *fault)
+}
+
+/// Reads a text with full-width characters as plain text, and tells places as they are in the text.
+fn read_full_width(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fault>> {
+    let (plain, places) = characters::plain_width(text)?;
+    let place = |at: &mut usize| *at = places.get(*at).copied().unwrap_or(text.len());
+    let mut reading = read(&plain, symbols);
+    match &mut reading {
+        Ok(reading) => {
+            let notes = reading.notes.iter_mut();
+            notes
+                .flat_map(|n| [&mut n.start, &mut n.middle, &mut n.end])
+                .for_each(place);
+        }
+        Err(fault) => fault.places().for_each(place),
+    }
+    Some(reading)
 }
 
 /// Reads a pair of numbers in brackets as an interval: `(0, 1)` and `[0, 1]`.

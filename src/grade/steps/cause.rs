@@ -25,6 +25,9 @@ const MOST_LAWS: usize = 10;
 /// Most steps for the search of one line's cause.
 const MOST_STEPS: u64 = 600_000;
 
+/// A name, and what stands for it.
+type Rule = (Symbol, Expr);
+
 impl Desk<'_> {
     /// The wrong line from which equations follow: they hold in the motion it implies, or say the same.
     pub(super) fn cause(&self, text: &str, link: &Link) -> Option<usize> {
@@ -94,12 +97,12 @@ impl Desk<'_> {
         causes.dedup();
         causes.reverse();
         causes.truncate(MOST_CAUSES);
-        let reduced = |e: &Expr, rules: &[(Symbol, Expr)]| {
+        let reduced = |e: &Expr, rules: &[Rule]| {
             let rules = rules.iter();
             rules.fold(e.clone(), |e, (name, root)| e.put(name, root))
         };
         // Without one law or another the lines before it lead to the same rules.
-        let solved: RefCell<FxHashMap<(Expr, bool), Option<(Symbol, Expr)>>> = RefCell::default();
+        let solved: RefCell<FxHashMap<(Expr, bool), Option<Rule>>> = RefCell::default();
         let rule = |line: Expr, again: bool| {
             if let Some(rule) = solved.borrow().get(&(line.clone(), again)) {
                 return rule.clone();
@@ -125,7 +128,7 @@ impl Desk<'_> {
                 let names = found(law);
                 again && names.len() > 1 && names.is_subset(&spoken)
             });
-            let mut rules: Vec<(Symbol, Expr)> = Vec::new();
+            let mut rules: Vec<Rule> = Vec::new();
             for line in binding.into_iter().chain(said).chain(others) {
                 // What says nothing new, or contradicts those before, gives no rule.
                 rules.extend(rule(reduced(line, &rules), again));
@@ -169,7 +172,7 @@ impl Desk<'_> {
     }
 
     /// A line solved for one of the names that are found, those first that are not last.
-    fn rule(&self, line: &Expr, last: impl Fn(&Symbol) -> bool) -> Option<(Symbol, Expr)> {
+    fn rule(&self, line: &Expr, last: impl Fn(&Symbol) -> bool) -> Option<Rule> {
         let domains = &self.sheet.scene.domains;
         let symbols = line.symbols();
         let mut found: Vec<&Symbol> = symbols.iter().filter(|n| self.is_found(n)).collect();
