@@ -164,12 +164,13 @@ impl Change<'_> {
                 Way::NotBack([_, back]) => not.push(back),
             }
         }
-        let (ways, not) = (ways.join(" and "), not.join(" or "));
-        match (ways.is_empty(), not.is_empty()) {
-            (true, true) => None,
-            (true, false) => Some(format!("does not move {not}")),
-            (false, true) => Some(format!("moves {ways}")),
-            (false, false) => Some(format!("moves {ways} and not {not}")),
+        let ways = ways.join(" and ");
+        match (ways.is_empty(), not.as_slice()) {
+            (true, []) => None,
+            (true, [one, other]) => Some(format!("moves neither {one} nor {other}")),
+            (true, not) => Some(format!("does not move {}", not.join(""))),
+            (false, []) => Some(format!("moves {ways}")),
+            (false, not) => Some(format!("moves {ways} and not {}", not.join(""))),
         }
     }
 

@@ -28,7 +28,11 @@ impl Page<'_> {
             .answers
             .iter()
             .any(|a| Self::is_end_energy(told, a));
-        if matches!(stage.kind, StageKind::Turn(_)) && told.work.is_empty() && !named {
+        if let StageKind::Turn(turn) = &stage.kind
+            && told.work.is_empty()
+            && !named
+        {
+            self.at_steady_rate(told, turn);
             return self.accelerated(told);
         }
         if self.steady(told).is_some() {
@@ -251,6 +255,62 @@ impl Page<'_> {
         self.solution.display(vec![Line::plain(math)]);
     }
 
+    /// The time of a rotation at a steady rate: the angle divided by the spin, by the name of the answer that has it.
+    fn at_steady_rate(&mut self, told: &StageTold, turn: &Turn) {
+        let size = |e: &Expr| if e.is_negative() { -e } else { e.clone() };
+        let (Some(asked), Some(time), Some(turned)) = (
+            self.to(told, |ask| matches!(ask, Ask::Time)),
+            &told.time,
+            &told.turned,
+        ) else {
+            return;
+        };
+        let (turned, spin) = (size(turned), size(&told.before.spin[turn.body]));
+        let mut spins = self
+            .told
+            .answers
+            .iter()
+            .filter(|a| a.formula() == Some(&spin));
+        let known = spins.find(|a| matches!(self.ask(a), Some(Ask::Spin { .. })));
+        let rate = known.map_or(spin.clone(), |a| Expr::symbol(&a.name));
+        let math = set(
+            "{} = {}",
+            [Expr::symbol(&asked.name).into(), (&turned / rate).into()],
+        );
+        let why = "the angle turned through, divided by the rate";
+        let line = self.claimed(math, time, &(turned / spin), why);
+        self.solution.display(vec![line]);
+    }
+
+    /// The time of a motion along a line under constant forces: the way is the mean of the speeds at both ends, times it.
+    fn at_mean_speed(&mut self, told: &StageTold, slide: &Slide) {
+        let (Some(asked), Some(time), Some(way)) = (
+            self.to(told, |ask| matches!(ask, Ask::Time)),
+            &told.time,
+            &told.way,
+        ) else {
+            return;
+        };
+        if matches!(slide.until, SlideEnd::Time(_)) {
+            return;
+        }
+        let speeds = [&told.before, &told.after];
+        let speeds = speeds.map(|s| dot(&s.velocity[slide.body], &slide.along));
+        let mean = tidied(self.scene, &(Expr::ratio(1, 2) * Expr::sum(speeds)));
+        let during = &mean * &Expr::symbol(&asked.name);
+        let math = words::related(way, "=", &during);
+        let line = self.claimed(
+            math,
+            way,
+            &(mean * time),
+            "the mean of the speeds times the time",
+        );
+        self.solution.say(
+            "The acceleration is constant, so the distance is the mean of the speeds at the beginning and the end, times the time:",
+        );
+        self.solution.display(vec![line]);
+    }
+
     /// Whether another stage takes over where this one ends.
     pub(super) fn goes_on(&self, told: &StageTold) -> bool {
         let index = self.told.stages.iter().position(|s| std::ptr::eq(s, told));
@@ -278,6 +338,12 @@ impl Page<'_> {
             _ => {}
         }
         self.accelerated(told);
+        if let StageKind::Slide(slide) = &stage.kind
+            && slide.spring.is_none()
+            && slide.on.is_none()
+        {
+            return self.at_mean_speed(told, slide);
+        }
         let time = match (&stage.kind, &told.time) {
             (StageKind::Linkage(_), _) => vec![say(
                 "The acceleration is constant, so the time is the change of velocity divided by it.",
