@@ -255,17 +255,25 @@ impl Page<'_> {
         self.solution.display(vec![Line::plain(math)]);
     }
 
+    /// The time of a motion by its name, and its value, if it is asked for.
+    fn time_asked(&self, told: &StageTold) -> Option<(Expr, Expr)> {
+        let asked = self.to(told, |ask| matches!(ask, Ask::Time))?;
+        Some((Expr::symbol(&asked.name), told.time.clone()?))
+    }
+
     /// The time of a rotation at a steady rate: the angle divided by the spin, by the name of the answer that has it.
     fn at_steady_rate(&mut self, told: &StageTold, turn: &Turn) {
-        let size = |e: &Expr| if e.is_negative() { -e } else { e.clone() };
-        let (Some(asked), Some(time), Some(turned)) = (
-            self.to(told, |ask| matches!(ask, Ask::Time)),
-            &told.time,
-            &told.turned,
-        ) else {
+        let (Some((t, time)), Some(turned)) = (self.time_asked(told), &told.turned) else {
             return;
         };
-        let (turned, spin) = (size(turned), size(&told.before.spin[turn.body]));
+        if matches!(turn.until, Until::For(_)) {
+            return;
+        }
+        let spin = &told.before.spin[turn.body];
+        let (turned, spin) = match spin.is_negative() {
+            true => (-turned, -spin),
+            false => (turned.clone(), spin.clone()),
+        };
         let mut spins = self
             .told
             .answers
@@ -273,22 +281,19 @@ impl Page<'_> {
             .filter(|a| a.formula() == Some(&spin));
         let known = spins.find(|a| matches!(self.ask(a), Some(Ask::Spin { .. })));
         let rate = known.map_or(spin.clone(), |a| Expr::symbol(&a.name));
-        let math = set(
-            "{} = {}",
-            [Expr::symbol(&asked.name).into(), (&turned / rate).into()],
-        );
+        let quotient = &turned / rate;
+        if alike(&quotient, &time) {
+            return;
+        }
+        let math = set("{} = {}", [t.into(), quotient.into()]);
         let why = "the angle turned through, divided by the rate";
-        let line = self.claimed(math, time, &(turned / spin), why);
+        let line = self.claimed(math, &time, &(turned / spin), why);
         self.solution.display(vec![line]);
     }
 
     /// The time of a motion along a line under constant forces: the way is the mean of the speeds at both ends, times it.
     fn at_mean_speed(&mut self, told: &StageTold, slide: &Slide) {
-        let (Some(asked), Some(time), Some(way)) = (
-            self.to(told, |ask| matches!(ask, Ask::Time)),
-            &told.time,
-            &told.way,
-        ) else {
+        let (Some((t, time)), Some(way)) = (self.time_asked(told), &told.way) else {
             return;
         };
         if matches!(slide.until, SlideEnd::Time(_)) {
@@ -297,7 +302,7 @@ impl Page<'_> {
         let speeds = [&told.before, &told.after];
         let speeds = speeds.map(|s| dot(&s.velocity[slide.body], &slide.along));
         let mean = tidied(self.scene, &(Expr::ratio(1, 2) * Expr::sum(speeds)));
-        let during = &mean * &Expr::symbol(&asked.name);
+        let during = &mean * &t;
         let math = words::related(way, "=", &during);
         let line = self.claimed(
             math,

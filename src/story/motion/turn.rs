@@ -69,10 +69,13 @@ pub(in crate::story) fn turn(
         assumptions.push(pushed(&body.name));
     }
     assumptions.extend(forward);
+    // Only a time at a steady rate leads to the same end in either sense.
+    if !work.is_zero() || !matches!(turn.until, Until::For(_)) {
+        assumptions.extend(assumed);
+    }
     let spin_end = if work.is_zero() {
         spin.clone()
     } else {
-        assumptions.extend(assumed);
         let size = (&(&Expr::from(2) * &end) / &inertia).sqrt();
         tidied(stage, &(&Expr::from(way) * &size))?
     };
