@@ -10,6 +10,7 @@ mod link;
 mod names;
 mod rounded;
 mod said;
+mod sought;
 mod text;
 mod why;
 
@@ -23,7 +24,8 @@ use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{self, Content, Fault, Reading, Symbols};
 use crate::laws;
 use crate::scene::{Ask, ContactLaw, Question, Scene};
-use link::{Link, Sought, Weighed};
+use link::{Link, Weighed};
+use sought::Sought;
 
 /// What is found of one line.
 #[derive(Clone, PartialEq, Debug)]
@@ -268,7 +270,7 @@ impl<'a> Desk<'a> {
             spins: spins(&sheet.scene),
             parts: parts(&sheet.scene),
             linked: Vec::new(),
-            sought: link::sought(sheet),
+            sought: sought::sought(sheet),
             supposed: Vec::new(),
             finals: BTreeMap::new(),
         }

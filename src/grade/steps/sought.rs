@@ -1,0 +1,222 @@
+//! Parameters whose values a scene asks for, and what a solution supposes of them: the conditions that it states, in the words of
+//! the scene or in others, and what holds where they do.
+
+use std::collections::BTreeMap;
+
+use super::super::relation::{proportional, solve_for};
+use super::super::sheet::Sheet;
+use super::Desk;
+use super::link::{Link, Weighed};
+use crate::algebra::Field;
+use crate::answer::Answer;
+use crate::expr::{Expr, Symbol};
+use crate::formula::Content;
+use crate::scene::Ask;
+
+/// A parameter whose value is sought.
+pub(super) struct Sought {
+    /// Name of the question.
+    pub question: String,
+    /// The parameter.
+    pub parameter: Symbol,
+    /// What is to be zero with it; `None` where something is to be as large as can be.
+    pub condition: Option<Expr>,
+    /// The value, where the scene's answer gives it.
+    value: Option<Expr>,
+}
+
+impl Sought {
+    /// Whether a name is that of the parameter or, where there is a condition, of the question.
+    pub fn is_named(&self, name: &Symbol) -> bool {
+        self.parameter == *name || self.condition.is_some() && *self.question == **name
+    }
+}
+
+/// The parameters whose values a scene asks for.
+pub(super) fn sought(sheet: &Sheet) -> Vec<Sought> {
+    let questions = sheet.scene.questions.iter();
+    let each = questions.filter_map(|q| {
+        let mut answers = sheet.derivation.answers.iter();
+        let answer = answers.find(|a| *a.name == q.name);
+        let (parameter, condition, value) = match &q.ask {
+            Ask::Condition {
+                parameter,
+                left,
+                right,
+                ..
+            } => {
+                let value = answer.and_then(Answer::formula);
+                (parameter.clone(), Some(left - right), value)
+            }
+            Ask::Maximum { .. } => match answer?.range.as_slice() {
+                [(of, _, place)] => (of.as_symbol()?.clone(), None, Some(place)),
+                _ => return None,
+            },
+            _ => return None,
+        };
+        Some(Sought {
+            question: q.name.clone(),
+            parameter,
+            condition,
+            value: value.cloned(),
+        })
+    });
+    each.collect()
+}
+
+impl Desk<'_> {
+    /// An expression at the values of parameters that are sought, where these were supposed.
+    pub(super) fn at_sought(&self, e: Expr) -> Expr {
+        let supposed = self.supposed.iter().filter_map(|i| self.sought.get(*i));
+        supposed.fold(e, |e, s| match self.value_of(s) {
+            Some(value) => e.put(&s.parameter, &value),
+            None => e,
+        })
+    }
+
+    /// Whether something is said about a name: the scene answers it, or the solution solves for it where a condition holds.
+    pub(super) fn is_found(&self, name: &Symbol) -> bool {
+        let mut sought = self.sought.iter().filter(|s| s.is_named(name));
+        self.closed.contains_key(name) || sought.any(|s| self.is_solved_for(s))
+    }
+
+    /// Whether some line says what the parameter is, by its name or that of the question.
+    fn is_solved_for(&self, sought: &Sought) -> bool {
+        self.solved_for.contains(&sought.parameter)
+            || self.solved_for.contains(sought.question.as_str())
+    }
+
+    /// Whether a line states what is supposed of a parameter that is sought, as the scene does or, where it would be a slip
+    /// otherwise, in other words: it is supposed from here on.
+    pub(super) fn is_condition(&mut self, links: &[Link], weighed: &Weighed) -> bool {
+        let stated = self.sought.iter().position(|s| self.states(links, s));
+        // ½ m u² = μ m g d for s = d; ½ M u² = M g h where a body gets as high as h, in a solution that goes on to v = ….
+        let found = stated.or_else(|| {
+            let ([link], Weighed::Slip(_)) = (links, weighed) else {
+                return None;
+            };
+            let [one] = link.differences.as_slice() else {
+                return None;
+            };
+            let one = self.with_own(one);
+            let in_words = |s: &Sought| {
+                self.brings_in(&one, s)
+                    || self.is_balance(link, &one, s)
+                    || (self.is_solved_for(s) && !self.vanishes(&one, s))
+            };
+            let mut all = self.sought.iter();
+            all.position(|s| in_words(s) && self.holds_where(link, s))
+        });
+        self.supposed.extend(found);
+        found.is_some()
+    }
+
+    /// Whether a line states the condition of a parameter that is sought; a chain `s = u²/(2 μ g) = d` does so between its
+    /// ends, where the rest holds with it.
+    pub(super) fn states(&self, links: &[Link], sought: &Sought) -> bool {
+        let is = |link: &Link| match (&sought.condition, link.differences.as_slice()) {
+            (Some(c), [one]) => self.is_multiple(&self.with_own(one), c),
+            _ => false,
+        };
+        let ends = match links {
+            [first, .., last] => self.link(&first.sides[0], &last.sides[1]),
+            _ => None,
+        };
+        let none = BTreeMap::new();
+        let holds = |link: &Link| self.all_zero(&link.differences, &none) == Some(true);
+        let fits = |link: &Link| is(link) || holds(link) || self.holds_where(link, sought);
+        links.iter().chain(&ends).any(is) && links.iter().all(fits)
+    }
+
+    /// Whether a line is a condition, multiplied by given quantities at most: m w²/L = m g where w² = g L is asked about.
+    fn is_multiple(&self, line: &Expr, condition: &Expr) -> bool {
+        if line == condition || *line == -condition {
+            return true;
+        }
+        let domains = self.sheet.scene.domains.of(&[line, condition]);
+        let factor = || {
+            let (field, line, condition) = Field::pair(&domains, line, condition).ok()?;
+            Some(field.expr(&field.div(&line, &condition).ok()?))
+        };
+        let given =
+            |name: &Symbol| self.sheet.scene.parameter(name).is_some() && !self.is_found(name);
+        factor().is_some_and(|k| !k.is_zero() && k.symbols().iter().all(given))
+    }
+
+    /// Whether a line is a balance of energies for an energy that is to be zero: what is proportional to an energy is about
+    /// nothing else.
+    fn is_balance(&self, link: &Link, line: &Expr, sought: &Sought) -> bool {
+        let is_energy = |name: &Symbol| {
+            let mut questions = self.sheet.scene.questions.iter();
+            questions.any(|q| *q.name == **name && matches!(q.ask, Ask::Energy { .. }))
+        };
+        let Some(energy) = sought.condition.as_ref().and_then(Expr::as_symbol) else {
+            return false;
+        };
+        let named = |side: &Content| side.expr().is_some_and(|e| e.as_symbol().is_some());
+        let [here, there] = [line, &Expr::symbol(energy)].map(|e| self.put_in(e, &BTreeMap::new()));
+        is_energy(energy)
+            && !line.symbols().contains(energy)
+            && !link.sides.iter().any(named)
+            && proportional(&there, &here, &self.sheet.scene.domains)
+    }
+
+    /// Whether an equality holds where what was supposed does: at the value it gives its parameter.
+    pub(super) fn follows_condition(&self, link: &Link) -> bool {
+        let mut supposed = self.supposed.iter().filter_map(|i| self.sought.get(*i));
+        supposed.any(|s| self.holds_where(link, s))
+    }
+
+    /// The value of the parameter that is sought.
+    fn value_of(&self, sought: &Sought) -> Option<Expr> {
+        let solved = || {
+            let condition = self.put_in(sought.condition.as_ref()?, &BTreeMap::new());
+            solve_for(&condition, &sought.parameter, &self.sheet.scene.domains)
+        };
+        sought.value.clone().or_else(solved)
+    }
+
+    /// Whether an equality holds at the value that is sought.
+    pub(super) fn holds_where(&self, link: &Link, sought: &Sought) -> bool {
+        let none = BTreeMap::new();
+        let Some(root) = self.value_of(sought) else {
+            return false;
+        };
+        let there = link.differences.iter();
+        let there = there.map(|d| self.put_in(d, &none).put(&sought.parameter, &root));
+        self.all_zero(&there.collect::<Vec<_>>(), &none) == Some(true)
+    }
+
+    /// Whether an equation speaks of a quantity that is zero at the value sought: any slip in its factor is lost there.
+    fn vanishes(&self, line: &Expr, sought: &Sought) -> bool {
+        let Some(root) = self.value_of(sought) else {
+            return true;
+        };
+        let symbols = line.symbols();
+        let mut found = symbols.iter().filter_map(|name| self.closed.get(name));
+        found.any(|value| {
+            let there = [value.put(&sought.parameter, &root)];
+            self.all_zero(&there, &BTreeMap::new()) != Some(false)
+        })
+    }
+
+    /// Whether a line speaks of data that come in by the condition alone, such as a given distance that an answer is to equal.
+    fn brings_in(&self, line: &Expr, sought: &Sought) -> bool {
+        let Some(condition) = &sought.condition else {
+            return false;
+        };
+        let elsewhere = |name: &Symbol| {
+            let mut others = self
+                .closed
+                .iter()
+                .filter(|(answer, _)| ***answer != *sought.question);
+            others.any(|(_, value)| value.symbols().contains(name))
+        };
+        let own = condition.symbols();
+        let mut own = own.iter().filter(|name| **name != sought.parameter);
+        own.any(|name| {
+            let is_answer = self.closed.contains_key(name);
+            !is_answer && line.symbols().contains(name) && !elsewhere(name)
+        })
+    }
+}
