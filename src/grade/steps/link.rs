@@ -413,6 +413,29 @@ impl Desk<'_> {
         status
     }
 
+    /// Whether an answer by the names of others is right with the wrong values that were given for these, as a square is whose
+    /// root has the wrong sign.
+    fn stands_anyway(&self, name: &Symbol, answer: &Content) -> bool {
+        let is_wrong = |n: &Symbol| {
+            let told = self.finals.get(&**n);
+            n != name && told.is_some_and(|f| f.verdict == Verdict::Different)
+        };
+        let (Some(answer), Some(truth)) = (answer.expr(), self.closed.get(name)) else {
+            return false;
+        };
+        let answer = self.with_own(answer);
+        let wrong = answer.symbols().into_iter().filter(is_wrong);
+        let given = wrong.map(|n| {
+            let mut implied = self.believed.iter().rev();
+            let value = implied.find_map(|(_, values)| values.get(&n).cloned());
+            Some((n, value?))
+        });
+        let given: Option<BTreeMap<Symbol, Expr>> = given.collect();
+        given.is_some_and(|given| {
+            self.all_zero(&[answer.substitute(&given) - truth], &BTreeMap::new()) == Some(true)
+        })
+    }
+
     /// Keeps what a line says of a quantity that is asked for, where it ends in what is given.
     pub(super) fn note_final(&mut self, number: usize, text: &str, reading: &Reading) {
         // What is a number in the unit that is asked for is one.
@@ -477,7 +500,12 @@ impl Desk<'_> {
         };
         let verdict = match (verdict, used.iter().all(|v| *v == Verdict::Equivalent)) {
             (verdict, true) => verdict,
-            (Verdict::Equivalent, _) if used.contains(&Verdict::Different) => Verdict::Different,
+            (Verdict::Equivalent, _) if used.contains(&Verdict::Different) => {
+                match self.stands_anyway(name, last) {
+                    true => Verdict::Equivalent,
+                    false => Verdict::Different,
+                }
+            }
             _ => Verdict::Undecided,
         };
         self.finals

@@ -317,6 +317,13 @@ fn equation(text: &str) -> &str {
     {
         rest = behind.trim_start();
     }
+    // `The gate turns at a steady rate, t = …`
+    if let Some((said, behind)) = rest.split_once(", ")
+        && is_sentence(said)
+        && relates(behind)
+    {
+        rest = behind.trim_start();
+    }
     // A law or body named before a colon; a definition `a := b` has its sign behind the colon.
     if let Some((words, behind)) = rest.split_once(':')
         && !behind.starts_with('=')
@@ -359,13 +366,27 @@ fn equation(text: &str) -> &str {
     moment.unwrap_or(rest).trim_end()
 }
 
+/// Words that turn a sign, or say which counts as positive: an equation beside them is not the one without.
+const SENSES: &str = "up upward upwards down downward downwards left leftward right rightward opposite negative positive \
+    backward backwards clockwise counterclockwise anticlockwise not no never wrong false";
+
+fn turns_sign(word: &str) -> bool {
+    SENSES
+        .split(' ')
+        .any(|sense| sense.eq_ignore_ascii_case(word))
+}
+
+/// Whether words say something by themselves: `The gate turns at a steady rate`.
+fn is_sentence(words: &str) -> bool {
+    let all = || words.split([' ', '-']);
+    all().count() > 3
+        && all().all(|word| word.chars().all(char::is_alphabetic) && !turns_sign(word))
+}
+
 /// An equation without the reason in words behind it: `T1 = T2 since the pulley is light`, `…, where v' is the speed after`.
 fn without_reason(text: &str) -> &str {
     const REASONS: &str = " where | which | because | since | using | due to | as the | by the ";
     const PLACES: &str = " at the | at rest| in the | in this | in that | on the | along the | during the | for the | until the | of the ";
-    // What turns a sign is no mere place.
-    const SENSES: &str = "up upward upwards down downward downwards left leftward right rightward opposite negative \
-        backward backwards clockwise counterclockwise anticlockwise";
     let first = |leads: &str| {
         let found = leads
             .split('|')
@@ -376,9 +397,8 @@ fn without_reason(text: &str) -> &str {
         |&(at, length): &(usize, usize)| !relates(&text[at..]) && text[at + length..].contains(' ');
     let is_place = |&(at, length): &(usize, usize)| {
         let mut words = text[at + length..].split([' ', '-']);
-        let sense = |word: &str| SENSES.split_whitespace().any(|sense| sense == word);
         relates(&text[..at])
-            && words.all(|word| word.chars().all(char::is_alphabetic) && !sense(word))
+            && words.all(|word| word.chars().all(char::is_alphabetic) && !turns_sign(word))
     };
     let place = || first(PLACES).filter(is_place);
     match first(REASONS).filter(is_reason).or_else(place) {
