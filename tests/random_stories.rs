@@ -410,6 +410,67 @@ fn of_one_freedom() -> impl Strategy<Value = String> {
     })
 }
 
+/// What a particle sticks to, and how the two fly on as one until the body meets a peg, or not.
+fn flies_as_one() -> impl Strategy<Value = String> {
+    let body = select(vec![
+        (
+            r#""shape": "rod", "length": "2*L", "angle": "pi/2""#,
+            ["0", "L"],
+        ),
+        (
+            r#""shape": "rod", "length": "2*L", "angle": "0""#,
+            ["-L/2", "0"],
+        ),
+        (r#""shape": "disk", "radius": "L""#, ["3/5*L", "4/5*L"]),
+        (
+            r#""shape": "rectangle", "width": "2*L", "height": "L""#,
+            ["L", "L/4"],
+        ),
+    ]);
+    let way = select(vec![["1", "0"], ["0", "-1"], ["-3", "2"], ["1", "1"]]);
+    let spin = select(vec!["0", "v/L", "-2*v/L"]);
+    let end = select(vec![
+        r#""for": "t""#,
+        r#""by": "pi/2""#,
+        r#""by": "2*pi/3""#,
+        r#""by": "b""#,
+    ]);
+    let gravity = select(vec!["", r#""gravity": "g","#]);
+    let stuck_before = any::<bool>();
+    let then = any::<bool>();
+    (body, way, spin, end, gravity, stuck_before, then).prop_map(
+        |((shape, [x, y]), [u, v], spin, end, gravity, two, then)| {
+            let with = if two { r#"["C", "D"]"# } else { r#"["C"]"# };
+            let meets = match then {
+                true => format!(
+                    r#", {{"name": "meet", "impact": {{"contacts": {{"E": {{"bodies": ["peg", "B"],
+      "at": {{"from": "B", "by": ["-({x})", "-({y})"]}}, "law": "sticking"}}}}}}}}"#
+                ),
+                false => String::new(),
+            };
+            format!(
+                r#"{{
+  "parameters": {{
+    "m": {{"unit": "kg"}}, "L": {{"unit": "m"}}, "v": {{"unit": "m/s"}}, "g": {{"unit": "m/s^2"}}, "t": {{"unit": "s"}},
+    "b": {{"unit": "rad", "domain": {{"min": 0, "max": "pi"}}}}
+  }},
+  "bodies": {{
+    "peg": {{"shape": "fixed"}},
+    "B": {{{shape}, "mass": "3*m", "center": ["0", "0"], "velocity": ["0", "v"], "spin": "{spin}"}},
+    "C": {{"shape": "particle", "mass": "m", "center": ["{x}", "{y}"], "velocity": ["2*v*({u})", "v*({v})"]}},
+    "D": {{"shape": "particle", "mass": "2*m", "center": ["-({x})/2", "-({y})/2"], "velocity": ["0", "0"]}}
+  }},
+  "stages": [{{"name": "stick", "impact": {{"contacts": {{"C": {{"bodies": ["B", "C"], "law": "sticking"}}{}}}}}}},
+    {{"name": "fly", "fall": {{"body": "B", "with": {with}, {gravity} {end}}}}}{meets}],
+  "questions": {{"x": {{"position": "B", "at": "fly"}}, "y": {{"position": "C", "at": "fly"}}, "u": {{"velocity": "C", "at": "fly"}},
+    "w1": {{"spin": "B"}}}}
+}}"#,
+                if two { r#", "D": {"bodies": ["B", "D"], "law": "sticking"}"# } else { "" }
+            )
+        },
+    )
+}
+
 /// How the wheel turns while its string moves: backwards where the body that comes to it passes above.
 fn wheel_spin([ux, uy]: [&str; 2], v: &str) -> String {
     let clockwise = match ux {
@@ -439,13 +500,18 @@ fn what_has_one_freedom_is_followed_to_the_same_end() {
     same_end(of_one_freedom());
 }
 
+#[test]
+fn what_is_stuck_together_flies_to_the_same_end() {
+    same_end(flies_as_one());
+}
+
 fn same_end(stories: impl Strategy<Value = String>) {
     use std::sync::atomic::{AtomicU32, Ordering};
     let (followed, told) = (AtomicU32::new(0), AtomicU32::new(0));
     let mut config = ProptestConfig::default();
     config.cases = config.cases * 3 / 8;
     proptest!(config, |(text in stories)| {
-        let text = match text.contains("particle") {
+        let text = match text.contains(r#""B": {"shape": "particle"#) {
             true => text.replace(r#""w1": {"spin": "B"}, "#, ""),
             false => text,
         };

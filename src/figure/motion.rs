@@ -248,7 +248,7 @@ fn measures(
             match &fall.until {
                 FallEnd::Drop(h) => level(stage, sheet, [first, corner], is_apart, h),
                 FallEnd::Range(s) => level(stage, sheet, [corner, last], true, s),
-                FallEnd::Time(_) | FallEnd::Top => {}
+                FallEnd::Turned(_) | FallEnd::Time(_) | FallEnd::Top => {}
             }
         }
         StageKind::Wind(wind) => {

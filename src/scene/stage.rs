@@ -275,8 +275,14 @@ impl StageKind {
                     .for_each(put);
             }
             StageKind::Fall(fall) => {
-                if let FallEnd::Drop(e) | FallEnd::Range(e) | FallEnd::Time(e) = &mut fall.until {
-                    put(e);
+                match &mut fall.until {
+                    FallEnd::Drop(e)
+                    | FallEnd::Range(e)
+                    | FallEnd::Turned(e)
+                    | FallEnd::Time(e) => {
+                        put(e);
+                    }
+                    FallEnd::Top => {}
                 }
                 fall.gravity.iter_mut().for_each(put);
             }
@@ -592,7 +598,7 @@ pub enum SlideEnd {
 pub struct Fall {
     /// Index of the body whose way ends the stage.
     pub body: usize,
-    /// Indices of bodies that fall or fly at the same time, each on its own.
+    /// Indices of bodies that fall or fly at the same time, each on its own or stuck to another of them.
     pub with: Vec<usize>,
     /// Gravity g \[m/s²\], downwards; `None` for free flight.
     pub gravity: Option<Expr>,
@@ -616,6 +622,8 @@ pub enum FallEnd {
     Drop(Expr),
     /// When the center of mass is so far to the right of its place at the beginning \[m\]; to the left of it if negative.
     Range(Expr),
+    /// When it has turned through this angle in the sense in which it spins \[rad\].
+    Turned(Expr),
     /// After this time \[s\].
     Time(Expr),
     /// When the center of mass rises no more.

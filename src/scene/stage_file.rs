@@ -212,11 +212,12 @@ choice! {
 }
 
 record! {
-    /// Free fall, or free flight where no gravity is given; it ends after one of `height`, `range` and `for`, or `until` its top.
+    /// Free fall, or free flight where no gravity is given; it ends after one of `height`, `range`, `by` and `for`, or `until`
+    /// its top. What an impact has stuck together turns about its common center of mass.
     FallFile {
         /// Name of the body.
         body: Text,
-        /// Names of bodies that fall or fly at the same time, each on its own.
+        /// Names of bodies that fall or fly at the same time, each on its own or stuck to another of them.
         with: Option<Vec<Text>>,
         /// Gravity, such as "g".
         gravity: Option<Formula>,
@@ -226,6 +227,8 @@ record! {
         rising: Option<bool>,
         /// How far the center of mass is then to the right of its place at the beginning; to the left of it if negative.
         range: Option<Formula>,
+        /// Angle through which it has turned then, in the sense in which it spins.
+        by: Option<Formula>,
         /// Time.
         time as "for": Option<Formula>,
         /// The top of the flight.

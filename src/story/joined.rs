@@ -2,7 +2,7 @@
 
 use super::{Refused, State};
 use crate::answer::calc::is_zero;
-use crate::expr::minus;
+use crate::expr::{Expr, minus};
 use crate::scene::{HINGED, Scene, Stage, joints, left_behind, unsaid};
 
 /// What is joined to a body moves along with it.
@@ -22,30 +22,60 @@ pub(super) fn all_move(scene: &Scene, stage: &Stage) -> Result<(), Refused> {
     Ok(())
 }
 
-/// Bodies in flight move each as by itself, which joined ones do only where they do not turn about each other.
-pub(super) fn fly_alike(scene: &Scene, stage: &Stage, before: &State) -> Result<(), Refused> {
+/// The bodies in flight that are stuck together and turn, each lot with the one that is no particle in front: they turn about
+/// their common center of mass, and all others fly each as by itself.
+pub(super) fn turning(
+    scene: &Scene,
+    stage: &Stage,
+    before: &State,
+) -> Result<Vec<Vec<usize>>, Refused> {
+    let bodies = &stage.scene.bodies;
+    let is_none = |e: &Expr| is_zero(e, &stage.scene.domains) == Some(true);
     let moved = stage.kind.moved();
-    let mut joints = joints(&scene.stages, stage).into_iter();
-    let apart = joints.find(|joint| {
-        let [a, b] = joint.bodies;
-        let gap = minus(&before.velocity[a], &before.velocity[b]);
+    let mut joints = joints(&scene.stages, stage);
+    joints.retain(|joint| joint.bodies.iter().all(|b| moved.contains(b)));
+    let apart = |[a, b]: [usize; 2]| {
         // A particle at the center of what turns stays there.
-        let rigid = [a, b].iter().all(|b| !stage.scene.bodies[*b].is_particle());
-        let spins = [a, b].into_iter().filter(|_| rigid);
-        let mut all = gap.iter().chain(spins.map(|b| &before.spin[b]));
-        moved.contains(&a)
-            && moved.contains(&b)
-            && all.any(|e| is_zero(e, &stage.scene.domains) != Some(true))
-    });
-    apart.map_or(Ok(()), |joint| {
-        let [a, b] = joint.bodies.map(|b| &stage.scene.bodies[b].name);
-        let why = format!(
-            "`{b}` {} `{a}` since `{}`, and where they turn neither flies as by itself",
-            joint.how, joint.since
-        );
-        let hint = "bodies that stay stuck together fly on as one body: a `composite` with this velocity and spin, in a scene of its own";
-        Err(Refused::new(&stage.name, why, hint))
-    })
+        let is_rigid = [a, b].iter().all(|b| !bodies[*b].is_particle());
+        let turns = is_rigid && ![a, b].iter().all(|b| is_none(&before.spin[*b]));
+        turns
+            || !minus(&before.velocity[a], &before.velocity[b])
+                .iter()
+                .all(is_none)
+    };
+    let mut lots: Vec<Vec<usize>> = Vec::new();
+    for joint in joints.iter().filter(|joint| apart(joint.bodies)) {
+        if lots.iter().any(|lot| lot.contains(&joint.bodies[0])) {
+            continue;
+        }
+        let mut lot = vec![joint.bodies[0]];
+        let mut k = 0;
+        while k < lot.len() {
+            let with = joints.iter().filter(|j| j.bodies.contains(&lot[k]));
+            let new = with.flat_map(|j| j.bodies).filter(|b| !lot.contains(b));
+            lot.extend(new.collect::<std::collections::BTreeSet<_>>());
+            k += 1;
+        }
+        lot.sort_by_key(|b| bodies[*b].is_particle());
+        let (lead, rest) = (lot[0], &lot[1..]);
+        let w = &before.spin[lead];
+        let carried = |b: &usize| {
+            let [x, y] = minus(&before.center[*b], &before.center[lead]);
+            let gap = minus(&before.velocity[*b], &before.velocity[lead]);
+            bodies[*b].is_particle() && minus(&gap, &[-(w * y), w * x]).iter().all(is_none)
+        };
+        if bodies[lead].is_particle() || !rest.iter().all(carried) {
+            let [a, b] = joint.bodies.map(|b| &bodies[b].name);
+            let why = format!(
+                "`{b}` {} `{a}` since `{}`, and where they turn neither flies as by itself",
+                joint.how, joint.since
+            );
+            let hint = "particles that stick to a body turn with it; several bodies that stay together fly on as a `composite` with this velocity and spin, in a scene of its own";
+            return Err(Refused::new(&stage.name, why, hint));
+        }
+        lots.push(lot);
+    }
+    Ok(lots)
 }
 
 /// What is joined to a body that an impulse acts on has its part of it.

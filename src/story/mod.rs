@@ -227,6 +227,19 @@ impl Step {
     }
 }
 
+/// Bodies in flight that are stuck together and turn as one about their common center of mass.
+#[derive(Clone, Debug)]
+pub struct Lot {
+    /// Indices of the bodies; the only one that is no particle in front.
+    pub bodies: Vec<usize>,
+    /// The common center of mass at the beginning \[m\].
+    pub center: Vector,
+    /// Its velocity at the beginning [m/s].
+    pub velocity: Vector,
+    /// The common spin [rad/s].
+    pub spin: Expr,
+}
+
 /// A stage, worked out; the only stage of a scene that is one impact has no name.
 #[derive(Clone, Debug, Default)]
 pub struct StageTold {
@@ -262,6 +275,8 @@ pub struct StageTold {
     pub tensions: Vec<(usize, Expr)>,
     /// What forces give by Newton's laws, where a motion does not follow from its energy alone.
     pub steps: Vec<Step>,
+    /// Bodies in flight that turn as one.
+    pub lots: Vec<Lot>,
     /// Kinetic energy at the beginning and at the end, of a motion \[J\].
     pub energy: Option<[Expr; 2]>,
     /// The same at the end, put together from velocity and spin.
@@ -576,8 +591,8 @@ fn one(
             motion::slide(stage, before, slide, is_driven)
         }
         StageKind::Fall(fall) => {
-            joined::fly_alike(scene, stage, &before)?;
-            motion::fall(stage, before, fall)
+            let lots = joined::turning(scene, stage, &before)?;
+            motion::fall(stage, before, fall, &lots)
         }
         StageKind::Wind(wind) => motion::wind(stage, before, wind),
         StageKind::Linkage(linkage) => motion::linkage(stage, before, linkage),

@@ -219,10 +219,24 @@ fn falling(told: &StageTold, fall: &Fall) -> Vec<Sentence> {
         (FallEnd::Time(t), _) => {
             sentence!("`{}` flies freely for {}", name, measured(t, "s"))
         }
+        (FallEnd::Turned(by), _) => {
+            sentence!("`{}` flies freely until it has turned through {}", name, by)
+        }
         (FallEnd::Range(s), _) => flown(name, counted(s, [" further right", " further left"])),
         (FallEnd::Drop(h), None) => flown(name, counted(h, [" lower", " higher"])),
     }];
-    for b in &fall.with {
+    for lot in &told.lots {
+        let names = lot
+            .bodies
+            .iter()
+            .map(|b| format!("`{}`", scene.bodies[*b].name));
+        out.push(sentence!(
+            "{} turn as one about their common center of mass; nothing has a moment about it, so their spin does not change",
+            listed(&names.collect::<Vec<_>>())
+        ));
+    }
+    let is_stuck = |b: &usize| told.lots.iter().any(|lot| lot.bodies.contains(b));
+    for b in fall.with.iter().filter(|b| !is_stuck(b)) {
         let other = &scene.bodies[*b].name;
         let verb = match fall.gravity.is_some() && goes_down(told, *b) {
             true => "falls",
@@ -231,7 +245,7 @@ fn falling(told: &StageTold, fall: &Fall) -> Vec<Sentence> {
         out.push(sentence!("`{}` meanwhile {} freely as well", other, verb));
     }
     for b in fall.bodies() {
-        if is_zero(&told.after.spin[b], &scene.domains) == Some(false) {
+        if !is_stuck(&b) && is_zero(&told.after.spin[b], &scene.domains) == Some(false) {
             out.push(sentence!(
                 "the spin of `{}` does not change, since nothing has a moment about its center of mass",
                 &scene.bodies[b].name

@@ -189,17 +189,19 @@ fn bounded(
 fn fall_of(r: &mut Resolver<'_>, fall: &FallFile, span: Span) -> Option<Fall> {
     let ends = usize::from(fall.height.is_some())
         + usize::from(fall.range.is_some())
+        + usize::from(fall.by.is_some())
         + usize::from(fall.time.is_some())
         + usize::from(fall.until.is_some());
     if ends != 1 {
-        let message = "a fall ends after a `height`, a horizontal distance `range` or a time `for`, or `until` its top";
+        let message = "a fall ends after a `height`, a horizontal distance `range`, an angle `by` or a time `for`, or `until` its top";
         return r.refuse(span, message, "give one of them");
     }
     let all = company(r, &fall.body, fall.with.as_deref());
     let gravity = weight(r, fall.gravity.as_ref())?;
-    let until = match (&fall.height, &fall.range, &fall.time) {
+    let until = match (&fall.height, &fall.range, &fall.by, &fall.time) {
         (Some(height), ..) => FallEnd::Drop(r.read(height, Quantity::LENGTH)?),
-        (_, Some(range), _) => FallEnd::Range(r.read(range, Quantity::LENGTH)?),
+        (_, Some(range), ..) => FallEnd::Range(r.read(range, Quantity::LENGTH)?),
+        (.., Some(by), _) => FallEnd::Turned(r.read(by, Quantity::ANGLE)?),
         (.., Some(time)) => FallEnd::Time(r.read(time, TIME)?),
         _ if gravity.is_some() => FallEnd::Top,
         _ => {

@@ -3,15 +3,24 @@
 
 use super::Page;
 use crate::answer::Answer;
-use crate::expr::{Expr, Symbol, Vector, dot};
+use crate::expr::{Expr, Symbol, Vector, dot, minus};
 use crate::scene::{Ask, Fall, FallEnd, StageKind};
 use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::words::{self, name, say};
 use crate::solution::{Claim, Line, Math};
-use crate::story::StageTold;
+use crate::story::{Lot, StageTold};
 
 /// The letter of the time of a flight, where nothing else bears it.
 const TIME: &str = "t";
+
+/// From the common center of mass of what turns as one to one of the bodies, at the end of a flight.
+fn arm(lot: &Lot, told: &StageTold, body: usize) -> Vector {
+    let lead = lot.bodies[0];
+    let turned = &told.after.angle[lead] - &told.before.angle[lead];
+    let [x, y] = minus(&told.before.center[body], &lot.center);
+    let (c, s) = (turned.cos(), turned.sin());
+    [&x * &c - &y * &s, x * s + y * c]
+}
 
 impl Page<'_> {
     /// Tells a flight by its acceleration in place of its energy; whether it did.
@@ -25,6 +34,9 @@ impl Page<'_> {
         let is_zero = |e: &Expr| crate::answer::calc::is_zero(e, domains) == Some(true);
         let is_particle = |b: &usize| self.scene.bodies[*b].is_particle();
         let who = match (bodies.as_slice(), bodies.iter().all(is_particle)) {
+            _ if told.lots.iter().any(|lot| lot.bodies.len() == bodies.len()) => {
+                String::from("the common center of mass G")
+            }
             ([_, _, ..], true) => String::from("each body"),
             ([_, _, ..], false) => String::from("each center of mass"),
             (_, true) => words::body(self.scene, fall.body),
@@ -56,7 +68,7 @@ impl Page<'_> {
         if !self.solution.says(&text) {
             self.solution.text(text);
         }
-        let mut lines = Vec::new();
+        let mut lines = self.turning(told);
         let by_height = matches!(fall.until, FallEnd::Drop(_));
         for b in bodies.iter().filter(|_| fall.gravity.is_some()) {
             let asks = |ask: &Ask| matches!(ask, Ask::Velocity { body, .. } if body == b);
@@ -88,6 +100,61 @@ impl Page<'_> {
         true
     }
 
+    /// The common center of mass of what turns as one, and the arms from it to what is asked about.
+    fn turning(&mut self, told: &StageTold) -> Vec<Line> {
+        let mut lines = Vec::new();
+        let is_zero =
+            |e: &Expr| crate::answer::calc::is_zero(e, &told.placed.scene.domains) == Some(true);
+        for lot in &told.lots {
+            let g = match told.lots.as_slice() {
+                [_] => String::from("G"),
+                _ => format!("G,{}", words::center(self.scene, lot.bodies[0])),
+            };
+            let mass = |b: &usize| &self.scene.bodies[*b].mass;
+            let all = Expr::sum(lot.bodies.iter().map(|b| mass(b).clone()));
+            let begins = &told.before;
+            let quantities = [
+                (["x", "y"], &begins.center, &lot.center, false),
+                (["v", "v"], &begins.velocity, &lot.velocity, true),
+            ];
+            for (letters, of, values, is_rate) in quantities {
+                for (k, axis) in ["x", "y"].into_iter().enumerate() {
+                    if is_zero(&values[k]) {
+                        continue;
+                    }
+                    let parts = lot.bodies.iter().map(|b| mass(b) * &of[*b][k]);
+                    let raw = Expr::sum(parts) / &all;
+                    let index = if is_rate {
+                        format!("{g},{axis}")
+                    } else {
+                        g.clone()
+                    };
+                    let mark = if is_rate { "" } else { "-" };
+                    let why = "common center of mass: the sum of m r over the sum of m";
+                    let head = name(letters[k], &index, mark, false);
+                    lines.push(self.defined(head, &raw, &values[k], why));
+                }
+            }
+            for b in &lot.bodies {
+                let asks = |ask: &Ask| match ask {
+                    Ask::Position { body, .. } | Ask::Velocity { body, .. } => body == b,
+                    _ => false,
+                };
+                if self.asked(told, asks) {
+                    let arm = arm(lot, told, *b).map(|e| tidied(self.scene, &e));
+                    let index = format!("{}/{g}", words::center(self.scene, *b));
+                    let math = vec![
+                        name("r", &index, "+", true),
+                        Math::Op("="),
+                        Math::Vector(arm),
+                    ];
+                    lines.push(Line::plain(math));
+                }
+            }
+        }
+        lines
+    }
+
     /// `name = raw = value`, a claim.
     fn defined(&mut self, head: Math, raw: &Expr, value: &Expr, why: &str) -> Line {
         let claim = Claim::new(raw.clone(), value.clone());
@@ -109,9 +176,21 @@ impl Page<'_> {
         (!is_given && !is_taken).then(|| Symbol::from(TIME))
     }
 
+    /// The velocity with which a body that turns as one with others goes round their common center of mass at the end; the velocity
+    /// of that center at the beginning.
+    fn round(&self, told: &StageTold, body: usize) -> Option<[Vector; 2]> {
+        let lot = told.lots.iter().find(|lot| lot.bodies.contains(&body))?;
+        let [x, y] = arm(lot, told, body).map(|e| tidied(self.scene, &e));
+        let w = self.named(&lot.spin);
+        Some([[-(&w * y), w * x], lot.velocity.clone()])
+    }
+
     /// The velocity upwards of a body at the end of a flight, from that at its beginning.
     fn falls_with(&self, told: &StageTold, fall: &Fall, body: usize, time: &Expr) -> Expr {
         let g = fall.gravity.clone().unwrap_or_else(Expr::zero);
+        if let Some([round, center]) = self.round(told, body) {
+            return self.named(&center[1]) - g * time + &round[1];
+        }
         let [v, first] = [body, fall.body].map(|b| &told.before.velocity[b][1]);
         // What begins alike falls alike.
         let alike = v == first;
@@ -141,18 +220,30 @@ impl Page<'_> {
             (FallEnd::Range(s), _) => s / x,
             (FallEnd::Top, g) => y / g.clone().unwrap_or_else(Expr::zero),
             (FallEnd::Time(_), _) => time.clone(),
+            (FallEnd::Turned(by), _) => {
+                let spin = &told.before.spin[fall.body];
+                let is_forward = told.turned.as_ref() == Some(by);
+                by / self.named(&if is_forward { spin.clone() } else { -spin })
+            }
         }
     }
 
     /// The way of a body through a flight, in the velocities it began with and the time.
     fn way(&self, told: &StageTold, fall: &Fall, body: usize, time: &Expr) -> Vector {
-        let [x, y] = told.before.velocity[body].each_ref().map(|v| self.named(v));
+        let lot = told.lots.iter().find(|lot| lot.bodies.contains(&body));
+        let begins = lot.map_or(&told.before.velocity[body], |lot| &lot.velocity);
+        let [x, y] = begins.each_ref().map(|v| self.named(v));
         let g = fall.gravity.clone().unwrap_or_else(Expr::zero);
         let mut way = [&x * time, &y * time - Expr::ratio(1, 2) * g * time.powi(2)];
         match &fall.until {
             FallEnd::Drop(h) if body == fall.body => way[1] = -h,
             FallEnd::Range(s) if body == fall.body => way[0] = s.clone(),
             _ => {}
+        }
+        if let Some(lot) = lot {
+            let begins = minus(&told.before.center[body], &lot.center);
+            let round = minus(&arm(lot, told, body), &begins);
+            way = [0, 1].map(|k| &way[k] + tidied(self.scene, &round[k]));
         }
         way
     }
@@ -186,7 +277,10 @@ impl Page<'_> {
                 along,
             } if fall.bodies().contains(body) => {
                 let along = direction(along);
-                let x = self.named(&told.before.velocity[*body][0]);
+                let x = match self.round(told, *body) {
+                    Some([round, center]) => self.named(&center[0]) + &round[0],
+                    None => self.named(&told.before.velocity[*body][0]),
+                };
                 [&shown, time].map(|time| {
                     let y = self.falls_with(told, fall, *body, time);
                     dot(&[x.clone(), y], &along)

@@ -1,29 +1,44 @@
 //! Free fall and flight: the center of mass moves as a particle does, and the body keeps its spin.
 
 use super::supposed::Supposed;
+use super::turn::{free_sense, rotated, sense_words};
 use super::{half, kept, meanwhile, tidied};
 use crate::answer::calc::is_zero;
-use crate::expr::Expr;
+use crate::expr::{Expr, Vector, dot, minus};
+use crate::formula::sentence;
 use crate::scene::{Fall, FallEnd, Stage};
-use crate::story::{Refused, StageTold, State};
+use crate::story::{Lot, Refused, StageTold, State};
 
-/// Free fall or flight.
+/// Free fall or flight; lots of bodies that are stuck together and turn do so about their common center of mass.
 pub(in crate::story) fn fall(
     stage: &Stage,
     before: State,
     fall: &Fall,
+    lots: &[Vec<usize>],
 ) -> Result<StageTold, Refused> {
     let scene = &stage.scene;
     let mut supposed = Supposed::of(stage);
+    let lots = lots.iter().map(|lot| Lot::of(stage, &before, lot));
+    let lots = lots.collect::<Result<Vec<_>, _>>()?;
+    ends_alone(stage, &before, fall, &lots)?;
     let (time, down) = duration(stage, &before, fall, &mut supposed)?;
     let zero = Expr::zero();
     let g = fall.gravity.as_ref().unwrap_or(&zero);
+    // The angle that ends a flight is that of its first body.
+    let lead = before.spin[fall.body].clone();
+    let turned = |b: usize, spin: &Expr| match &fall.until {
+        FallEnd::Turned(by) if b == fall.body || *spin == lead => {
+            Expr::from(free_sense(stage, spin)) * by
+        }
+        _ => spin * &time,
+    };
     let mut after = before.clone();
     let mut energy = [Expr::zero(), Expr::zero()];
     let mut dropped = Vec::new();
     for b in fall.bodies() {
         let body = &scene.bodies[b];
-        let [vx, vy] = &before.velocity[b];
+        let lot = lots.iter().find(|lot| lot.bodies.contains(&b));
+        let [vx, vy] = lot.map_or(&before.velocity[b], |lot| &lot.velocity);
         let v_end = match (&down, b == fall.body) {
             (Some(down), true) => down.clone(),
             _ => tidied(stage, &(vy - &(g * &time)))?,
@@ -40,17 +55,29 @@ pub(in crate::story) fn fall(
                 _ => tidied(stage, &(vx * &time))?,
             }
         };
-        after.center[b] = [&after.center[b][0] + &along, &after.center[b][1] - &drop];
-        if !before.spin[b].is_zero() {
-            after.angle[b] = tidied(stage, &(&before.angle[b] + &(&before.spin[b] * &time)))?;
+        let (mut way, mut end) = ([along, -drop], [vx.clone(), v_end]);
+        let spin = lot.map_or(&before.spin[b], |lot| &lot.spin);
+        if let Some(lot) = lot {
+            let arm = minus(&before.center[b], &lot.center);
+            let turned = turned(b, spin);
+            let arm_end = rotated(&arm, &[turned.cos(), turned.sin()]);
+            let swings = [-(spin * &arm_end[1]), spin * &arm_end[0]];
+            for k in 0..2 {
+                way[k] = tidied(stage, &(&way[k] + &arm_end[k] - &arm[k]))?;
+                end[k] = tidied(stage, &(&end[k] + &swings[k]))?;
+            }
         }
-        after.velocity[b] = [vx.clone(), v_end.clone()];
+        after.center[b] = [0, 1].map(|k| &after.center[b][k] + &way[k]);
+        if !before.spin[b].is_zero() {
+            after.angle[b] = tidied(stage, &(&before.angle[b] + &turned(b, spin)))?;
+        }
         let turning = half(&(&body.inertia * &before.spin[b].powi(2)));
-        for (total, vy) in energy.iter_mut().zip([vy, &v_end]) {
-            let moving = half(&(&body.mass * &(&vx.powi(2) + &vy.powi(2))));
+        for (total, v) in energy.iter_mut().zip([&before.velocity[b], &end]) {
+            let moving = half(&(&body.mass * &dot(v, v)));
             *total = &*total + &(&moving + &turning);
         }
-        dropped.push(&(&body.mass * g) * &drop);
+        after.velocity[b] = end;
+        dropped.push(-(&body.mass * g) * &way[1]);
     }
     supposed
         .words
@@ -67,9 +94,51 @@ pub(in crate::story) fn fall(
     if fall.gravity.is_some() {
         out.work = vec![("weight", Expr::sum(dropped))];
     }
+    out.turned = match &fall.until {
+        FallEnd::Turned(_) => Some(turned(fall.body, &lead)),
+        _ => None,
+    };
     out.time = Some(time);
+    out.lots = lots;
     supposed.told(&mut out);
     Ok(out)
+}
+
+impl Lot {
+    fn of(stage: &Stage, before: &State, bodies: &[usize]) -> Result<Lot, Refused> {
+        let mass = |b: &usize| &stage.scene.bodies[*b].mass;
+        let all = Expr::sum(bodies.iter().map(|b| mass(b).clone()));
+        let mean = |of: &[Vector], k: usize| {
+            let parts = bodies.iter().map(|b| mass(b) * &of[*b][k]);
+            tidied(stage, &(Expr::sum(parts) / &all))
+        };
+        Ok(Lot {
+            center: [mean(&before.center, 0)?, mean(&before.center, 1)?],
+            velocity: [mean(&before.velocity, 0)?, mean(&before.velocity, 1)?],
+            spin: before.spin[bodies[0]].clone(),
+            bodies: bodies.to_vec(),
+        })
+    }
+}
+
+/// A height or a distance is reached by what moves as a particle does, and not by a body that turns about a point beside its center.
+fn ends_alone(stage: &Stage, before: &State, fall: &Fall, lots: &[Lot]) -> Result<(), Refused> {
+    let is_at_center = |lot: &Lot| {
+        let arm = minus(&before.center[fall.body], &lot.center);
+        arm.iter()
+            .all(|e| is_zero(e, &stage.scene.domains) == Some(true))
+    };
+    let ends_at_place = !matches!(fall.until, FallEnd::Time(_) | FallEnd::Turned(_));
+    let mut lots = lots.iter().filter(|lot| lot.bodies.contains(&fall.body));
+    if ends_at_place && lots.any(|lot| !is_at_center(lot)) {
+        let name = &stage.scene.bodies[fall.body].name;
+        let why = format!(
+            "`{name}` turns about the center of mass that it has in common with what sticks to it: when it is at this place has no closed form"
+        );
+        let hint = "end the flight after a time `for`, or an angle `by`";
+        return Err(Refused::new(&stage.name, why, hint));
+    }
+    Ok(())
 }
 
 /// The time a fall takes, and where it ends after a height also the vertical velocity at the end.
@@ -91,6 +160,22 @@ fn duration(
     };
     let (time, down) = match (&fall.until, &fall.gravity) {
         (FallEnd::Time(t), _) => (t.clone(), None),
+        (FallEnd::Turned(by), _) => {
+            let spin = &before.spin[fall.body];
+            if is_zero(spin, domains) == Some(true) {
+                let hint = match stage.scene.bodies[fall.body].is_particle() {
+                    true => "`body` names one that turns, and `with` what sticks to it",
+                    false => "give it a spin, or end the flight after a time `for`",
+                };
+                return Err(never("it does not turn", hint));
+            }
+            let way = free_sense(stage, spin);
+            let size = Expr::from(way) * spin;
+            let so = sentence!("`{}` turns {}", name, sense_words(way));
+            let still = || never("it does not turn", "end the flight after a time `for`");
+            supposed.positive(&size, so, still)?;
+            (tidied(stage, &(by / size))?, None)
+        }
         (FallEnd::Top, g) => {
             let g = g.clone().unwrap_or_else(Expr::zero);
             (tidied(stage, &(vy / &g))?, Some(Expr::zero()))

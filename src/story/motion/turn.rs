@@ -14,6 +14,7 @@ use begin::{fits, is_balanced, whirl};
 use top::{highest, hurdle, stops, swung};
 
 pub(in crate::story) use begin::sense;
+pub(super) use begin::{free_sense, sense_words};
 
 /// Whole turns that a body may have made before.
 const MOST_TURNS: usize = 20;
@@ -335,7 +336,7 @@ pub(in crate::story) fn arms(stage: &Stage, turn: &Turn, spin: &Expr) -> [Vector
 }
 
 /// A vector turned by the angle with this cosine and sine.
-fn rotated(r: &Vector, [c, s]: &Vector) -> Vector {
+pub(super) fn rotated(r: &Vector, [c, s]: &Vector) -> Vector {
     [&(&r[0] * c) - &(&r[1] * s), &(&r[0] * s) + &(&r[1] * c)]
 }
 

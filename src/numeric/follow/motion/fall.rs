@@ -17,6 +17,8 @@ enum End {
     Height(f64),
     /// After the center has come to the right by this much.
     Range(f64),
+    /// When it has turned through this angle.
+    Turned(f64),
     /// When the center rises no more.
     Top,
 }
@@ -28,18 +30,19 @@ pub(in crate::numeric::follow) fn fall(
     fall: &Fall,
 ) -> Result<Passed, Lost> {
     let bodies = fall.bodies();
-    if turn_together(course, &before, &bodies) {
-        return Err(
-            course.out_of_reach("bodies that are joined and turn do not fly each by itself")
-        );
-    }
+    let lots = turning(course, &before, &bodies)?;
     let gravity = course.optional(fall.gravity.as_ref(), "gravity")?;
     let end = match &fall.until {
         FallEnd::Time(time) => End::Time(course.number(time, "time")?),
         FallEnd::Drop(height) => End::Height(course.number(height, "height")?),
         FallEnd::Range(range) => End::Range(course.number(range, "range")?),
+        FallEnd::Turned(angle) => End::Turned(course.number(angle, "angle")?),
         FallEnd::Top => End::Top,
     };
+    let ends_at_place = matches!(end, End::Height(_) | End::Range(_) | End::Top);
+    if ends_at_place && lots.iter().any(|lot| lot.contains(&fall.body)) {
+        return Err(course.out_of_reach("the place of a body that turns with another"));
+    }
     if matches!(end, End::Time(time) if time < 0.0) {
         return Err(course.contradiction("the time is negative"));
     }
@@ -58,10 +61,12 @@ pub(in crate::numeric::follow) fn fall(
     }
     let is_timed = match &end {
         End::Time(_) => true,
+        End::Turned(_) => leader.spin.is_ok(),
         End::Height(_) | End::Top => leader.velocity[1].is_ok(),
         End::Range(_) => leader.velocity[0].is_ok(),
     };
-    if !is_timed {
+    let is_known = bodies.iter().all(|b| before.bodies[*b].known().is_ok());
+    if !is_timed || !lots.is_empty() && !is_known {
         let time = Err(course.open(Why::Needed));
         return Ok(all_open(
             course,
@@ -74,7 +79,12 @@ pub(in crate::numeric::follow) fn fall(
     let from = [0, 1].map(|k| closed.bodies[fall.body].center[k].clone().unwrap_or(0.0));
     let movers = Movers::of(course, &bodies, &closed, from)
         .map_err(|_| course.out_of_reach("the place of the body is open"))?;
-    let (units, run) = flight(course, &movers, gravity, (&end, fall.rising))?;
+    let stuck = lots.iter().map(|lot| {
+        let place = |b: &usize| bodies.iter().position(|other| other == b).unwrap_or(0);
+        lot.iter().map(place).collect()
+    });
+    let flying = (&movers, stuck.collect::<Vec<_>>());
+    let (units, run) = flight(course, &flying, gravity, (&end, fall.rising))?;
     let sizes = [units.length, units.time, units.mass];
     if !sizes.iter().chain(&run.end).all(|x| x.is_finite()) {
         return Err(course.out_of_reach("the flight goes beyond the doubles"));
@@ -84,7 +94,6 @@ pub(in crate::numeric::follow) fn fall(
     for b in &bodies {
         reopen(&before.bodies[*b], &mut after.bodies[*b], &open);
     }
-    let is_known = bodies.iter().all(|b| before.bodies[*b].known().is_ok());
     let time = Ok(run.time * units.time);
     let moved = Moved {
         bodies,
@@ -94,23 +103,56 @@ pub(in crate::numeric::follow) fn fall(
     Ok(course.moved([before, after], time, fall.gravity.is_some(), moved))
 }
 
-/// Whether bodies in flight are joined to each other and turn, other than a particle at the center of what turns.
-fn turn_together(course: &Course<'_>, before: &State, bodies: &[usize]) -> bool {
-    let mut joined = before
-        .joined
-        .iter()
-        .filter(|pair| pair.iter().all(|b| bodies.contains(b)));
-    joined.any(|[a, b]| {
-        let [one, two] = [a, b].map(|b| &before.bodies[*b]);
+/// Bodies in flight that are joined to each other and turn, each lot with the rigid one in front.
+fn turning(course: &Course<'_>, before: &State, bodies: &[usize]) -> Result<Vec<Vec<usize>>, Lost> {
+    let is_rigid = |b: usize| course.solids[b].freedom == Freedom::Rigid;
+    let all = before.joined.iter();
+    let joined: Vec<_> = all
+        .filter(|pair| pair.iter().all(|b| bodies.contains(b)))
+        .collect();
+    let apart = |pair: &[usize; 2]| {
+        let [one, two] = pair.map(|b| &before.bodies[b]);
         let gap = one.velocity.iter().zip(&two.velocity);
         let moves_off = gap.into_iter().any(|pair| match pair {
             (Ok(u), Ok(v)) => (u - v).abs() > ROUNDING * u.abs().max(v.abs()).max(REST),
             _ => false,
         });
-        let is_rigid = |b: &usize| course.solids[*b].freedom == Freedom::Rigid;
         let turns = |body: &BodyState| matches!(body.spin, Ok(w) if w.abs() > ROUNDING);
-        moves_off || is_rigid(a) && is_rigid(b) && (turns(one) || turns(two))
-    })
+        moves_off || pair.iter().all(|b| is_rigid(*b)) && (turns(one) || turns(two))
+    };
+    let mut out: Vec<Vec<usize>> = Vec::new();
+    for start in bodies.iter().filter(|b| is_rigid(**b)) {
+        let mut lot = vec![*start];
+        let mut k = 0;
+        while let Some(b) = lot.get(k) {
+            let with: Vec<usize> = joined
+                .iter()
+                .filter(|p| p.contains(b))
+                .flat_map(|p| **p)
+                .collect();
+            for b in with {
+                if !lot.contains(&b) {
+                    lot.push(b);
+                }
+            }
+            k += 1;
+        }
+        let mut within = joined.iter().filter(|p| lot.contains(&p[0]));
+        if !within.any(|pair| apart(pair)) {
+            continue;
+        }
+        if lot[1..].iter().any(|b| is_rigid(*b)) {
+            return Err(
+                course.out_of_reach("several bodies that turn and are joined to each other")
+            );
+        }
+        out.push(lot);
+    }
+    let is_in = |pair: &[usize; 2]| out.iter().any(|lot| lot.contains(&pair[0]));
+    match joined.iter().any(|pair| apart(pair) && !is_in(pair)) {
+        true => Err(course.out_of_reach("particles that are joined and move apart")),
+        false => Ok(out),
+    }
 }
 
 /// What was open stays open, and so do places that came from open velocities.
@@ -132,15 +174,16 @@ fn reopen(before: &BodyState, after: &mut BodyState, open: &Open) {
 /// The flight of bodies, of which the first one decides the end.
 fn flight(
     course: &Course<'_>,
-    movers: &Movers,
+    flying: &(&Movers, Vec<Vec<usize>>),
     gravity: f64,
     (end, is_rising): (&End, bool),
 ) -> Result<(Units, Run), Lost> {
-    let [.., u, v, _] = movers.states[0];
+    let (movers, stuck) = flying;
+    let [.., u, v, spin] = movers.states[0];
     let units = units_of(movers, gravity, end);
     let flight = Flight {
         course,
-        mechanism: free(movers, gravity, &units),
+        mechanism: free(movers, stuck, gravity, &units),
         start: movers.start(&units),
     };
     let run = match end {
@@ -150,6 +193,7 @@ fn flight(
         }
         End::Range(range) => flight.to_range(range / units.length, u)?,
         End::Top => flight.to_top(v)?,
+        End::Turned(angle) => flight.to_angle(*angle, spin)?,
         End::Height(height) => {
             let height = height / units.length;
             match (gravity > 0.0, is_rising) {
@@ -164,9 +208,10 @@ fn flight(
 
 /// Units of the order of the flight.
 fn units_of(movers: &Movers, gravity: f64, end: &End) -> Units {
-    let [.., u, v, _] = movers.states[0];
+    let [.., u, v, spin] = movers.states[0];
     let time = match end {
         End::Time(time) => *time,
+        End::Turned(angle) if spin != 0.0 => (angle / spin).abs(),
         End::Height(h) if gravity > 0.0 => {
             let deep = (v * v + 2.0 * gravity * h.abs()).sqrt();
             (v.abs() + deep) / gravity
@@ -174,7 +219,7 @@ fn units_of(movers: &Movers, gravity: f64, end: &End) -> Units {
         End::Height(h) if v != 0.0 => (h / v).abs(),
         End::Range(s) if u != 0.0 => (s / u).abs(),
         End::Top if gravity > 0.0 => v / gravity,
-        End::Height(_) | End::Range(_) | End::Top => 0.0,
+        End::Height(_) | End::Range(_) | End::Turned(_) | End::Top => 0.0,
     };
     let time = if time > 0.0 && time.is_finite() {
         time
@@ -183,7 +228,7 @@ fn units_of(movers: &Movers, gravity: f64, end: &End) -> Units {
     };
     let size = match end {
         End::Height(h) | End::Range(h) => h.abs(),
-        End::Time(_) | End::Top => 0.0,
+        End::Time(_) | End::Turned(_) | End::Top => 0.0,
     };
     let length = size.max(u.hypot(v) * time).max(gravity.abs() * time * time);
     let mass = movers.inertias.iter().fold(0.0, |a: f64, i| a.max(i[0]));
@@ -194,11 +239,16 @@ fn units_of(movers: &Movers, gravity: f64, end: &End) -> Units {
     }
 }
 
-/// Bodies that nothing but weight acts on.
-fn free(movers: &Movers, gravity: f64, units: &Units) -> Mechanism {
-    let mut out = movers.mechanism(units, [0.0, -gravity], Vec::new(), |_| false);
+/// Bodies that nothing but weight acts on, and those that are stuck together.
+fn free(movers: &Movers, stuck: &[Vec<usize>], gravity: f64, units: &Units) -> Mechanism {
+    let welds = stuck
+        .iter()
+        .flat_map(|lot| movers.welds(lot[0], lot.iter().copied(), units));
+    let is_stuck = |i: usize| stuck.iter().any(|lot| lot.contains(&i));
+    let mut out = movers.mechanism(units, [0.0, -gravity], welds.collect(), is_stuck);
     // What has no mass falls as all else does.
-    for (inertia, force) in out.inertias.iter_mut().zip(&mut out.forces) {
+    let alone = out.inertias.iter_mut().zip(&mut out.forces).enumerate();
+    for (_, (inertia, force)) in alone.filter(|(i, _)| !is_stuck(*i)) {
         if inertia[0] <= 0.0 {
             inertia[0] = 1.0;
             force[1] = -gravity * units.mass / units.force();
@@ -235,6 +285,20 @@ impl Flight<'_> {
             left: &|y| way * (y[0] - far),
             rate: &|_| 1.0,
             never: &mut |y, _| way * y[y.len() / 2] <= 0.0,
+        };
+        self.until(&self.start, goal)
+    }
+
+    /// Round through an angle.
+    fn to_angle(&self, angle: f64, spin: f64) -> Result<Run, Lost> {
+        let way = spin.signum();
+        if spin == 0.0 || angle < 0.0 {
+            return Err(self.course.never("it does not turn that way"));
+        }
+        let goal = Goal {
+            left: &|y| way * y[2] - angle,
+            rate: &|_| 1.0,
+            never: &mut |_, _| false,
         };
         self.until(&self.start, goal)
     }

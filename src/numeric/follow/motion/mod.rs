@@ -16,8 +16,6 @@ pub(super) use linkage::linkage;
 pub(super) use slide::slide;
 pub(super) use turn::turn;
 
-use std::ops::Range;
-
 use super::super::given::Freedom;
 use super::mechanism::{Asked, Constraint, Mechanism, Run, Stop};
 use super::{Component, Course, Lost, Open, Passed, State, Why};
@@ -227,9 +225,14 @@ impl Movers {
     }
 
     /// Bodies keep their places in the frame of another.
-    fn welds(&self, lead: usize, bodies: Range<usize>, units: &Units) -> Vec<Constraint> {
+    fn welds(
+        &self,
+        lead: usize,
+        bodies: impl IntoIterator<Item = usize>,
+        units: &Units,
+    ) -> Vec<Constraint> {
         let arm = |i: usize| difference(&self.arm(i), &self.arm(lead)).map(|r| r / units.length);
-        let each = bodies.filter(|i| *i != lead);
+        let each = bodies.into_iter().filter(|i| *i != lead);
         each.map(|i| Constraint::Weld {
             bodies: [lead, i],
             arm: arm(i),

@@ -18,14 +18,7 @@ pub(in crate::story) fn sense(
     let body = &stage.scene.bodies[turn.body].name;
     let begins = sign(spin, domains);
     let declared = turn.clockwise.map(|c| if c { -1 } else { 1 });
-    let seen = if begins.is_positive() || begins == Seen::Proved(Sign::NotNegative) {
-        Some(1)
-    } else if begins.is_negative() || begins == Seen::Proved(Sign::NotPositive) {
-        Some(-1)
-    } else {
-        None
-    };
-    match (declared, seen) {
+    match (declared, side(begins)) {
         (Some(d), Some(s)) if d != s => Err(Refused::new(
             &stage.name,
             format!(
@@ -39,19 +32,41 @@ pub(in crate::story) fn sense(
         (Some(d), _) => Ok((d, None)),
         (None, Some(s)) => Ok((s, None)),
         (None, None) if begins == Seen::Proved(Sign::Zero) => from_rest(stage, turn, None),
-        // A spin of either sign keeps it: the end is told for a positive one, where values do not say otherwise.
+        // A spin of either sign keeps it.
         (None, None) => {
-            let way = match constant(&spin.substitute(&stage.scene.values())) {
-                Some(Sign::Negative) => -1,
-                _ => 1,
-            };
+            let way = supposed(stage, spin);
             let words = sentence!("`{}` turns {}", body, sense_words(way));
             Ok((way, Some((&Expr::from(way) * spin, words))))
         }
     }
 }
 
-fn sense_words(way: i64) -> &'static str {
+/// The sense that a sign gives.
+fn side(spin: Seen) -> Option<i64> {
+    if spin.is_positive() || spin == Seen::Proved(Sign::NotNegative) {
+        Some(1)
+    } else if spin.is_negative() || spin == Seen::Proved(Sign::NotPositive) {
+        Some(-1)
+    } else {
+        None
+    }
+}
+
+/// The sense of a spin of open sign, as which it is told: counterclockwise, where values do not say otherwise.
+fn supposed(stage: &Stage, spin: &Expr) -> i64 {
+    match constant(&spin.substitute(&stage.scene.values())) {
+        Some(Sign::Negative) => -1,
+        _ => 1,
+    }
+}
+
+/// The sense in which what nothing acts on turns, 1 counterclockwise and −1 clockwise.
+pub(in crate::story::motion) fn free_sense(stage: &Stage, spin: &Expr) -> i64 {
+    side(sign(spin, &stage.scene.domains)).unwrap_or_else(|| supposed(stage, spin))
+}
+
+/// The sense in words.
+pub(in crate::story::motion) fn sense_words(way: i64) -> &'static str {
     if way > 0 {
         "counterclockwise"
     } else {
