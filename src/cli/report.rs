@@ -135,7 +135,7 @@ fn impact(
 ) -> Result<(Scene, Option<Derivation>), Failure> {
     if scene.has_stages() || scene.friction().is_some() {
         let worked = worked::in_cases(&scene).map_err(|why| refused(path, why))?;
-        let all = story::outcomes(&worked.told).map(|(name, case)| (name, case.asked()));
+        let all = story::outcomes(&worked.told).map(|(name, case)| (name, case.asked(&[])));
         let (scene, derivation) = only(path, all.collect(), stage)?;
         return Ok((scene, Some(derivation)));
     }

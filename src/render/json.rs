@@ -70,7 +70,7 @@ fn case(scene: &Scene, case: &Case) -> Value {
         "verified": case.proof.holds(),
         "admissible": super::possible::json(scene, &case.possible),
     }));
-    let (asked, derivation) = case.asked();
+    let (asked, derivation) = case.asked(&[]);
     out.extend(equations(&asked, &derivation));
     Value::Object(out)
 }

@@ -78,7 +78,7 @@ fn stage(scene: &Scene, s: &StageTold) -> String {
         if s.cases.len() > 1 {
             let _ = writeln!(out, "case {}:", k + 1);
         }
-        let (scene, derivation) = case.asked();
+        let (scene, derivation) = case.asked(&[]);
         equations(&mut out, &scene, &derivation);
         left_out(&mut out, &derivation);
         let only = super::possible::conditions(&scene, &case.possible);

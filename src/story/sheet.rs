@@ -44,7 +44,7 @@ pub fn impacts(scene: &Scene, told: &Told) -> Vec<(String, Scene)> {
     let put = |(name, case): (String, &Case)| {
         let mut one = put_together(scene, case);
         one.printed.clear();
-        one.questions = case.asked().0.questions;
+        one.questions = case.asked(&[]).0.questions;
         (name, one)
     };
     outcomes(told).map(put).collect()

@@ -129,7 +129,7 @@ pub(super) fn again(scene: &Scene, cases: &[Case], k: usize) -> Option<Again> {
 
 /// What is asked of a case, by name.
 fn results(case: &Case) -> Vec<(String, Expr)> {
-    let (_, derivation) = case.asked();
+    let (_, derivation) = case.asked(&[]);
     let all = derivation.answers.into_iter();
     all.filter_map(|a| match a.form {
         Form::Value { closed, .. } => Some((a.name, closed)),

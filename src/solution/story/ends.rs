@@ -401,7 +401,7 @@ impl Page<'_> {
 
 /// Whether a result reads otherwise in given quantities than in those an earlier stage handed on to this case.
 fn changes(case: &Case, formula: &Expr) -> bool {
-    let (_, derivation) = case.asked();
+    let (_, derivation) = case.asked(&[]);
     !case.handed.is_empty()
         && !derivation
             .answers

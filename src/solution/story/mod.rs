@@ -323,7 +323,7 @@ impl Page<'_> {
             }
             self.solution.section(1, heading);
         }
-        let (scene, derivation) = case.asked();
+        let (scene, derivation) = case.asked(&self.going_on([i, k]));
         if !together {
             self.handed(case);
         }
@@ -375,6 +375,20 @@ impl Page<'_> {
             needs,
             meanings: writer.solution.meanings,
         });
+    }
+
+    /// The bodies whose motion just after an impact later stages go on with.
+    fn going_on(&self, [i, k]: [usize; 2]) -> Vec<usize> {
+        let next = self.told.stages.iter().filter(|s| s.branch == Some((i, k)));
+        let all = next.flat_map(|s| match &s.placed.kind {
+            StageKind::Impact { .. } => {
+                let contacts = s.placed.scene.contacts.iter().flat_map(|c| c.bodies);
+                let hinges = s.placed.scene.hinges.iter().flat_map(|h| h.bodies);
+                contacts.chain(hinges).collect()
+            }
+            kind => kind.moved(),
+        });
+        all.collect()
     }
 
     /// The motion just after an impact: its equations, or the stage or case in which they were written already.

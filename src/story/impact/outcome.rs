@@ -467,8 +467,8 @@ impl Case {
     }
 
     /// The scene and the derivation without the questions that were only asked to find the outcome, unless there are no
-    /// others.
-    pub fn asked(&self) -> (Scene, Derivation) {
+    /// others, or the motion of these bodies comes with them.
+    pub fn asked(&self, of: &[usize]) -> (Scene, Derivation) {
         let mut scene = self.scene.clone();
         let mut derivation = self.derivation.clone();
         let own: Vec<&Question> = self.scene.questions.iter().filter(|q| q.hidden).collect();
@@ -487,17 +487,27 @@ impl Case {
                 after.is_zero() || is_zero(&change, &scene.domains) == Some(true)
             })
         };
-        let has_block = |q: &Question| {
-            let mut blocks = derivation.blocks.iter();
-            blocks.any(|b| {
-                let asks = b.asked_by.as_deref() == Some(q.name.as_str());
-                asks && !b.unknowns.iter().all(by_inspection)
-            })
-        };
         let asked = scene.questions.iter().any(|q| !q.hidden);
+        let moves = |u: &Unknown| match u {
+            Unknown::Velocity(b, _) | Unknown::Spin(b) => of.contains(b),
+            _ => false,
+        };
+        let mut blocks = derivation.blocks.clone();
+        let mut asking: Vec<&str> = Vec::new();
+        for block in &mut blocks {
+            let has_own = block.asked_by.as_deref().is_some_and(is_own);
+            if !has_own || block.unknowns.iter().all(by_inspection) {
+                continue;
+            }
+            match asked && !block.unknowns.iter().any(moves) {
+                true => block.asked_by = None,
+                false => asking.extend(block.asked_by.as_deref()),
+            }
+        }
         scene
             .questions
-            .retain(|q| !q.hidden || (!asked && has_block(q)));
+            .retain(|q| !q.hidden || asking.contains(&q.name.as_str()));
+        derivation.blocks = blocks;
         (scene, derivation)
     }
 }

@@ -219,6 +219,10 @@ fn duration(
             "its time is negative",
             "`for` counts from the beginning of the stage",
         ),
+        FallEnd::Turned(_) => never(
+            "its angle is negative",
+            "`by` counts in the sense in which it spins",
+        ),
         FallEnd::Top => never(
             "it begins on its way down",
             "the top of a flight comes after a beginning upwards",
