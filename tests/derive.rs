@@ -1,6 +1,6 @@
 //! Derivations of the shipped scenes: what the answers are, how few equations they took, and that every check holds.
 
-mod shared;
+use crate::shared;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -3,7 +3,7 @@
 //! The tables in `tests/falsified/` say what is falsified and how; scenes that are not possible stand in `tests/possible/`, wrong
 //! printed answers in `tests/printed/`.
 
-mod shared;
+use crate::shared;
 
 #[path = "equality/reader.rs"]
 mod reader;

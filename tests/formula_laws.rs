@@ -9,8 +9,7 @@ use carom::formula::{
 };
 use proptest::prelude::*;
 
-#[path = "shared/clock.rs"]
-mod clock;
+use crate::shared::clock;
 
 const NAMES: [&str; 12] = [
     "v",

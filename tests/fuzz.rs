@@ -1,13 +1,12 @@
 //! Strangers' input: random formulas, answers and scenes, half of them built from pieces, half mutated from the tables and
 //! scenes of this repository. Nothing panics, nothing runs away, whatever is read reads back.
 //!
-//! `CAROM_FUZZ=10000000 cargo test --release --test fuzz -- --nocapture --test-threads=1` runs ten million inputs: eight
+//! `CAROM_FUZZ=10000000 cargo test --release --test all fuzz:: -- --nocapture --test-threads=1` runs ten million inputs: eight
 //! tenths read, a tenth graded, a tenth read as scenes; and one in a hundred more where a scene is worked out. A case is known
 //! by its number; the slowest input of each target is printed, and `CAROM_FROM` says where to take a run up again.
 
-#[path = "shared/clock.rs"]
-mod clock;
-mod shared;
+use crate::shared;
+use crate::shared::clock;
 #[path = "fuzz/worked.rs"]
 mod worked;
 

@@ -1,9 +1,9 @@
 //! Laws of grading over the shipped answers: whatever is rewritten stays right, whatever is changed at one place is
 //! refuted, and an evaluation in doubles that shares nothing with the decision agrees.
 //!
-//! `CAROM_CASES=1000000 cargo test --release --test grading_laws -- --nocapture` for a long run.
+//! `CAROM_CASES=1000000 cargo test --release --test all grading_laws:: -- --nocapture` for a long run.
 
-mod shared;
+use crate::shared;
 
 use std::fs;
 

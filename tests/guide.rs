@@ -1,6 +1,6 @@
 //! Every command of the guide is run, and prints what stands below it; what it shows of a scene stands there.
 //!
-//! `UPDATE=1 cargo test --test guide` writes the outputs anew; reading that diff is the review.
+//! `UPDATE=1 cargo test --test all guide::` writes the outputs anew; reading that diff is the review.
 
 #![cfg(unix)]
 
@@ -67,7 +67,7 @@ fn every_command_of_the_guide_prints_what_stands_below_it() {
         fs::write(GUIDE, &renewed).expect("a writable guide");
     }
     let told = fs::read_to_string(GUIDE).expect("the guide");
-    assert_eq!(told, renewed, "UPDATE=1 cargo test --test guide");
+    assert_eq!(told, renewed, "UPDATE=1 cargo test --test all guide::");
 }
 
 /// Whether all that a part says is said by the whole.

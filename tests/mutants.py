@@ -78,11 +78,9 @@ def laid_out(folder, files):
             path.write_bytes(content)
 
 
-def built(folder, tests):
-    """The test programs, by name."""
-    command = ["cargo", "test", "--no-run", "--message-format=json", "--lib"]
-    for name in tests:
-        command += ["--test", name]
+def built(folder):
+    """The two test programs, of the library and of everything else."""
+    command = ["cargo", "test", "--no-run", "--message-format=json", "--lib", "--test", "all"]
     # What the crate needs is built already where CARGO_TARGET_DIR says; elsewhere it is built anew.
     flags = {"CARGO_TARGET_DIR": os.environ.get("CARGO_TARGET_DIR", str(folder / "target"))}
     run = subprocess.run(command + ["-q"], cwd=folder, env=os.environ | flags, stdout=subprocess.PIPE, text=True)
@@ -102,7 +100,7 @@ def notices(programs, folder, number, tests):
     environment = os.environ | {"CAROM_MUTANT": str(number), "RUST_BACKTRACE": "0", "CARGO_MANIFEST_DIR": str(folder)}
     for test in tests.split():
         name, _, only = test.partition(":")
-        command = [programs[name]] + ([only] if only else [])
+        command = [programs["lib"], only] if name == "lib" else [programs["all"], f"{name}::{only}"]
         try:
             run = subprocess.run(command, cwd=folder, env=environment, timeout=SECONDS, capture_output=True)
         except subprocess.TimeoutExpired:
@@ -125,7 +123,7 @@ def main():
     laid_out(folder, files)
     first, last = (int(x) for x in (args.only or f"1-{len(all_rows)}").split("-"))
     everything = {t for row in all_rows[first - 1 : last] for t in row[4].split()}
-    programs = built(folder, sorted({t.partition(":")[0] for t in everything} - {"lib"}))
+    programs = built(folder)
     for test in sorted(everything):
         if notices(programs, folder, 0, test):
             sys.exit(f"{test} fails without any mutant")

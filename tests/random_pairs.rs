@@ -3,7 +3,7 @@
 //!
 //! Pairs come from a table of identities, of identities that hold on one branch only and of near misses, filled with random
 //! parts over random domains: closed and open ends, poles, several angles. `CAROM_CASES=1000000 cargo test --release --test
-//! random_pairs -- --nocapture` for a long run.
+//! all random_pairs:: -- --nocapture` for a long run.
 
 use std::collections::BTreeMap;
 

@@ -1,6 +1,6 @@
 //! Every scene in `derivations/refused/` is refused, with exactly the text beside it.
 //!
-//! `UPDATE=1 cargo test --test refused` writes the expected texts anew; reading that diff is the review.
+//! `UPDATE=1 cargo test --test all refused::` writes the expected texts anew; reading that diff is the review.
 
 use std::fs;
 use std::path::Path;

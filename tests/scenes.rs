@@ -1,8 +1,8 @@
 //! Every scene in `derivations/` is read, and the schema knows every field it uses.
 //!
-//! `UPDATE=1 cargo test --test scenes` writes `schema/scene.schema.json` anew.
+//! `UPDATE=1 cargo test --test all scenes::` writes `schema/scene.schema.json` anew.
 
-mod shared;
+use crate::shared;
 
 use std::fs;
 use std::path::PathBuf;
@@ -126,7 +126,7 @@ fn the_schema_lies_where_every_shipped_scene_names_it() {
         fs::write(file, &schema).expect("a writable schema");
     }
     let kept = fs::read_to_string(file).expect("the schema");
-    assert_eq!(kept, schema, "UPDATE=1 cargo test --test scenes");
+    assert_eq!(kept, schema, "UPDATE=1 cargo test --test all scenes::");
     let schema: Value = serde_json::from_str(&schema).expect("JSON");
     assert!(schema["$id"].is_string());
     let file = fs::canonicalize(file).expect("a path");

@@ -42,7 +42,11 @@ impl Answer {
 
 impl Server {
     fn start(folder: &Path) -> Server {
-        let mut child = Command::new(CAROM)
+        Server::of(Path::new(CAROM), folder)
+    }
+
+    fn of(program: &Path, folder: &Path) -> Server {
+        let mut child = Command::new(program)
             .arg("serve")
             .arg(folder)
             // Debug builds of the tests share the cores with each other.
@@ -414,6 +418,7 @@ fn nothing_outside_of_the_folder_is_read() {
         "./stick.json",
         "stick.json%00",
         "stick.json/",
+        "stick.md",
     ] {
         assert_eq!(
             server.get(&format!("/v1/scenes/{name}")).status,
@@ -429,6 +434,36 @@ fn nothing_outside_of_the_folder_is_read() {
         assert_eq!(answer.status, 404, "{name}");
     }
     drop(server);
+    let _ = fs::remove_dir_all(place);
+}
+
+/// What a request comes to where a script stands in the place of the program that the server runs.
+#[cfg(target_os = "linux")]
+fn run_by(script: &str, place: &Path) -> Answer {
+    use std::os::unix::fs::PermissionsExt;
+    let program = place.join("carom");
+    fs::copy(CAROM, &program).expect("the program");
+    let server = Server::of(&program, Path::new("derivations"));
+    let other = place.join("script");
+    fs::write(&other, format!("#!/bin/sh\n{script}\n")).expect("a script");
+    fs::set_permissions(&other, fs::Permissions::from_mode(0o755)).expect("it may run");
+    fs::rename(&other, &program).expect("it takes the place");
+    server.post("derive", &json!({"name": STICK}))
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_command_has_a_bound_of_memory_and_wanting_more_is_no_fault() {
+    let place = folder("memory");
+    // The bound comes just after the beginning.
+    run_by("sleep 0.2; ulimit -v > \"$0.limit\"", &place);
+    let bound = fs::read_to_string(place.join("carom.limit")).expect("a bound");
+    assert_eq!(bound.trim(), (1 << 20).to_string(), "kibibytes");
+    let hungry = "echo 'memory allocation of 9 bytes failed' >&2; kill -ABRT $$";
+    let answer = run_by(hungry, &place);
+    assert_eq!(answer.status, 422);
+    assert!(answer.error().contains("more memory than a request may"));
+    assert_eq!(run_by("kill -ABRT $$", &place).status, 500);
     let _ = fs::remove_dir_all(place);
 }
 

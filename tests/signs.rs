@@ -1,7 +1,7 @@
 //! A sign that is proved for a domain is the sign of every exact value there: ends and corners of closed domains included.
 //!
 //! Expressions and domains are drawn at random, with factors that vanish at an end, touch zero inside or change sign.
-//! `CAROM_CASES=100000 cargo test --release --test signs -- --nocapture` for a long run.
+//! `CAROM_CASES=100000 cargo test --release --test all signs:: -- --nocapture` for a long run.
 
 use carom::algebra::{Field, Sign};
 use carom::domain::{Domain, Domains, Limit};

@@ -1,7 +1,7 @@
 //! Worked solutions: generated beside every scene, replayed step by step, safe whatever the scene is called.
-//! `UPDATE=1 cargo test --test solutions` writes the expected texts anew; reading that diff is the review.
+//! `UPDATE=1 cargo test --test all solutions::` writes the expected texts anew; reading that diff is the review.
 
-mod shared;
+use crate::shared;
 
 use std::fs;
 use std::path::{Path, PathBuf};

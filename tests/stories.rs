@@ -1,6 +1,6 @@
 //! Stories: the scenes of `derivations/` with stages, their answers, and laws that hold for every story.
 
-mod shared;
+use crate::shared;
 
 use std::path::{Path, PathBuf};
 

@@ -1,7 +1,7 @@
 //! A scene of one impact and the same impact as the only stage of a scene are one scene: both are read alike, and every command
 //! says the same of both.
 
-mod shared;
+use crate::shared;
 
 use std::path::Path;
 use std::process::Command;

@@ -433,17 +433,6 @@ fn captions_tell_the_values_in_the_units_of_the_scene() {
     assert!(plain(&draw(find("billiard-ball"), Which::Before).caption).contains("r = 30 mm"));
 }
 
-#[cfg(feature = "png")]
-#[test]
-fn a_png_has_letters_without_fonts_of_the_system() {
-    let with = png("<svg xmlns='http://www.w3.org/2000/svg' width='40' height='20'><text x='2' y='15' font-family='serif'>θ</text></svg>").expect("PNG");
-    let without =
-        png("<svg xmlns='http://www.w3.org/2000/svg' width='40' height='20'></svg>").expect("PNG");
-    assert_eq!(&with[..4], b"\x89PNG");
-    assert_ne!(with, without);
-    assert!(png("<svg").is_err());
-}
-
 #[test]
 fn a_ladder_stands_between_its_wall_and_its_floor() {
     let (_, scene) = (scenes().into_iter())

@@ -193,39 +193,3 @@ impl Drop for Draft {
         let _ = std::fs::remove_file(&self.path);
     }
 }
-
-#[cfg(all(test, target_os = "linux"))]
-mod tests {
-    use super::*;
-
-    fn told(script: &str) -> Result<Done, NoEnd> {
-        let runtime = tokio::runtime::Builder::new_current_thread()
-            .enable_all()
-            .build();
-        let job = Job {
-            arguments: ["-c", script].map(String::from).into(),
-            ..Job::default()
-        };
-        let shop = Workshop::new(PathBuf::from("sh"), 20);
-        runtime
-            .expect("a runtime")
-            .block_on(shop.run(job, Path::new("/")))
-    }
-
-    #[test]
-    fn a_command_has_a_bound_of_memory() {
-        let Ok(done) = told("sleep 0.2; ulimit -v") else {
-            panic!("a shell runs");
-        };
-        let kibibytes = (MEMORY >> 10).to_string();
-        assert_eq!(String::from_utf8_lossy(&done.out).trim(), kibibytes);
-    }
-
-    #[test]
-    fn one_that_wants_more_is_told_apart_from_a_fault() {
-        let script = "echo 'memory allocation of 9 bytes failed' >&2; kill -ABRT $$";
-        assert!(matches!(told(script), Err(NoEnd::Hungry)));
-        let done = told("kill -ABRT $$");
-        assert!(matches!(done, Ok(Done { status: None, .. })));
-    }
-}

@@ -104,7 +104,7 @@ pub fn page(
 ) -> String {
     let mut out = String::from(
         "# How carom grades\n\n\
-         <!-- Written by `UPDATE=1 cargo test --test grading` from the tables in tests/grading; do not edit. -->\n\n\
+         <!-- Written by `UPDATE=1 cargo test --test all grading::` from the tables in tests/grading; do not edit. -->\n\n\
          `carom grade --expected F --answer G` compares two formulas, `carom grade SCENE --quantity Q --answer G` an answer with the\n\
          derivation of a scene, `carom grade --batch` many of them as JSON lines. Every row below is a test.\n\n\
          ## Verdicts\n\n\

@@ -1,5 +1,7 @@
 //! Where the files of the tests lie.
 
+pub mod clock;
+
 use std::fs;
 use std::path::PathBuf;
 

@@ -1,0 +1,32 @@
+//! The tests of everything that the first build has, in one program: `cargo test --test all solutions::` runs those of a file.
+
+mod batch;
+mod derive;
+mod emitted;
+mod equality;
+mod export;
+mod falsified;
+mod files;
+mod formats;
+mod formula;
+mod formula_laws;
+mod friction;
+mod fuzz;
+mod grading;
+mod grading_laws;
+mod guide;
+mod possible;
+mod printed;
+mod random_pairs;
+mod random_scenes;
+mod random_stories;
+mod refused;
+mod reports;
+mod scenes;
+mod shared;
+mod signs;
+mod solutions;
+mod special;
+mod stories;
+mod tidy;
+mod wrapped;
