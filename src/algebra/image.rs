@@ -1,14 +1,17 @@
 //! Images of polynomials in one variable modulo 2⁶¹ − 1, all others at one fixed point.
 //!
 //! In: polynomials. Out: what they refuse, which is certain: that one divides another, that some have a common
-//! divisor, that one depends on differences of angles alone.
+//! divisor, that one depends on differences of angles alone, that one is a square.
 //! What they allow has to be shown by other means.
 
 use num_integer::Integer;
 
+use std::collections::BTreeSet;
+
+use super::field::Generator;
 use super::mono::{exponent, powers};
 use super::poly::Poly;
-use super::prime::{self, PLAIN, add, negative, one, power, random, times};
+use super::prime::{self, PLAIN, ROOTS, add, negative, one, power, random, times};
 use crate::expr::Int;
 
 /// A polynomial with the values of its terms at the point.
@@ -53,7 +56,12 @@ impl<'a> At<'a> {
 }
 
 fn residue(value: &Int) -> u64 {
-    let prime = prime::prime::<PLAIN>() as i64;
+    modulo::<PLAIN>(value)
+}
+
+/// A number modulo the prime.
+fn modulo<const C: u64>(value: &Int) -> u64 {
+    let prime = prime::prime::<C>() as i64;
     match value.as_i64() {
         Some(v) => v.rem_euclid(prime) as u64,
         None => value.mod_floor(&Int::from(prime)).as_i64().unwrap_or(0) as u64,
@@ -78,6 +86,68 @@ pub(super) fn refuses(divisor: &Poly, dividend: &Poly) -> bool {
         next
     });
     a != 0 && value != 0
+}
+
+/// Points at which a polynomial has to be a square before it may be one.
+const SQUARES: u64 = 8;
+/// Points looked at; each root has a value at half of them.
+const LOOKED_AT: u64 = 64 * SQUARES;
+
+/// Whether a polynomial is the square of nothing that is made of its variables and of these roots: at a point where all of them
+/// have values, its value has no root.
+pub(super) fn is_no_square(p: &Poly, roots: &[usize], gens: &[Generator]) -> bool {
+    let mut open: Vec<usize> = p.variables().into_iter().chain(roots.to_vec()).collect();
+    let mut needed = BTreeSet::new();
+    while let Some(v) = open.pop() {
+        if !needed.insert(v) {
+            continue;
+        }
+        match &gens[v].relation {
+            Some((2, value)) => open.extend(value.variables()),
+            Some(_) => return false,
+            None => {}
+        }
+    }
+    let mut seen = 0;
+    for round in 0..LOOKED_AT {
+        let mut at = vec![0; gens.len()];
+        let exists = needed.iter().all(|v| {
+            let drawn = random::<ROOTS>(*v as u64, round);
+            let value = match &gens[*v].relation {
+                Some((_, value)) => root(value_at(value, &at)).map(|root| match drawn % 2 {
+                    0 => root,
+                    _ => negative::<ROOTS>(root),
+                }),
+                None => Some(drawn),
+            };
+            at[*v] = value.unwrap_or(0);
+            value.is_some()
+        });
+        if exists && root(value_at(p, &at)).is_none() {
+            return true;
+        }
+        seen += u64::from(exists);
+        if seen == SQUARES {
+            break;
+        }
+    }
+    false
+}
+
+fn value_at(p: &Poly, at: &[u64]) -> u64 {
+    let terms = p.terms().map(|(mono, coeff)| {
+        let factor = prime::residue::<ROOTS>(modulo::<ROOTS>(coeff));
+        powers(mono).fold(factor, |value, (v, k)| {
+            times::<ROOTS>(value, power::<ROOTS>(at[v], k.into()))
+        })
+    });
+    terms.fold(0, add::<ROOTS>)
+}
+
+/// The root of a residue, if it has one; the prime is 3 modulo 4.
+fn root(x: u64) -> Option<u64> {
+    let root = power::<ROOTS>(x, prime::prime::<ROOTS>().div_ceil(4));
+    (times::<ROOTS>(root, root) == x).then_some(root)
 }
 
 /// Whether a polynomial changes when angles, given by the variables of their cosines and sines, are turned together, each in

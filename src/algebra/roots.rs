@@ -11,6 +11,7 @@ use num_traits::{One, Signed};
 use super::element::Element;
 use super::factor::{factor, primes_with_powers, square_part};
 use super::field::{Field, Generator, Kind};
+use super::image;
 use super::parts::Parts;
 use super::poly::{MOST_UNDER_ROOT, Poly};
 use super::substitution::Found;
@@ -230,6 +231,13 @@ impl Field {
             matches!(relation, Some((2, _))) && !matches!(kind, Kind::Abs(_))
         };
         let tower: Vec<usize> = self.algebraic.iter().copied().filter(square).collect();
+        let relation = |v: &usize| self.gens[*v].relation.as_ref();
+        let near = tower.iter().filter(|v| {
+            relation(v).is_some_and(|(_, radicand)| self.connected(p, radicand, &tower))
+        });
+        if image::is_no_square(p, &near.copied().collect::<Vec<_>>(), &self.gens) {
+            return None;
+        }
         let mut fuel = FUEL;
         let found = self.square_in(p, &tower, &mut fuel);
         if fuel == 0 && found.is_none() {
