@@ -1,7 +1,7 @@
 //! Verdicts on pairs of formulas: the table, and laws that hold for random pairs.
 
 #[path = "equality/reader.rs"]
-mod reader;
+pub mod reader;
 
 use carom::domain::Domains;
 use carom::equality::{Equality, How, decide};

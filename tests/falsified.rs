@@ -3,10 +3,8 @@
 //! The tables in `tests/falsified/` say what is falsified and how; scenes that are not possible stand in `tests/possible/`, wrong
 //! printed answers in `tests/printed/`.
 
+use crate::equality::reader;
 use crate::shared;
-
-#[path = "equality/reader.rs"]
-mod reader;
 
 use std::collections::BTreeMap;
 use std::fs;
