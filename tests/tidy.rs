@@ -202,6 +202,26 @@ fn no_function_is_longer_than_a_hundred_lines() {
 }
 
 #[test]
+fn every_mutant_has_its_place() {
+    let table = fs::read_to_string("tests/mutants.tsv").expect("the table");
+    let rows = table
+        .lines()
+        .filter(|l| !l.is_empty() && !l.starts_with('#'));
+    let lost = rows.filter(|row| {
+        let cells: Vec<&str> = row.split('\t').collect();
+        let text = fs::read_to_string(format!("src/{}", cells[0])).unwrap_or_default();
+        let which: usize = cells[1].parse().expect("which of them");
+        text.matches(cells[2]).count() < which
+    });
+    let lost: Vec<&str> = lost.collect();
+    assert!(
+        lost.is_empty(),
+        "no longer in the sources:\n{}",
+        lost.join("\n")
+    );
+}
+
+#[test]
 fn every_file_opens_by_saying_what_it_is_for() {
     let mute: Vec<_> = all_sources()
         .into_iter()
