@@ -11,8 +11,23 @@ use crate::answer::Answer;
 use crate::dimension;
 use crate::expr::{Expr, Symbol, Vector, dot};
 use crate::formula::{Content, Quantity, Reading, Relation};
-use crate::scene::Ask;
+use crate::scene::{Ask, EnergyWhen};
 use num_traits::{One, Signed};
+
+/// `ΔK = -…` as what is lost, where that is asked: a change is counted as a gain.
+fn gained(ask: &Ask, answer: &str) -> Option<String> {
+    let asked = matches!(ask, Ask::Energy { when, .. } if *when == EnergyWhen::Lost);
+    let text = answer.trim_start_matches([' ', '$']);
+    let (_, gain) = text.split_once('=').filter(|_| asked)?;
+    let change = text.starts_with('Δ') || text.starts_with("\\Delta");
+    let gain = gain.trim_matches([' ', '$']);
+    let signs = ['+', '-', '−'];
+    // A number keeps its unit beside it.
+    let lone = gain
+        .strip_prefix(['-', '−'])
+        .filter(|rest| !rest.contains(signs));
+    change.then(|| lone.map_or(format!("-({gain})"), str::to_string))
+}
 
 impl Sheet {
     /// Judges an answer for a quantity of the scene; a wrong one is held against the beliefs students have. Names of earlier
@@ -48,6 +63,12 @@ impl Sheet {
         let grade = self.judge_with_earlier(entry, answer, options);
         if grade.verdict != Verdict::Different {
             return grade;
+        }
+        if let Some(lost) = gained(&entry.question.ask, answer) {
+            let other = self.judge_with_earlier(entry, &lost, options);
+            if other.verdict == Verdict::Equivalent {
+                return other;
+            }
         }
         // `mu²` for m u², where μ is given and u was asked before.
         let mut names = entry.key.readable.clone();
