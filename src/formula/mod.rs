@@ -115,6 +115,12 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     {
         return read(&text, symbols);
     }
+    if held.any("\\")
+        && let Some(text) = upright(text)
+        && let Ok(reading) = read(&text, symbols)
+    {
+        return Ok(reading);
+    }
     if held.any("\u{ff10}")
         && let Some(reading) = read_full_width(text, symbols)
     {
@@ -161,6 +167,19 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
         return Err(*fault.hint("values and bounds are joined by words, as in x = 1 or x = 2"));
     }
     usual.map_err(|fault| *fault)
+}
+
+/// A text with ` \rm{m}` for `{\rm m}`, which is as long; an index and a d stay.
+fn upright(text: &str) -> Option<String> {
+    const OLD: &str = "{\\rm ";
+    let mut parts = text.split(OLD);
+    let mut out = parts.next()?.to_string();
+    for part in parts {
+        let stays = out.ends_with(['_', '^']) || part.starts_with("d}");
+        out.push_str(if stays { OLD } else { " \\rm{" });
+        out.push_str(part);
+    }
+    (out != text).then_some(out)
 }
 
 /// Reads a text with full-width characters as plain text, and tells places as they are in the text.

@@ -49,6 +49,9 @@ impl<'a> Lexer<'a> {
             }
             self.pos = end;
         }
+        if word == "rm" && rest[length..].starts_with('{') {
+            return self.font(start, word);
+        }
         if let Some(tok) = plain(word) {
             return Ok(tok);
         }
@@ -224,7 +227,7 @@ impl<'a> Lexer<'a> {
             return Ok(Tok::Degree);
         }
         self.pos = start;
-        if matches!(word, "mathrm" | "text" | "textrm" | "mathsf")
+        if matches!(word, "mathrm" | "rm" | "text" | "textrm" | "mathsf")
             && (self.before != Before::Nothing || as_unit)
             && let Some(tok) = self.unit(true)
         {
@@ -438,7 +441,9 @@ pub(super) fn decoration(rest: &str) -> Option<usize> {
     }
     // `\left.` and `\right.` are brackets nobody sees.
     let unseen = matches!(&rest[..length], "left" | "right") && rest[length..].starts_with('.');
-    known.then_some(length + usize::from(unseen))
+    // `\rm{m}` is a letter in another font, as `\mathrm{m}` is.
+    let font = rest.starts_with("rm{");
+    (known && !font).then_some(length + usize::from(unseen))
 }
 
 /// Whether blanks from `start` to `end` show as a space: one that ends a command does not, nor does `\left`.

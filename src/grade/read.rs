@@ -217,7 +217,8 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
 
 /// Where a vector is asked, `(2,3)` and `2, 3` are one, and so is `2i + 3j`.
 fn as_vector(key: &Key, text: &str) -> Option<(String, Reading)> {
-    let several = matches!(key.reading.content, Content::Joined(..));
+    let content = &key.reading.content;
+    let several = matches!(content, Content::Joined(..)) && !content.is_bounded();
     if !several && !vector(&key.reading) {
         return None;
     }

@@ -52,6 +52,8 @@ pub(super) fn named_values(
         finding = values(ctx, expected, exact);
     }
     match (mine, theirs) {
+        // `x_{1,2} = 1 ± √2`
+        (Some(mine), Some(theirs)) if is_counted(theirs, mine) => {}
         (Some(mine), Some(theirs)) if mine != theirs && !(is_asked(mine) && is_asked(theirs)) => {
             // The same equation, solved for another of its symbols.
             if let (Content::Relations(a, s), Content::Relations(b, t)) =
@@ -80,6 +82,13 @@ pub(super) fn named_values(
     }
     chain(ctx, answer, &mut finding);
     finding
+}
+
+/// Whether a name is that of several values of another, `x_{1,2}` of `x`.
+fn is_counted(name: &Symbol, of: &Symbol) -> bool {
+    let index = name.strip_prefix(&**of).map(|i| i.trim_start_matches('_'));
+    let number = |part: &str| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit());
+    index.is_some_and(|index| index.contains(',') && index.split(',').all(number))
 }
 
 /// A relation where a value is expected: whether it says that the value is this.
