@@ -188,16 +188,14 @@ impl Desk<'_> {
             _ => vec![e.clone()],
         };
         let gap = left - right;
-        let all = terms(left).into_iter().chain(terms(right));
-        let twice = |term: &Expr, k: i64| [&gap + &(term * &Expr::from(k))];
-        let mut single = all.take(MOST_TERMS).filter(|term| {
-            let none = BTreeMap::new();
-            // On the left a term stands in the gap as it is, on the right with the other sign.
-            [-2, 2]
-                .iter()
-                .any(|k| self.all_zero(&twice(term, *k), &none) == Some(true))
+        // On the left a term stands in the gap as it is, on the right with the other sign.
+        let all = [(left, -2), (right, 2)].into_iter();
+        let all = all.flat_map(|(side, k)| terms(side).into_iter().map(move |term| (term, k)));
+        let mut single = all.take(MOST_TERMS).filter(|(term, k)| {
+            let turned = &gap + &(term * &Expr::from(*k));
+            self.all_zero(&[turned], &BTreeMap::new()) == Some(true)
         });
-        let term = formula::write_plain(&single.next()?);
+        let term = formula::write_plain(&single.next()?.0);
         Some(Diagnosis::new(
             "TERM_SIGN",
             format!(
