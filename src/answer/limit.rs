@@ -20,24 +20,50 @@ use crate::formula::{Sentence, sentence, write_plain};
 /// Highest power among which the leading one is looked for.
 const LEADING: usize = 6;
 
-/// A limit: value, none, or not found, with the reason.
-pub fn fill(out: &mut Answer, of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) {
-    let outside = match to {
+/// What a formula tends to, `None` where no value is; nothing where it is not found.
+pub fn of(
+    formula: &Expr,
+    parameter: &Symbol,
+    to: Option<&Expr>,
+    domains: &Domains,
+) -> Option<Option<Expr>> {
+    Some(match found(formula, parameter, to, domains)?.tends {
+        Tends::To(value) => Some(value),
+        Tends::Beyond(_) | Tends::Apart => None,
+    })
+}
+
+/// Whether a parameter comes to a value, or grows beyond all bounds, on its domain.
+pub fn comes(parameter: &Symbol, to: Option<&Expr>, domains: &Domains) -> bool {
+    cannot_come(parameter, to, domains).is_none()
+}
+
+/// Words for a place that the parameter cannot come to.
+fn cannot_come(parameter: &Symbol, to: Option<&Expr>, domains: &Domains) -> Option<Sentence> {
+    match to {
         Some(to) => outside(to, parameter, domains),
         None => bounded(parameter, domains),
-    };
-    if let Some(words) = outside {
-        out.text.push(words);
-        out.checks.push(open("limit"));
-        return;
     }
-    let found = match to {
+}
+
+fn found(of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) -> Option<Found> {
+    match to {
         Some(to) => by_taylor(of, parameter, to, domains).or_else(|| {
             let at_root = to.is_zero() && side(parameter, to, domains) == Side::Above;
             at_root.then(|| by_powers(of, parameter, false, domains))?
         }),
         None => dying(of, parameter, domains).or_else(|| by_powers(of, parameter, true, domains)),
-    };
+    }
+}
+
+/// A limit: value, none, or not found, with the reason.
+pub fn fill(out: &mut Answer, of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) {
+    if let Some(words) = cannot_come(parameter, to, domains) {
+        out.text.push(words);
+        out.checks.push(open("limit"));
+        return;
+    }
+    let found = found(of, parameter, to, domains);
     let Some(found) = found else {
         out.text.push(Sentence::words("the limit was not found"));
         out.checks.push(open("limit"));

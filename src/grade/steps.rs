@@ -11,6 +11,7 @@ mod names;
 mod rounded;
 mod said;
 mod sought;
+mod tending;
 mod text;
 mod why;
 

@@ -182,12 +182,20 @@ impl Motion<'_> {
         }
     }
 
-    /// Velocity of the center of a body \[m/s\].
+    /// Velocity of the center of a body \[m/s\]; of bodies that move as one by the name that one of them has.
     fn velocity(&self, body: usize, moment: Moment) -> Vector {
         let (stage, state) = self.at(moment);
         let mut velocity = state.velocity[body].clone();
-        let questions = stage.into_iter().flat_map(|stage| self.asked(stage));
-        for q in questions {
+        let questions = || stage.into_iter().flat_map(|stage| self.asked(stage));
+        let own = |q: &&Question| matches!(&q.ask, Ask::Velocity { body: of, .. } if *of == body);
+        let as_one = |of: usize, axis: usize| {
+            let [of, this] = [of, body].map(|b| &state.velocity[b][axis]);
+            of == this && !this.is_zero()
+        };
+        for q in questions()
+            .filter(|q| !own(q))
+            .chain(questions().filter(own))
+        {
             let Ask::Velocity {
                 body: of,
                 point: None,
@@ -196,7 +204,10 @@ impl Motion<'_> {
             else {
                 continue;
             };
-            for axis in [0, 1].into_iter().filter(|_| *of == body) {
+            for axis in [0, 1]
+                .into_iter()
+                .filter(|a| *of == body || as_one(*of, *a))
+            {
                 let name = Expr::symbol(&q.name);
                 match along {
                     Some(d) if d[1 - axis].is_zero() && d[axis].is_one() => velocity[axis] = name,

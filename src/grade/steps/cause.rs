@@ -23,7 +23,7 @@ use crate::scene::{Ask, EnergyWhen, Question, Scene};
 const MOST_LAWS: usize = 10;
 
 /// Most steps for the search of one line's cause.
-const MOST_STEPS: u64 = 600_000;
+pub(super) const MOST_STEPS: u64 = 600_000;
 
 /// A name, and what stands for it.
 type Rule = (Symbol, Expr);
@@ -180,7 +180,12 @@ impl Desk<'_> {
         let ways = [solve_for, angle_in, size_in, under_root];
         ways.iter().find_map(|way| {
             let mut found = found.iter();
-            found.find_map(|n| Some(((*n).clone(), way(line, n, domains)?)))
+            found.find_map(|n| {
+                // That a given quantity is nothing, says a law that contradicts the lines before it.
+                let given = self.sheet.scene.parameter(n).is_some();
+                let root = way(line, n, domains).filter(|root| !given || !root.is_zero())?;
+                Some(((*n).clone(), root))
+            })
         })
     }
 
@@ -390,7 +395,7 @@ pub(super) fn size_in(line: &Expr, name: &Symbol, domains: &Domains) -> Option<E
 }
 
 /// What occurs under one root alone, as the height does in the speed of a fall.
-fn under_root(line: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
+pub(super) fn under_root(line: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
     let half = |part: &&Expr| match part.node() {
         Node::Power(base, k) => base.symbols().contains(name) && *k == Expr::ratio(1, 2),
         _ => false,

@@ -1,18 +1,20 @@
 //! The links of a chain `a = b = c`: each is judged by itself.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::relation::solve_for;
 use super::super::sheet::Entry;
 use super::super::{Diagnosis, Options, Verdict};
-use super::cause::size_in;
+use super::cause::{MOST_STEPS, size_in, under_root};
 use super::names::ACCELERATIONS;
-use super::text::{self, supposition};
-use super::{Desk, Final, MOST_CAUSES, Status};
+use super::text::supposition;
+use super::{Desk, Final, Status};
 use crate::algebra::{self, Sign};
+use crate::answer::limit;
 use crate::equality::{self, Equality};
-use crate::expr::{Expr, Function, Symbol};
+use crate::expr::{Expr, Function, Symbol, effort};
 use crate::formula::{self, Content, Reading, Relation};
+use crate::scene::Ask;
 
 /// One equality of a line.
 pub(super) struct Link {
@@ -47,6 +49,11 @@ impl Desk<'_> {
             let along = Expr::symbol(spin);
             let along = if *clockwise { -along } else { along };
             return Some([Expr::zero(), Expr::zero(), along]);
+        }
+        // `v_first` may be a speed that is asked for where a body is called `first`.
+        let mut answers = self.sheet.derivation.answers.iter();
+        if answers.any(|a| a.name == name) {
+            return None;
         }
         let part = |axis: &str| {
             let component = Symbol::from(format!("{name}_{axis}").as_str());
@@ -97,25 +104,6 @@ impl Desk<'_> {
         }
         let pairs = sides.windows(2);
         pairs.map(|pair| self.link(&pair[0], &pair[1])).collect()
-    }
-
-    /// What a line says of a limit, where it does not hold as it stands.
-    fn in_limit(&self, text: &str) -> Option<Status> {
-        if !text::tends(text) {
-            return None;
-        }
-        let none = BTreeMap::new();
-        let holds = |equation: &str| {
-            let reading = formula::read(equation, &self.symbols(equation)).ok();
-            let links = reading.and_then(|reading| self.links(&reading));
-            links.is_some_and(|links| {
-                let mut all = links.iter();
-                all.all(|link| self.all_zero(&link.differences, &none) == Some(true))
-            })
-        };
-        let equations = text::equations(text);
-        let hold = !equations.is_empty() && equations.into_iter().all(holds);
-        (!hold).then_some(Status::Comment)
     }
 
     /// Whether what a line says of one value of a parameter is so: `For θ = 0: ω = 3v/(2l)`. Nothing later hangs on it.
@@ -191,7 +179,7 @@ impl Desk<'_> {
                 _ if self.is_rounded(text, link, &none) => rounded = true,
                 None => open = true,
                 Some(false) if self.follows_condition(link) => {}
-                Some(false) => match self.cause(text, link).or_else(|| self.again(link)) {
+                Some(false) => match self.cause(text, link).or_else(|| self.carried_on(link)) {
                     Some(cause) => carried = carried.or(Some(cause)),
                     None => return Weighed::Slip(at),
                 },
@@ -205,8 +193,13 @@ impl Desk<'_> {
         }
     }
 
-    /// The wrong line whose slip a later one repeats: another number in place of a parameter gives both, as √e for e does
-    /// in `h_1 = e h` and `h_2 = e² h`.
+    fn carried_on(&self, link: &Link) -> Option<usize> {
+        effort::within(MOST_STEPS, || self.again(link))
+    }
+
+    /// The wrong line whose slip a later one repeats, or whose value it carries on by a law that nobody wrote: another value of
+    /// a parameter gives both, as √e for e does in `h_1 = e h` and `h_2 = e² h`, and v (m+M)/M for v in `u = m v/M` and
+    /// `t = m v/(μ g M)`.
     fn again(&self, link: &Link) -> Option<usize> {
         let (scene, none) = (&self.sheet.scene, BTreeMap::new());
         let value = |name: &Symbol, d: &Expr| solve_for(d, name, &scene.domains);
@@ -214,32 +207,50 @@ impl Desk<'_> {
             return None;
         };
         let name = link.sides[0].expr()?.as_symbol()?;
-        let right = self.closed.get(name)?;
+        let mut sought = self.sought.iter();
+        let asked = sought.find(|s| s.is_named(name));
+        let right = self.closed.get(asked.map_or(&**name, |s| &s.question))?;
         let mine = value(name, &self.with_own(one))?;
-        let number = Symbol::from("another number");
-        let numbers = scene.parameters.iter().filter(|p| p.dimension.is_none());
+        let mut questions = scene.questions.iter();
+        if let Some(Ask::Limit { of, parameter, to }) =
+            questions.find(|q| *q.name == **name).map(|q| &q.ask)
+        {
+            let mut implied = self.believed.iter().rev();
+            let found = implied.find(|(_, values)| {
+                let of = self.put_in(of, values);
+                let end = limit::of(&of, parameter, to.as_ref(), &scene.domains).flatten();
+                end.is_some_and(|end| self.all_zero(&[end - &mine], &none) == Some(true))
+            });
+            return found.map(|(cause, _)| *cause);
+        }
+        let number = Symbol::from("another value");
         let stands_for = |p: &Symbol, right: &Expr, mine: &Expr| {
-            let line = right.put(p, &Expr::symbol(&number)) - mine;
-            value(&number, &line).or_else(|| size_in(&line, &number, &scene.domains))
+            let right = right.put(p, &Expr::symbol(&number));
+            // It may stand below.
+            let lines = [&right - mine, right.powi(-1) - mine.powi(-1)];
+            let ways = [solve_for, size_in, under_root].into_iter();
+            let mut ways = ways.flat_map(|way| lines.iter().map(move |line| (way, line)));
+            ways.find_map(|(way, line)| way(line, &number, &scene.domains))
         };
-        let repeats = |wrong: &Expr, p: &Symbol| {
-            let names = wrong.symbols();
-            let mut before = names.iter().filter_map(|n| Some((n, self.closed.get(n)?)));
-            let (Some((name, first)), None) = (before.next(), before.next()) else {
-                return false;
-            };
-            let Some(theirs) = value(name, wrong) else {
-                return false;
-            };
-            let other = stands_for(p, first, &theirs);
+        let repeats = |values: &BTreeMap<Symbol, Expr>, name: &Symbol, p: &Symbol| {
+            let theirs = &values[name];
+            let first = self.closed.get(name).filter(|first| first.mentions(p));
+            let other = first.and_then(|first| stands_for(p, first, theirs));
             other.is_some_and(|other| {
-                let off = right.put(p, &other) - mine.put(name, &theirs);
+                let off = right.put(p, &other) - mine.substitute(values);
                 self.all_zero(&[off], &none) == Some(true)
             })
         };
-        let numbers: Vec<&Symbol> = numbers.map(|p| &p.name).collect();
-        let mut wrong = self.wrong.iter().rev().take(MOST_CAUSES);
-        let found = wrong.find(|(_, wrong)| numbers.iter().any(|p| repeats(wrong, p)));
+        let parameters = scene.parameters.iter().map(|p| &p.name);
+        let parameters: Vec<&Symbol> = parameters.filter(|p| right.mentions(p)).collect();
+        let mut tried = BTreeSet::new();
+        let mut implied = self.believed.iter().rev();
+        let found = implied.find(|(_, values)| {
+            values.iter().any(|(name, theirs)| {
+                let new = tried.insert((name, theirs));
+                new && parameters.iter().any(|p| repeats(values, name, p))
+            })
+        });
         found.map(|(cause, _)| *cause)
     }
 
@@ -315,7 +326,7 @@ impl Desk<'_> {
             Verdict::Equivalent => Status::Holds,
             Verdict::Different => match self.link(sides.first()?, sides.last()?) {
                 Some(link) => {
-                    let cause = self.cause(text, &link);
+                    let cause = self.cause(text, &link).or_else(|| self.carried_on(&link));
                     let weighed = cause.map_or(Weighed::Slip(0), Weighed::Carried);
                     self.note(number, reading, &[link], &weighed)
                 }

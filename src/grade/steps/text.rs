@@ -213,30 +213,6 @@ pub(super) fn supposition(text: &str) -> Option<(&str, &str)> {
     both.then(|| (given.trim_matches([' ', '$']), equation(behind)))
 }
 
-/// Whether a line speaks of what something tends to.
-pub(super) fn tends(text: &str) -> bool {
-    const PHRASES: &str =
-        "≫|≪|>>|<<|\\gg|\\ll|\\lim|very large|very small|very heavy|very light|for large|for small";
-    const WORDS: [&str; 4] = ["lim", "limit", "tends", "approaches"];
-    // An arrow to a lone zero, and not to the equation `0 = …`.
-    let is_end = |to: &str| {
-        let to = to.trim_start().trim_start_matches(['+', '-', '−']);
-        let zero = to.strip_prefix('0').map(str::trim_start);
-        to.starts_with(['∞'])
-            || to.starts_with("\\infty")
-            || to.starts_with("inf")
-            || zero.is_some_and(|behind| {
-                !behind.starts_with(|c: char| c.is_alphanumeric() || "=.^*/+-−<>".contains(c))
-            })
-    };
-    let arrows = ["→", "->", "\\to", "\\rightarrow"];
-    let mut goes = arrows.iter().filter_map(|arrow| text.split_once(arrow));
-    let mut words = text.split(|c: char| !c.is_ascii_alphabetic());
-    goes.any(|(_, to)| is_end(to))
-        || PHRASES.split('|').any(|phrase| text.contains(phrase))
-        || words.any(|word| WORDS.iter().any(|w| word.eq_ignore_ascii_case(w)))
-}
-
 /// A line without what aligns it with others in LaTeX: `ω &= 3v/(2ℓ) \\\\`.
 pub(super) fn unaligned(line: &str) -> String {
     let line = line.trim_end_matches("\\\\").trim_end();
