@@ -8,7 +8,7 @@ use super::Stop;
 use super::work::{Work, formulas};
 use crate::algebra::{self, Element, Sign};
 use crate::expr::{Expr, Int, Node, Rational, cross, dot, minus};
-use crate::formula::Sentence;
+use crate::formula::{Sentence, sentence};
 use crate::scene::{Body, Contact, ContactLaw};
 
 /// Longest condition that is printed with an answer, in characters.
@@ -89,13 +89,13 @@ impl Work<'_> {
     }
 
     /// What the closed forms rest on: signs taken for roots, and conditions `… ≠ 0` under which the blocks were solved.
-    pub(super) fn assumptions(&mut self) -> Vec<String> {
+    pub(super) fn assumptions(&mut self) -> Vec<Sentence> {
         let sign = |a: &algebra::Assumption| match a {
-            algebra::Assumption::NotNegative(e) => Sentence::not_negative(e).to_string(),
+            algebra::Assumption::NotNegative(e) => Sentence::not_negative(e),
         };
-        let mut all: Vec<String> = self.field.assumptions().iter().map(sign).collect();
+        let mut all: Vec<Sentence> = self.field.assumptions().iter().map(sign).collect();
         for base in self.radicands() {
-            let condition = Sentence::not_negative(&base).to_string();
+            let condition = Sentence::not_negative(&base);
             if !all.contains(&condition) {
                 all.push(condition);
             }
@@ -106,28 +106,28 @@ impl Work<'_> {
                 true => ", each with its own restitution (Newton)",
                 false => "",
             };
-            all.push(format!("all contacts act at the same instant{own}; acting one after another they could leave a different motion"));
+            all.push(format!("all contacts act at the same instant{own}; acting one after another they could leave a different motion").into());
         }
         for contact in &self.scene.contacts {
             if let ContactLaw::Decided(decided) = &contact.law {
                 let holds = decided.when.iter().map(|(left, relation, right)| {
-                    let [left, right] = [left, right].map(crate::formula::write_plain);
-                    format!("{left} {} {right}", relation.sign())
+                    sentence!("{} {} {}", left, relation.sign(), right)
                 });
                 // Nobody reads a condition of many lines; the table of cases has it.
-                let holds: Vec<String> = holds.collect();
-                match holds.iter().all(|h| h.chars().count() <= READABLE) {
+                let holds: Vec<Sentence> = holds.collect();
+                let is_short = |h: &Sentence| h.to_string().chars().count() <= READABLE;
+                match holds.iter().all(is_short) {
                     true => all.extend(holds),
-                    false => all.push(format!(
+                    false => all.push(Sentence::words(format!(
                         "{} {} (the case the values pick)",
                         contact.name,
                         decided.mode.words()
-                    )),
+                    ))),
                 }
             }
         }
         for divisor in self.blocks.iter().flat_map(|b| &b.divided_by) {
-            let condition = format!("{} ≠ 0", crate::formula::write_plain(divisor));
+            let condition = sentence!("{} ≠ 0", divisor);
             if !all.contains(&condition) {
                 all.push(condition);
             }

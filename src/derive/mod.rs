@@ -30,6 +30,7 @@ pub use plan::{Attachment, Reduction, reduction};
 use crate::algebra::{self, Element, Field};
 use crate::answer::{Answer, Form, Known};
 use crate::expr::{Expr, Symbol};
+use crate::formula::Sentence;
 use crate::laws::{Law, Unknown};
 use crate::scene::Scene;
 use work::Work;
@@ -63,7 +64,7 @@ pub struct Derivation {
     /// What the scene did not need.
     pub left_out: Vec<LeftOut>,
     /// What must hold for the answers: expressions that must not vanish, and signs that were seen rather than proved.
-    pub assumptions: Vec<String>,
+    pub assumptions: Vec<Sentence>,
     /// Writes the solutions of blocks.
     field: Arc<Mutex<Field>>,
 }

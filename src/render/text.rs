@@ -6,7 +6,7 @@ use std::fmt::Write;
 use super::unicode;
 use crate::answer::{Answer, Check, Form, Matrix};
 use crate::derive::Derivation;
-use crate::expr::Expr;
+use crate::expr::{Expr, Symbol};
 use crate::formula::{Relation, Sentence};
 use crate::laws;
 use crate::scene::{Ask, Question, Scene};
@@ -79,6 +79,15 @@ fn stage(scene: &Scene, s: &StageTold) -> String {
             let _ = writeln!(out, "case {}:", k + 1);
         }
         let (scene, derivation) = case.asked(&[]);
+        let stands = |name: &Symbol| {
+            let all = derivation.blocks.iter().flat_map(|b| &b.equations);
+            let mut all = all.flat_map(|e| e.terms.iter().map(|(_, k)| k).chain([&e.known]));
+            all.any(|e| e.symbols().contains(name))
+        };
+        for (name, value) in case.handed.iter().filter(|(name, _)| stands(name)) {
+            let [name, value] = [&Expr::symbol(name), value].map(|e| unicode(&scene, e));
+            let _ = writeln!(out, "from before: {name} = {value}");
+        }
         equations(&mut out, &scene, &derivation);
         left_out(&mut out, &derivation);
         let only = super::possible::conditions(&scene, &case.possible);

@@ -272,7 +272,9 @@ pub fn measure(
     let heading = Heading {
         title: scene.title.clone(),
         source: scene.source.clone(),
-        assumptions: derivation.map_or_else(Vec::new, |d| d.assumptions.clone()),
+        assumptions: derivation.map_or_else(Vec::new, |d| {
+            d.assumptions.iter().map(ToString::to_string).collect()
+        }),
     };
     let mut report = Report {
         title: scene.title.clone(),

@@ -294,8 +294,8 @@ impl Writer<'_> {
             let sign = if r.closed { "≤" } else { "<" };
             Inline::Math(vec![small, Math::Op(sign), large])
         }));
-        let others = self.d.assumptions.iter().chain(&self.proof.assumptions);
-        for a in others {
+        let own = self.d.assumptions.iter().map(ToString::to_string);
+        for a in own.chain(self.proof.assumptions.iter().cloned()) {
             let text = a.replace("the bodies approach", "bodies that approach");
             let condition = words::condition(self.scene, &text);
             if !all.contains(&condition) {

@@ -413,7 +413,7 @@ pub fn meaning(scene: &Scene, unknown: Unknown, reversed: bool) -> Meaning {
 /// Everything an answer rests on: what is said of the scene's symbols, what was divided by, what was seen and not proved.
 pub fn assumptions(scene: &Scene, d: &Derivation, proof: &Proof) -> Vec<String> {
     let mut all = scene.domains.conditions();
-    all.extend(d.assumptions.iter().cloned());
+    all.extend(d.assumptions.iter().map(ToString::to_string));
     all.extend(proof.assumptions.iter().cloned());
     all
 }

@@ -170,12 +170,11 @@ pub struct Case {
 }
 
 impl Case {
-    /// What it rests on beyond the domains: what was divided by, and what was seen and not proved.
-    pub fn assumptions(&self) -> impl Iterator<Item = &String> {
-        self.derivation
-            .assumptions
-            .iter()
-            .chain(&self.proof.assumptions)
+    /// What it rests on beyond the domains, in what the scene gives: what was divided by, and what was seen and not proved.
+    pub fn assumptions(&self) -> impl Iterator<Item = Sentence> {
+        let own = self.derivation.assumptions.iter();
+        let own = own.map(|words| words.put_in(&self.handed));
+        own.chain(self.proof.assumptions.iter().map(Sentence::from))
     }
 
     /// The laws that its motion was put into.

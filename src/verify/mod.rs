@@ -68,10 +68,9 @@ pub fn about_answers(
 ) -> Result<Vec<Answer>, Refused> {
     let mut answers = answer::about(scene, scene.asked_of_answers(), &derivation.known())?;
     for answer in &mut answers {
-        let given = derivation.assumptions.iter().chain(&proof.assumptions);
-        answer
-            .assumptions
-            .extend(given.map(crate::formula::Sentence::from));
+        let seen = proof.assumptions.iter().map(crate::formula::Sentence::from);
+        let given = derivation.assumptions.iter().cloned().chain(seen);
+        answer.assumptions.extend(given);
         answer.assumptions.sort();
         answer.assumptions.dedup();
     }

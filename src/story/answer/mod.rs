@@ -413,8 +413,7 @@ fn each_outcome(
 
 /// What an outcome of an impact rests on, and what must hold for it.
 fn rests_on(case: &Case) -> Vec<Sentence> {
-    let assumed = case.assumptions().map(Sentence::from);
-    assumed
+    case.assumptions()
         .chain(case.conditions.iter().map(supposed))
         .collect()
 }
