@@ -51,7 +51,7 @@ pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
         possible,
     };
     let mut answers = answers(&case);
-    let assumptions = case.assumptions().map(Sentence::from).collect();
+    let assumptions = case.assumptions().collect();
     let checks = case.proof.scene.clone();
     let first = answers.len();
     answers.extend(about);
@@ -82,7 +82,7 @@ fn answers(case: &Case) -> Vec<Answer> {
     let each = case.derivation.answers.iter().zip(&case.proof.answers);
     let answer = |(answer, checks): (&Answer, &Vec<_>)| Answer {
         told: Some((0, 0)),
-        assumptions: case.assumptions().map(Sentence::from).collect(),
+        assumptions: case.assumptions().collect(),
         checks: case.identities().chain(checks).cloned().collect(),
         ..answer.clone()
     };
