@@ -570,14 +570,15 @@ pub fn real(value: &Expr, domains: &Domains) -> Vec<Sentence> {
     out
 }
 
-/// What must hold for a value to lie within a domain, where that is not sure; in `Err` why it does not.
+/// What must hold for a value to lie within a domain, where that is not sure, and the domains where it does; in `Err` why it
+/// does not.
 pub(super) fn placed(
     symbol: &Symbol,
     value: &Expr,
     domain: &Domain,
     domains: &Domains,
-) -> Result<Vec<Sentence>, Sentence> {
-    let mut given = Vec::new();
+) -> Result<(Vec<Sentence>, Domains), Sentence> {
+    let (mut given, mut within) = (Vec::new(), domains.clone());
     for (limit, is_low) in [(&domain.low, true), (&domain.high, false)] {
         let Some(limit) = limit else { continue };
         let end = limit.expr();
@@ -594,6 +595,7 @@ pub(super) fn placed(
                 beyond_zero(&gap, domains, limit.open),
                 symbol
             ));
+            within = within.given(&essential(&gap, domains), !limit.open);
         }
         let how = if seen == Seen::Proved(Sign::NotPositive) && !limit.open {
             " or just at its end"
@@ -607,12 +609,27 @@ pub(super) fn placed(
                 "{} = {}, outside {}{}",
                 symbol,
                 value,
-                within(domain, symbol),
+                self::within(domain, symbol),
                 how
             ));
         }
     }
-    Ok(given)
+    Ok((given, within))
+}
+
+/// What must hold for something to vanish in which a root came out as the size of what may have either sign; `None` where it
+/// never does.
+fn fulfilled(put_in: &Expr, domains: &Domains) -> Option<Sentence> {
+    let tidied = tidy(put_in, domains).ok()?;
+    let sizes = tidied.parts().filter_map(|part| match part.node() {
+        Node::Call(Function::Abs, x) => Some(x.clone()),
+        _ => None,
+    });
+    let sides = sizes.flat_map(|x| [-&x, x]);
+    let core = |side: Expr| essential(&side, domains);
+    let vanishes = |side: &Expr| is_zero(&tidied, &domains.given(side, true)) == Some(true);
+    let side = sides.map(core).find(vanishes)?;
+    Some(at_least_zero(&side, domains))
 }
 
 /// Keeps a candidate, or says why not.
@@ -642,13 +659,16 @@ fn take(
         return;
     }
     given.extend(real(&value, domains));
-    match placed(symbol, &value, domain, domains) {
-        Ok(conditions) => given.extend(conditions),
+    let domains = match placed(symbol, &value, domain, domains) {
+        Ok((conditions, within)) => {
+            given.extend(conditions);
+            &within.clone()
+        }
         Err(why) => {
             out.discarded.push(why);
             return;
         }
-    }
+    };
     match is_zero(&put_in, domains) {
         Some(true) => out.inside.push(Root {
             value,
@@ -656,6 +676,15 @@ fn take(
             given,
         }),
         Some(false) if squared => {
+            if let Some(side) = fulfilled(&put_in, domains) {
+                given.push(side);
+                out.inside.push(Root {
+                    value,
+                    proved: true,
+                    given,
+                });
+                return;
+            }
             // Squaring adds solutions; a point decides.
             match seen(&put_in, domains) {
                 Seen::Mixed if !put_in.is_constant() => out.inside.push(Root {

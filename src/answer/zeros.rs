@@ -97,7 +97,7 @@ pub(super) fn angle(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Root
         for mut root in found.inside {
             if domain != own {
                 match placed(symbol, &root.value, &own, domains) {
-                    Ok(given) => root.given.extend(given),
+                    Ok((given, _)) => root.given.extend(given),
                     Err(why) => {
                         out.discarded.push(why);
                         continue;
