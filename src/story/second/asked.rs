@@ -209,11 +209,9 @@ impl Asked<'_> {
                 continue;
             }
             let gap = left - right;
-            let sides = [-ASIDE, 0.0, ASIDE].map(|step| {
-                let there = (
-                    parameter.clone(),
-                    at + step * self.scale(seen, parameter, at),
-                );
+            let aside = self.aside(seen, parameter, at);
+            let sides = [-aside, 0.0, aside].map(|step| {
+                let there = (parameter.clone(), at + step);
                 self.formula(seen, &gap, with, &[there])
             });
             let Some(tips) = tips(*relation, &sides) else {
@@ -228,6 +226,17 @@ impl Asked<'_> {
             }
         }
         out
+    }
+
+    /// How far from a value of a parameter its sides are looked at: as far as both are admitted, where they are at all.
+    fn aside(&self, seen: &Seen, parameter: &Symbol, at: f64) -> f64 {
+        let far = ASIDE * self.scale(seen, parameter, at);
+        let mut steps = (0..10).map(|halved| far * 0.5f64.powi(halved));
+        let both = |step: &f64| {
+            let mut sides = [at - step, at + step].into_iter();
+            sides.all(|value| self.admits(seen, parameter, value))
+        };
+        steps.find(both).unwrap_or(far)
     }
 
     /// Names of the stages that a question needs: those of the motions it is about, and those before them.
