@@ -93,7 +93,10 @@ pub(super) fn each(
                 None => world.known.remove(&name),
             };
         }
-        let one = |a: &Answer| (a.form.clone(), a.range.clone(), a.text.clone());
+        let one = |a: &Answer| {
+            let under = a.assumptions.clone();
+            (a.form.clone(), a.range.clone(), a.text.clone(), under)
+        };
         let says = |all: &[Answer]| all.iter().map(one).collect::<Vec<_>>();
         match found.iter_mut().find(|(f, ..)| says(f) == says(&answers)) {
             Some((_, holds)) => holds.push(w),
