@@ -41,6 +41,8 @@ pub(super) enum Claim {
     Approach(usize),
     /// This contact lies on the bodies that touch there.
     Touch(usize),
+    /// This blow lies on the body that it strikes.
+    Struck(usize),
     /// Both bodies of this hinge move alike there.
     Hinge(usize),
     /// The bodies of this contact do not strike, for another one has friction.
@@ -59,7 +61,7 @@ pub(super) fn check(scene: &mut Scene, claims: &[Claimed]) -> Vec<Fault> {
     let given = given(scene);
     for claimed in claims {
         // Where a size or a place is wrong, so is the outline.
-        if matches!(claimed.claim, Claim::Touch(_)) && !faults.is_empty() {
+        if matches!(claimed.claim, Claim::Touch(_) | Claim::Struck(_)) && !faults.is_empty() {
             continue;
         }
         let (fault, remark) = try_claim(scene, claimed, &given);
@@ -81,7 +83,8 @@ pub(super) fn at_values(scene: &Scene, span: Span) -> Option<Fault> {
     });
     let contacts = 0..scene.contacts.len();
     let contacts = contacts.flat_map(|i| [Claim::Touch(i), Claim::Approach(i)]);
-    let approaches = contacts.map(|claim| Claimed { span, claim });
+    let blows = (0..scene.blows.len()).map(Claim::Struck);
+    let approaches = contacts.chain(blows).map(|claim| Claimed { span, claim });
     let given = given(scene);
     let turns = scene.questions.iter().filter_map(|q| match &q.ask {
         Ask::Turn { number, .. } => Some(Claim::Whole(number.clone())),
@@ -165,10 +168,8 @@ fn try_claim(scene: &Scene, claimed: &Claimed, given: &Given) -> (Option<Fault>,
         Claim::AtParticle { offset, at, body } => at_particle(scene, offset, at, *body),
         Claim::Rests(i) => rests(scene, *i),
         Claim::Approach(i) => return (approach(scene, *i, given, claimed.span), None),
-        Claim::Touch(i) => match touch::misplaced_contact(scene, *i) {
-            Some(misplaced) => Tried::Refuted(misplaced.words, misplaced.hint),
-            None => Tried::Holds,
-        },
+        Claim::Touch(i) => placed(touch::misplaced_contact(scene, *i)),
+        Claim::Struck(i) => placed(touch::misplaced_blow(scene, *i)),
         Claim::Hinge(i) => scene
             .hinges
             .get(*i)
@@ -179,6 +180,11 @@ fn try_claim(scene: &Scene, claimed: &Claimed, given: &Given) -> (Option<Fault>,
         Tried::Refuted(message, hint) => (Some(Fault::new(claimed.span, message).hint(hint)), None),
         Tried::Undecided(remark) => (None, Some(remark)),
     }
+}
+
+/// Whether something lies on its bodies.
+fn placed(misplaced: Option<touch::Misplaced>) -> Tried {
+    misplaced.map_or(Tried::Holds, |off| Tried::Refuted(off.words, off.hint))
 }
 
 /// A number within its bounds, unless it is seen outside.

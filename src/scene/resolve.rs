@@ -223,6 +223,9 @@ impl<'f> Resolver<'f> {
             };
             if let (Some(body), Some(at), Some(impulse)) = (body, at, impulse) {
                 self.reach([body, body], &at, name.span, &name.text);
+                if self.file.stages.is_none() {
+                    self.claim(name.span, Claim::Struck(scene.blows.len()));
+                }
                 scene.blows.push(Blow {
                     name: name.text.clone(),
                     body,

@@ -16,11 +16,9 @@ use crate::algebra::Sign;
 use crate::domain::{Domains, generic_point, roles, samples};
 use crate::expr::{Expr, Point, Symbol, Vector, minus};
 
-/// A contact that does not lie on one of its bodies.
+/// A contact or a blow that does not lie on one of its bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Misplaced {
-    /// Index of the contact.
-    pub contact: usize,
     /// Index of the body.
     pub body: usize,
     /// Where it is, such as "the contact `C` is 3 m from the nearest point of `rod`".
@@ -47,10 +45,23 @@ pub fn is_second_latch(scene: &Scene, contact: &Contact) -> bool {
     sticks(contact) && first.any(same)
 }
 
-/// The contacts that lie off their bodies.
+/// The contacts and blows that lie off their bodies.
 pub fn misplaced(scene: &Scene) -> Vec<Misplaced> {
-    let all = 0..scene.contacts.len();
-    all.filter_map(|i| misplaced_contact(scene, i)).collect()
+    let contacts = (0..scene.contacts.len()).filter_map(|i| misplaced_contact(scene, i));
+    let blows = (0..scene.blows.len()).filter_map(|i| misplaced_blow(scene, i));
+    contacts.chain(blows).collect()
+}
+
+/// The same for one blow, which may also go to the middle of a body.
+pub fn misplaced_blow(scene: &Scene, i: usize) -> Option<Misplaced> {
+    let blow = scene.blows.get(i)?;
+    let body = scene.bodies.get(blow.body)?;
+    let words = off(scene, (&blow.at, true), body)?;
+    Some(Misplaced {
+        body: blow.body,
+        words: format!("the blow `{}` {words}", blow.name),
+        hint: hint(body),
+    })
 }
 
 /// The same for one contact.
@@ -61,9 +72,8 @@ pub fn misplaced_contact(scene: &Scene, i: usize) -> Option<Misplaced> {
     }
     contact.bodies.iter().find_map(|&b| {
         let body = scene.bodies.get(b)?;
-        let words = off(scene, contact, body)?;
+        let words = off(scene, (&contact.at, may_lie_inside(contact)), body)?;
         Some(Misplaced {
-            contact: i,
             body: b,
             words: format!("the contact `{}` {words}", contact.name),
             hint: hint(body),
@@ -71,13 +81,12 @@ pub fn misplaced_contact(scene: &Scene, i: usize) -> Option<Misplaced> {
     })
 }
 
-/// How a contact lies off a body, if it does for certain.
-fn off(scene: &Scene, contact: &Contact, body: &Body) -> Option<String> {
+/// How a place lies off a body, if it does for certain; whether it may lie inside is told with it.
+fn off(scene: &Scene, (at, inside): (&Vector, bool), body: &Body) -> Option<String> {
     // Where a particle is touched elsewhere, that has its own words.
     if body.is_particle() {
         return None;
     }
-    let (at, inside) = (&contact.at, may_lie_inside(contact));
     if let Some(distance) = distance(body, at, inside, &values(scene)) {
         return (distance > 0.0).then(|| away(distance, &body.name));
     }
