@@ -321,6 +321,18 @@ impl StageKind {
         }
     }
 
+    /// Whether one of two bodies slides on the other.
+    pub fn bears(&self, [a, b]: [usize; 2]) -> bool {
+        let StageKind::Slide(slide) = self else {
+            return false;
+        };
+        slide.on.as_ref().is_some_and(|on| {
+            let (above, below) = (slide.company(), on.company());
+            let rests = |top: usize, on: usize| above.contains(&top) && below.contains(&on);
+            rests(a, b) || rests(b, a)
+        })
+    }
+
     /// The list of those that move as one with a body which the motion moves; `None` where none can be added.
     pub(super) fn company_of(&mut self, body: usize) -> Option<&mut Vec<usize>> {
         match self {

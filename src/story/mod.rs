@@ -576,7 +576,8 @@ fn one(
         } => {
             joined::left_out(scene, stage)?;
             let named = named(scene, stages);
-            impact::tell(stage, before, one_sided, supposed.as_deref(), &named, given)
+            let acting = (one_sided.as_slice(), supposed.as_deref());
+            impact::tell(&scene.stages, stage, before, acting, &named, given)
         }
         StageKind::Turn(turn) => motion::turn(stage, before, turn),
         StageKind::Slide(slide) => {

@@ -165,6 +165,8 @@ fn through(scene: &Scene, solids: Vec<Solid>, start: &State, values: &Point<f64>
         let mut passed = before.and_then(|before| one(stage, solids, before, &values));
         if let Ok(passed) = &mut passed {
             passed.passing = passage::passing(scene, solids, &values, passed);
+            let back = passage::back_through(&course, &followed, (stage, passed), &values);
+            passed.passing.extend(back);
         }
         followed.stages.push(passed);
     }

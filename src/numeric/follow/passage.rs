@@ -1,13 +1,17 @@
 //! Bodies that pass through each other during a motion: the equations of motion do not know that, their outlines do.
 //!
 //! In: the file's bodies, and a motion with samples. Out: the pairs of bodies that are apart when it begins and in each other on
-//! the way. Bodies that a hinge, a sticking contact or a linkage joins at any time may overlap; so may those that do when the
-//! stage begins.
+//! the way. Bodies that a hinge, a sticking contact or a linkage joins, or that slide on each other, at any time may overlap; so
+//! may those that do when the stage begins. What is fixed has no outline: it is where it was struck before.
 
-use super::{Component, Passed, Solid, What, finite, finite_pair};
-use crate::expr::{Expr, Point};
+use std::iter::successors;
+
+use super::{
+    Component, Followed, Moved, Passed, Solid, State, What, at_places, finite, finite_pair,
+};
+use crate::expr::{Expr, Point, Vector};
 use crate::numeric::given::Undefined;
-use crate::scene::{Body, ContactLaw, Scene, Shape, Stage, StageKind};
+use crate::scene::{Body, ContactLaw, OneSided, Scene, Shape, Stage, StageKind};
 
 /// Most places looked at between two samples, and about how many in all.
 const BETWEEN: usize = 24;
@@ -74,13 +78,7 @@ pub(super) fn passing(
         let share = time / last.time;
         Some([0, 1, 2].map(|k| before[k] + share * (after[k] - before[k])))
     };
-    let mut times: Vec<f64> = Vec::new();
-    let between = (PLACES / moved.samples.len()).clamp(1, BETWEEN);
-    for pair in moved.samples.windows(2) {
-        let step = (pair[1].time - pair[0].time) / between as f64;
-        times.extend((0..between).map(|k| pair[0].time + step * k as f64));
-    }
-    times.push(last.time);
+    let times = times(moved);
     let mut out = Vec::new();
     for &a in &moved.bodies {
         for b in (0..outlines.len()).filter(|b| *b != a) {
@@ -105,7 +103,112 @@ pub(super) fn passing(
     out
 }
 
-/// Whether a hinge, a sticking contact or a linkage joins two bodies somewhere in a scene.
+/// Times at which the bodies of a motion are looked at.
+fn times(moved: &Moved) -> Vec<f64> {
+    let mut times: Vec<f64> = Vec::new();
+    let between = (PLACES / moved.samples.len().max(1)).clamp(1, BETWEEN);
+    for pair in moved.samples.windows(2) {
+        let step = (pair[1].time - pair[0].time) / between as f64;
+        times.extend((0..between).map(|k| pair[0].time + step * k as f64));
+    }
+    times.extend(moved.samples.last().map(|s| s.time));
+    times
+}
+
+/// The bodies that a motion along a line or a flight takes through something at rest which they have struck before: straight
+/// back against its normal, from the place where they struck it. It has no outline, but there it is.
+pub(super) fn back_through(
+    course: &[Stage],
+    followed: &Followed,
+    (stage, passed): (&Stage, &Passed),
+    values: &Point<f64>,
+) -> Vec<[usize; 2]> {
+    let What::Motion(moved) = &passed.what else {
+        return Vec::new();
+    };
+    if !matches!(stage.kind, StageKind::Slide(_) | StageKind::Fall(_)) {
+        return Vec::new();
+    }
+    let times = times(moved);
+    let mut out = Vec::new();
+    for j in successors(stage.from, |j| course[*j].from) {
+        let Ok(struck) = &followed.stages[j] else {
+            continue;
+        };
+        let there = at_places(&course[j], &struck.before, values);
+        for (pair, body, normal) in walls(&course[j]) {
+            let is_so = || {
+                let i = moved.bodies.iter().position(|m| *m == body)?;
+                let turns = |s: &State| s.bodies[body].spin != Ok(0.0);
+                if !is_round(&course[j].scene.bodies[body]) && turns(&passed.before) {
+                    return None;
+                }
+                let normal = finite_pair(&normal, &there, String::new).ok()?;
+                let [x, y] = &struck.before.bodies[body].center;
+                let from = [x.clone().ok()?, y.clone().ok()?];
+                let away = times.iter().map(|t| {
+                    let [x, y, _] = moved.pose(i, *t);
+                    let gone = [x - from[0], y - from[1]];
+                    let aside = gone[0] * normal[1] - gone[1] * normal[0];
+                    [dot(&gone, &normal), aside.abs()]
+                });
+                Some(is_behind(&away.collect::<Vec<_>>()))
+            };
+            if is_so() == Some(true) && !out.contains(&pair) {
+                out.push(pair);
+            }
+        }
+    }
+    out
+}
+
+/// Whether places by their height above a wall, and how far aside, come to lie behind it straight below where it was struck.
+fn is_behind(away: &[[f64; 2]]) -> bool {
+    let size = away
+        .iter()
+        .fold(0.0f64, |size, a| size.max(a[0].hypot(a[1])));
+    let tolerance = TOUCH * size;
+    away.windows(2).any(|pair| {
+        let [from, to] = [pair[0], pair[1]];
+        from[0] >= -tolerance && to[0] < -tolerance && from[1].max(to[1]) < tolerance
+    })
+}
+
+/// What is at rest and struck in an impact: the pair of bodies, the one that strikes it, and the normal towards that.
+fn walls(stage: &Stage) -> Vec<([usize; 2], usize, Vector)> {
+    let StageKind::Impact { one_sided, .. } = &stage.kind else {
+        return Vec::new();
+    };
+    let bodies = &stage.scene.bodies;
+    let rests = |b: usize| bodies[b].is_fixed() && bodies[b].velocity.iter().all(Expr::is_zero);
+    let supports = one_sided
+        .iter()
+        .filter(|o| !o.is_string)
+        .map(OneSided::acting);
+    let contacts = stage.scene.contacts.iter().cloned().chain(supports);
+    let contacts = contacts.filter(|c| !matches!(c.law, ContactLaw::None | ContactLaw::Sticking));
+    let all = contacts.filter_map(|c| {
+        let ([first, second], normal) = (c.bodies, c.normal?);
+        let pair = [first.min(second), first.max(second)];
+        match (rests(first), rests(second)) {
+            (true, false) => Some((pair, second, normal)),
+            (false, true) => Some((pair, first, normal.map(|n| -n))),
+            _ => None,
+        }
+    });
+    all.collect()
+}
+
+/// Whether it makes no difference how a body has turned.
+fn is_round(body: &Body) -> bool {
+    body.is_particle()
+        || matches!(
+            body.shape,
+            Shape::Disk { .. } | Shape::Ring { .. } | Shape::Sphere { .. }
+        )
+}
+
+/// Whether a hinge, a sticking contact or a linkage joins two bodies somewhere in a scene, or one slides on the other.
 fn joined(scene: &Scene, [a, b]: [usize; 2]) -> bool {
     let joins = |scene: &Scene| {
         let sticking = scene.contacts.iter();
@@ -117,7 +220,8 @@ fn joined(scene: &Scene, [a, b]: [usize; 2]) -> bool {
     };
     let linked = |stage: &Stage| {
         let moved = stage.kind.moved();
-        matches!(stage.kind, StageKind::Linkage(_)) && moved.contains(&a) && moved.contains(&b)
+        let links = matches!(stage.kind, StageKind::Linkage(_));
+        links && moved.contains(&a) && moved.contains(&b) || stage.kind.bears([a, b])
     };
     let mut stages = scene.stages.iter();
     joins(scene) || stages.any(|s| joins(&s.scene) || linked(s))

@@ -14,6 +14,7 @@ pub(super) use kind::TIME;
 pub(super) use slide::STIFFNESS;
 
 use std::collections::{BTreeMap, HashMap};
+use std::iter::successors;
 
 use crate::expr::{Expr, Symbol, Vector, minus};
 use crate::formula::near::nearest;
@@ -196,10 +197,7 @@ fn begin(scene: &mut Scene) {
 /// Gives the fixed points of rotations that the file puts at coordinates the name of a hinge, contact or point that is there, or
 /// a letter that is free.
 fn name_pivots(scene: &mut Scene) {
-    let joints = scene.stages.iter().flat_map(|s| {
-        let hinges = s.scene.hinges.iter().map(|h| (&h.name, &h.at));
-        hinges.chain(s.scene.contacts.iter().map(|c| (&c.name, &c.at)))
-    });
+    let joints = scene.stages.iter().flat_map(places_of_joints);
     let points = scene.points.iter().map(|p| (&p.name, &p.at));
     let mut known: Vec<(String, Vector)> = (joints.chain(points))
         .map(|(name, at)| (name.clone(), at.clone()))
@@ -211,20 +209,46 @@ fn name_pivots(scene: &mut Scene) {
         .into_iter()
         .filter(|l| !taken.contains(&l))
         .collect();
-    for stage in &mut scene.stages {
-        let StageKind::Turn(turn) = &mut stage.kind else {
+    for i in 0..scene.stages.len() {
+        let caught = caught(&scene.stages, i);
+        let StageKind::Turn(turn) = &mut scene.stages[i].kind else {
             continue;
         };
         if !turn.about_name.is_empty() {
             continue;
         }
-        turn.about_name = match known.iter().find(|(_, at)| *at == turn.about) {
-            Some((name, _)) => name.clone(),
+        let there = known.iter().find(|(_, at)| *at == turn.about);
+        turn.about_name = match there.map(|(name, _)| name).or(caught.as_ref()) {
+            Some(name) => name.clone(),
             None if free.is_empty() => String::from("pivot"),
             None => free.remove(0),
         };
         known.push((turn.about_name.clone(), turn.about.clone()));
     }
+}
+
+fn places_of_joints(stage: &Stage) -> impl Iterator<Item = (&String, &Vector)> {
+    let hinges = stage.scene.hinges.iter().map(|h| (&h.name, &h.at));
+    hinges.chain(stage.scene.contacts.iter().map(|c| (&c.name, &c.at)))
+}
+
+/// The joint of an impact about which the bodies turn from there on: in an impact they stay where they are.
+fn caught(stages: &[Stage], i: usize) -> Option<String> {
+    let StageKind::Turn(turn) = &stages[i].kind else {
+        return None;
+    };
+    let before = successors(stages[i].from, |j| stages[*j].from).map(|j| &stages[j]);
+    let mut impacts = before.take_while(|s| matches!(s.kind, StageKind::Impact { .. }));
+    impacts.find_map(|impact| {
+        let bodies = impact.scene.bodies.iter();
+        let places = bodies.map(|b| [&b.center[0], &b.center[1], &b.angle]);
+        let now = stages[i].places.iter().flatten().cloned();
+        let then = places.flatten().cloned();
+        let map: BTreeMap<Symbol, Expr> = now.zip(then).collect();
+        let about = turn.about.each_ref().map(|c| c.substitute(&map));
+        let mut joints = places_of_joints(impact);
+        joints.find_map(|(name, at)| (*at == about).then(|| name.clone()))
+    })
 }
 
 /// The stage each question about motion belongs to, by index of question.
@@ -444,7 +468,7 @@ fn one(
     // they are checked then.
     r.claims.retain(|c| match &c.claim {
         Claim::Approach(_) | Claim::Hinge(_) | Claim::Rests(_) => false,
-        Claim::AtParticle { .. } | Claim::Touch(_) => places.is_empty(),
+        Claim::AtParticle { .. } | Claim::Touch(_) | Claim::Struck(_) => places.is_empty(),
         _ => true,
     });
     let Resolver {

@@ -11,8 +11,9 @@ use crate::formula::write_plain;
 use crate::scene::{Body, OneSided, Scene, Stage, touch};
 use crate::story::{Part, Refused, State};
 
-/// A particle is touched where it is.
+/// A particle is touched where it is, but by what slides on it in some stage: a plank of no given size is below that wherever it is.
 pub(super) fn touches(
+    course: &[Stage],
     stage: &Stage,
     scene: &Scene,
     one_sided: &[OneSided],
@@ -26,9 +27,10 @@ pub(super) fn touches(
     let supports = one_sided
         .iter()
         .map(|o| (&o.name, o.bodies, &o.at, Some(o)));
+    let bears = |bodies: [usize; 2]| course.iter().any(|s| s.kind.bears(bodies));
     for (name, bodies, at, one_sided) in joints.chain(supports) {
         for (b, body) in bodies.map(|b| (b, &scene.bodies[b])) {
-            if !body.is_particle() {
+            if !body.is_particle() || bears(bodies) {
                 continue;
             }
             let gap = one_sided.map_or_else(|| minus(at, &body.center), |o| o.gap(&body.center));

@@ -15,7 +15,7 @@ use outcome::{
 };
 
 use super::{Case, Kept, Refused, StageTold, State};
-use crate::answer::calc::sign;
+use crate::answer::calc::{Seen, is_zero, sign};
 use crate::derive;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, sentence};
@@ -24,10 +24,10 @@ use crate::verify::friction;
 
 /// Works out an impact.
 pub(super) fn tell(
+    course: &[Stage],
     stage: &Stage,
     before: State,
-    one_sided: &[OneSided],
-    supposed: Option<&[String]>,
+    (one_sided, supposed): (&[OneSided], Option<&[String]>),
     named: &[(Symbol, Expr)],
     given: &[(String, Expr)],
 ) -> Result<StageTold, Refused> {
@@ -45,7 +45,7 @@ pub(super) fn tell(
             w.clone()
         };
     }
-    touches(stage, &base, one_sided, &before)?;
+    touches(course, stage, &base, one_sided, &before)?;
     hinges_fit(stage, &base, &before)?;
     let approaching = approach(stage, &base, &before)?;
     let handed = hand_on(&mut base, named);
@@ -206,14 +206,17 @@ fn kept(scene: &Scene, one_sided: &[OneSided], cases: &[Case]) -> Vec<Kept> {
             ContactLaw::Frictionless { restitution } => restitution.as_symbol(),
             _ => None,
         });
-        let spared = elastic.filter(|e| closed.put(e, &Expr::one()).is_zero());
+        let is_none = |e: &Expr| is_zero(e, &scene.domains) == Some(true);
+        let spared = elastic.filter(|e| is_none(&closed.put(e, &Expr::one())));
+        let seen = sign(closed, &scene.domains);
         out.push(Kept {
             what: "kinetic energy".into(),
             conserved: closed.is_zero(),
             why: match spared {
                 _ if closed.is_zero() => "none is lost at the contacts".into(),
-                _ if sign(closed, &scene.domains).side() == Some(false) => {
-                    sentence!("{} is gained", &-closed)
+                _ if seen.side() == Some(false) => sentence!("{} is gained", &-closed),
+                _ if seen == Seen::Mixed => {
+                    sentence!("{} is lost, or gained where that is negative", closed)
                 }
                 Some(e) => sentence!("{} is lost, nothing where {} = 1", closed, e),
                 None => sentence!("{} is lost", closed),
