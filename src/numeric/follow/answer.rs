@@ -247,8 +247,15 @@ impl InStage<'_> {
 
     /// How far a body slid \[m\], on a moving one as seen from there and in the sense of its slip at the beginning.
     fn distance(&self) -> Result<f64, Unanswered> {
-        let StageKind::Slide(slide) = &self.stage.kind else {
-            return Err(Unanswered::NotANumber);
+        let slide = match &self.stage.kind {
+            StageKind::Slide(slide) => slide,
+            StageKind::Fall(fall) => {
+                let [from, to] = [&self.passed.before, &self.passed.after];
+                let [from, to] = [from, to].map(|state| state.bodies[fall.body].center.clone());
+                let [[x, y], [u, v]] = [from, to];
+                return Ok((u? - x?).hypot(v? - y?));
+            }
+            _ => return Err(Unanswered::NotANumber),
         };
         let along = pair(&self.course, &slide.along)?;
         let far = gone(self.passed, slide.body, along)?;

@@ -128,6 +128,7 @@ impl Asked<'_, '_> {
 
     /// The time that a stage takes, or the distance that a body goes in it.
     fn passed(&mut self) -> Option<Ask> {
+        let flies = self.stage.fall.as_ref();
         let (ask, what, hint, fits) = match self.q.time {
             Some(_) => (
                 Ask::Time,
@@ -138,8 +139,8 @@ impl Asked<'_, '_> {
             None => (
                 Ask::Distance,
                 "distance",
-                "a distance is that of a `slide`; elsewhere ask for the `position` of a body",
-                self.stage.slide.is_some(),
+                "a distance is that of a `slide`, or of a `fall` without gravity; elsewhere ask for the `position` of a body",
+                self.stage.slide.is_some() || flies.is_some_and(|fall| fall.gravity.is_none()),
             ),
         };
         if !fits {

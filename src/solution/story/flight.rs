@@ -291,6 +291,11 @@ impl Page<'_> {
                 let spin = self.named(&if *clockwise { -spin } else { spin.clone() });
                 [&shown, time].map(|time| &spin * time)
             }
+            Ask::Distance => {
+                let v = &told.before.velocity[fall.body];
+                let speed = self.named(&tidied(self.scene, &dot(v, v).sqrt()));
+                [&shown, time].map(|time| &speed * time)
+            }
             Ask::Time if told.time.as_ref() == answer.formula() => {
                 let raw = self.takes(told, fall, time);
                 [raw.clone(), raw]

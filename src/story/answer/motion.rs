@@ -235,7 +235,13 @@ pub(super) fn distance(question: &Question, told: &StageTold) -> Answer {
         false => format!("distance covered in `{stage}`"),
     };
     let value = told.way.clone();
-    measured(question, told, words, value, "where it leads is open")
+    let why = match told.lots.is_empty() {
+        true => "where it leads is open",
+        false => {
+            "bodies that are stuck together turn about their common center of mass and go along curves"
+        }
+    };
+    measured(question, told, words, value, why)
 }
 
 /// Whether a body slides on another that moves too.

@@ -98,6 +98,11 @@ pub(in crate::story) fn fall(
         FallEnd::Turned(_) => Some(turned(fall.body, &lead)),
         _ => None,
     };
+    // Without weight it goes straight on.
+    if fall.gravity.is_none() && !lots.iter().any(|lot| lot.bodies.contains(&fall.body)) {
+        let v = &out.before.velocity[fall.body];
+        out.way = Some(tidied(stage, &(&dot(v, v).sqrt() * &time))?);
+    }
     out.time = Some(time);
     out.lots = lots;
     supposed.told(&mut out);
