@@ -18,6 +18,8 @@ const BETWEEN: usize = 24;
 const PLACES: usize = 600;
 /// Bodies that are in each other by less than this share of what is at hand only touch.
 const TOUCH: f64 = 1e-4;
+/// Share of a coordinate below which differences are rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// A rectangle with round corners: a disk has no sides, a rod no height, a particle neither.
 struct Piece {
@@ -152,7 +154,8 @@ pub(super) fn back_through(
                     let aside = gone[0] * normal[1] - gone[1] * normal[0];
                     [dot(&gone, &normal), aside.abs()]
                 });
-                Some(is_behind(&away.collect::<Vec<_>>()))
+                let far = from[0].hypot(from[1]);
+                Some(is_behind(&away.collect::<Vec<_>>(), far))
             };
             if is_so() == Some(true) && !out.contains(&pair) {
                 out.push(pair);
@@ -162,12 +165,13 @@ pub(super) fn back_through(
     out
 }
 
-/// Whether places by their height above a wall, and how far aside, come to lie behind it straight below where it was struck.
-fn is_behind(away: &[[f64; 2]]) -> bool {
+/// Whether places by their height above a wall, and how far aside, come to lie behind it straight below where it was struck, by more
+/// than what is lost to rounding so far from the origin.
+fn is_behind(away: &[[f64; 2]], far: f64) -> bool {
     let size = away
         .iter()
         .fold(0.0f64, |size, a| size.max(a[0].hypot(a[1])));
-    let tolerance = TOUCH * size;
+    let tolerance = (TOUCH * size).max(ROUNDING * far);
     away.windows(2).any(|pair| {
         let [from, to] = [pair[0], pair[1]];
         from[0] >= -tolerance && to[0] < -tolerance && from[1].max(to[1]) < tolerance

@@ -27,7 +27,7 @@ const ROUNDING: f64 = 1e-9;
 const REST: f64 = 1e-12;
 /// Angle at which a balanced body is taken up; what its weight does until there is of the order of its square.
 const NUDGE: f64 = 1e-6;
-/// Share of a motion's time that parts the last sample from the one before it at least.
+/// Share of a motion's time that parts two samples at least.
 const CLOSE: f64 = 1e-4;
 /// Most samples that are kept of a motion.
 const SAMPLES: usize = 400;
@@ -263,10 +263,16 @@ fn sampled(run: &Run, unit: f64, poses: impl Fn(&[f64]) -> Option<Vec<[f64; 3]>>
     let stride = run.samples.len().div_ceil(SAMPLES);
     let last = run.samples.len() - 1;
     let picked = run.samples.iter().enumerate();
-    // A cubic through places at nearly the same time would swing out: the last one stands alone.
-    let close = run.samples[last].0 * (1.0 - CLOSE);
-    let picked =
-        picked.filter(|(k, (time, _))| k % stride == 0 && (*k == 0 || *time < close) || *k == last);
+    // A cubic through places at nearly the same time would swing out: where something ends, its last step may be short.
+    let (end, gap) = (run.samples[last].0, run.samples[last].0 * CLOSE);
+    let mut before = f64::NEG_INFINITY;
+    let picked = picked.filter(|(k, (time, _))| {
+        let stands = k % stride == 0 && *time >= before + gap && *time < end - gap;
+        if stands {
+            before = *time;
+        }
+        stands || *k == 0 || *k == last
+    });
     let samples = picked.filter_map(|(_, (time, y))| {
         Some(Sample {
             time: time * unit,
