@@ -4,11 +4,11 @@ use super::{Case, StageTold, change, line};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, is_zero, sign, tidy};
 use crate::derive;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Symbol, dot};
 use crate::formula::{Sentence, listed, sentence};
 use crate::scene::{
-    BlowImpulse, ContactLaw, Fall, FallEnd, OneSided, Scene, Slide, SlideEnd, Stage, StageKind,
-    Turn, Until,
+    BlowImpulse, Contact, ContactLaw, Fall, FallEnd, OneSided, Scene, Slide, SlideEnd, Stage,
+    StageKind, Turn, Until,
 };
 
 /// Which supports act in an outcome.
@@ -119,6 +119,9 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
     let mut out: Vec<Sentence> = Vec::new();
     match &stage.kind {
         StageKind::Impact { one_sided, .. } => {
+            if told.cases.first().is_some_and(nothing_collides) {
+                out.push("nothing collides: the bodies do not approach where they touch".into());
+            }
             for case in &told.cases {
                 let mut all: Vec<Sentence> = Vec::new();
                 let several = told.cases.len() > 1 || !one_sided.is_empty();
@@ -174,6 +177,22 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
         }
     }
     out
+}
+
+/// Whether nothing approaches what it touches in an impact, and nothing is struck or set free.
+fn nothing_collides(case: &Case) -> bool {
+    let scene = &case.scene;
+    let rests = |contact: &Contact| {
+        let gap = contact.relative_velocity(scene);
+        let gap = match &contact.normal {
+            Some(normal) if contact.law != ContactLaw::Sticking => vec![dot(&gap, normal)],
+            _ => gap.to_vec(),
+        };
+        let mut parts = gap.iter().map(|e| is_zero(e, &scene.domains));
+        contact.law != ContactLaw::None && parts.all(|zero| zero == Some(true))
+    };
+    let is_quiet = scene.blows.is_empty() && scene.after.is_empty() && !scene.gains_energy;
+    is_quiet && !scene.contacts.is_empty() && scene.contacts.iter().all(rests)
 }
 
 /// Short clauses as one sentence; those that have parts themselves stay apart.
