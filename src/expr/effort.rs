@@ -9,6 +9,13 @@ use std::cell::Cell;
 
 thread_local! {
     static LEFT: Cell<Option<u64>> = const { Cell::new(None) };
+    static SCOPE: Cell<u64> = const { Cell::new(0) };
+}
+
+/// Counts the limits that began or ended on this thread: what is remembered across one would let a decision hang on what was
+/// asked before it.
+pub(crate) fn scope() -> u64 {
+    SCOPE.get()
 }
 
 /// Ends the limit, also where the work panics.
@@ -17,6 +24,7 @@ struct Limited;
 impl Drop for Limited {
     fn drop(&mut self) {
         LEFT.set(None);
+        SCOPE.set(SCOPE.get() + 1);
     }
 }
 
@@ -26,6 +34,7 @@ pub(crate) fn within<T>(steps: u64, work: impl FnOnce() -> T) -> T {
         return work();
     }
     LEFT.set(Some(steps));
+    SCOPE.set(SCOPE.get() + 1);
     let _limited = Limited;
     work()
 }

@@ -3,12 +3,15 @@
 //! IEEE 754 rounds +, −, ×, ÷ and √ to nearest, so one step outwards (`next_down`, `next_up`) encloses the exact result,
 //! overflow and underflow included; a sum or product known to be exact stays where it is. The other functions are taken from the dyadic series.
 
+use std::cell::RefCell;
+
 use num_traits::Zero;
+use rustc_hash::FxHashMap;
 
 use super::dyadic::{Dyadic, Round};
 use super::{Certified, Enclosure, Outcome, series};
 use crate::expr::number::to_f64;
-use crate::expr::{Function, Rational};
+use crate::expr::{Function, Rational, effort};
 use Outcome::{Undefined, Unknown, Value};
 
 /// A closed interval of reals; ends may be infinite, never NaN.
@@ -164,9 +167,43 @@ impl Certified for Interval {
         self.high < 0.0
     }
     fn call(&self, function: Function) -> Outcome<Self> {
-        match self.dyadic() {
+        remembered(function, [self.low, self.high], || match self.dyadic() {
             Some(x) => series::call(&x, function, BITS).then(back),
             None => Unknown,
-        }
+        })
     }
+}
+
+/// Values that are remembered at a time.
+const REMEMBERED: usize = 1 << 10;
+
+type Remembered = FxHashMap<(Function, [u64; 2]), Outcome<Interval>>;
+
+/// A value that was found before within the same limit of work: constants and angles of sample points come again and again, and
+/// a series takes thousands of times as long as a double.
+fn remembered(
+    function: Function,
+    of: [f64; 2],
+    value: impl FnOnce() -> Outcome<Interval>,
+) -> Outcome<Interval> {
+    thread_local! {
+        static KNOWN: RefCell<(u64, Remembered)> = RefCell::default();
+    }
+    let key = (function, of.map(f64::to_bits));
+    let known = KNOWN.with_borrow_mut(|(scope, known)| {
+        if *scope != effort::scope() || known.len() >= REMEMBERED {
+            known.clear();
+            *scope = effort::scope();
+        }
+        known.get(&key).cloned()
+    });
+    if let Some(known) = known {
+        return known;
+    }
+    let value = value();
+    // What is unknown for want of work may be known with more.
+    if !matches!(value, Unknown) {
+        KNOWN.with_borrow_mut(|(_, known)| known.insert(key, value.clone()));
+    }
+    value
 }
