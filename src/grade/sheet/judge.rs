@@ -37,24 +37,28 @@ impl Sheet {
         let mut grade = self.judge_one_way(entry, answer, options);
         let others = self.otherwise.iter();
         let mut others = others.filter_map(|way| Some((way, way.entry(&entry.name).ok()?)));
+        let same = |other: &Entry| other.key.reading.content == entry.key.reading.content;
         match grade.verdict {
             Verdict::Equivalent => {
-                let same =
-                    |(_, other): (_, Entry)| other.key.reading.content == entry.key.reading.content;
-                if !others.all(same) {
+                if !others.all(|(_, other)| same(&other)) {
                     grade.assumed.extend(self.given.iter().cloned());
                 }
             }
-            Verdict::Different => {
+            // What leads one way may keep to no point of the domain, though nobody proved that.
+            Verdict::Different | Verdict::Undecided => {
                 for (way, other) in others {
                     let mut right = way.judge_one_way(&other, answer, options);
                     if right.verdict == Verdict::Equivalent {
                         right.assumed.extend(way.given.iter().cloned());
                         return right;
                     }
+                    let is_open = grade.verdict == Verdict::Undecided;
+                    if is_open && right.verdict == Verdict::Different && same(&other) {
+                        return right;
+                    }
                 }
             }
-            Verdict::Invalid | Verdict::Undecided => {}
+            Verdict::Invalid => {}
         }
         grade
     }
