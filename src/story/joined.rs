@@ -1,5 +1,7 @@
 //! What an impact has joined moves on joined, and takes part in the next impact: a file that says nothing of it is asked.
 
+use std::collections::BTreeSet;
+
 use super::{Refused, State};
 use crate::answer::calc::is_zero;
 use crate::expr::{Expr, minus};
@@ -22,7 +24,7 @@ pub(super) fn all_move(scene: &Scene, stage: &Stage) -> Result<(), Refused> {
     Ok(())
 }
 
-/// The bodies in flight that are stuck together and turn, each lot with the one that is no particle in front: they turn about
+/// The bodies in flight that are stuck together and turn, each cluster with the one that is no particle in front: they turn about
 /// their common center of mass, and all others fly each as by itself.
 pub(super) fn turning(
     scene: &Scene,
@@ -43,21 +45,24 @@ pub(super) fn turning(
                 .iter()
                 .all(is_none)
     };
-    let mut lots: Vec<Vec<usize>> = Vec::new();
+    let mut clusters: Vec<Vec<usize>> = Vec::new();
     for joint in joints.iter().filter(|joint| apart(joint.bodies)) {
-        if lots.iter().any(|lot| lot.contains(&joint.bodies[0])) {
+        if clusters
+            .iter()
+            .any(|cluster| cluster.contains(&joint.bodies[0]))
+        {
             continue;
         }
-        let mut lot = vec![joint.bodies[0]];
+        let mut cluster = vec![joint.bodies[0]];
         let mut k = 0;
-        while k < lot.len() {
-            let with = joints.iter().filter(|j| j.bodies.contains(&lot[k]));
-            let new = with.flat_map(|j| j.bodies).filter(|b| !lot.contains(b));
-            lot.extend(new.collect::<std::collections::BTreeSet<_>>());
+        while k < cluster.len() {
+            let with = joints.iter().filter(|j| j.bodies.contains(&cluster[k]));
+            let new = with.flat_map(|j| j.bodies).filter(|b| !cluster.contains(b));
+            cluster.extend(new.collect::<BTreeSet<_>>());
             k += 1;
         }
-        lot.sort_by_key(|b| bodies[*b].is_particle());
-        let (lead, rest) = (lot[0], &lot[1..]);
+        cluster.sort_by_key(|b| bodies[*b].is_particle());
+        let (lead, rest) = (cluster[0], &cluster[1..]);
         let w = &before.spin[lead];
         let carried = |b: &usize| {
             let [x, y] = minus(&before.center[*b], &before.center[lead]);
@@ -73,9 +78,9 @@ pub(super) fn turning(
             let hint = "particles that stick to a body turn with it; several bodies that stay together fly on as a `composite` with this velocity and spin, in a scene of its own";
             return Err(Refused::new(&stage.name, why, hint));
         }
-        lots.push(lot);
+        clusters.push(cluster);
     }
-    Ok(lots)
+    Ok(clusters)
 }
 
 /// What is joined to a body that an impulse acts on has its part of it.

@@ -228,7 +228,7 @@ impl Step {
 
 /// Bodies in flight that are stuck together and turn as one about their common center of mass.
 #[derive(Clone, Debug)]
-pub struct Lot {
+pub struct Cluster {
     /// Indices of the bodies; the only one that is no particle in front.
     pub bodies: Vec<usize>,
     /// The common center of mass at the beginning \[m\].
@@ -275,7 +275,7 @@ pub struct StageTold {
     /// What forces give by Newton's laws, where a motion does not follow from its energy alone.
     pub steps: Vec<Step>,
     /// Bodies in flight that turn as one.
-    pub lots: Vec<Lot>,
+    pub clusters: Vec<Cluster>,
     /// Kinetic energy at the beginning and at the end, of a motion \[J\].
     pub energy: Option<[Expr; 2]>,
     /// The same at the end, put together from velocity and spin.
@@ -591,8 +591,8 @@ fn one(
             motion::slide(stage, before, slide, is_driven)
         }
         StageKind::Fall(fall) => {
-            let lots = joined::turning(scene, stage, &before)?;
-            motion::fall(stage, before, fall, &lots)
+            let clusters = joined::turning(scene, stage, &before)?;
+            motion::fall(stage, before, fall, &clusters)
         }
         StageKind::Wind(wind) => motion::wind(stage, before, wind),
         StageKind::Linkage(linkage) => motion::linkage(stage, before, linkage),

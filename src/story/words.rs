@@ -244,8 +244,8 @@ fn falling(told: &StageTold, fall: &Fall) -> Vec<Sentence> {
         (FallEnd::Range(s), _) => flown(name, counted(s, [" further right", " further left"])),
         (FallEnd::Drop(h), None) => flown(name, counted(h, [" lower", " higher"])),
     }];
-    for lot in &told.lots {
-        let names = lot
+    for cluster in &told.clusters {
+        let names = cluster
             .bodies
             .iter()
             .map(|b| format!("`{}`", scene.bodies[*b].name));
@@ -254,7 +254,11 @@ fn falling(told: &StageTold, fall: &Fall) -> Vec<Sentence> {
             listed(&names.collect::<Vec<_>>())
         ));
     }
-    let is_stuck = |b: &usize| told.lots.iter().any(|lot| lot.bodies.contains(b));
+    let is_stuck = |b: &usize| {
+        told.clusters
+            .iter()
+            .any(|cluster| cluster.bodies.contains(b))
+    };
     for b in fall.with.iter().filter(|b| !is_stuck(b)) {
         let other = &scene.bodies[*b].name;
         let verb = match fall.gravity.is_some() && goes_down(told, *b) {

@@ -8,16 +8,16 @@ use crate::scene::{Ask, Fall, FallEnd, StageKind};
 use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::words::{self, name, say};
 use crate::solution::{Claim, Line, Math};
-use crate::story::{Lot, StageTold};
+use crate::story::{Cluster, StageTold};
 
 /// The letter of the time of a flight, where nothing else bears it.
 const TIME: &str = "t";
 
 /// From the common center of mass of what turns as one to one of the bodies, at the end of a flight.
-fn arm(lot: &Lot, told: &StageTold, body: usize) -> Vector {
-    let lead = lot.bodies[0];
+fn arm(cluster: &Cluster, told: &StageTold, body: usize) -> Vector {
+    let lead = cluster.bodies[0];
     let turned = &told.after.angle[lead] - &told.before.angle[lead];
-    let [x, y] = minus(&told.before.center[body], &lot.center);
+    let [x, y] = minus(&told.before.center[body], &cluster.center);
     let (c, s) = (turned.cos(), turned.sin());
     [&x * &c - &y * &s, x * s + y * c]
 }
@@ -34,7 +34,11 @@ impl Page<'_> {
         let is_zero = |e: &Expr| crate::answer::calc::is_zero(e, domains) == Some(true);
         let is_particle = |b: &usize| self.scene.bodies[*b].is_particle();
         let who = match (bodies.as_slice(), bodies.iter().all(is_particle)) {
-            _ if told.lots.iter().any(|lot| lot.bodies.len() == bodies.len()) => {
+            _ if told
+                .clusters
+                .iter()
+                .any(|cluster| cluster.bodies.len() == bodies.len()) =>
+            {
                 String::from("the common center of mass G")
             }
             ([_, _, ..], true) => String::from("each body"),
@@ -105,24 +109,24 @@ impl Page<'_> {
         let mut lines = Vec::new();
         let is_zero =
             |e: &Expr| crate::answer::calc::is_zero(e, &told.placed.scene.domains) == Some(true);
-        for lot in &told.lots {
-            let g = match told.lots.as_slice() {
+        for cluster in &told.clusters {
+            let g = match told.clusters.as_slice() {
                 [_] => String::from("G"),
-                _ => format!("G,{}", words::center(self.scene, lot.bodies[0])),
+                _ => format!("G,{}", words::center(self.scene, cluster.bodies[0])),
             };
             let mass = |b: &usize| &self.scene.bodies[*b].mass;
-            let all = Expr::sum(lot.bodies.iter().map(|b| mass(b).clone()));
+            let all = Expr::sum(cluster.bodies.iter().map(|b| mass(b).clone()));
             let begins = &told.before;
             let quantities = [
-                (["x", "y"], &begins.center, &lot.center, false),
-                (["v", "v"], &begins.velocity, &lot.velocity, true),
+                (["x", "y"], &begins.center, &cluster.center, false),
+                (["v", "v"], &begins.velocity, &cluster.velocity, true),
             ];
             for (letters, of, values, is_rate) in quantities {
                 for (k, axis) in ["x", "y"].into_iter().enumerate() {
                     if is_zero(&values[k]) {
                         continue;
                     }
-                    let parts = lot.bodies.iter().map(|b| mass(b) * &of[*b][k]);
+                    let parts = cluster.bodies.iter().map(|b| mass(b) * &of[*b][k]);
                     let raw = Expr::sum(parts) / &all;
                     let index = if is_rate {
                         format!("{g},{axis}")
@@ -135,13 +139,13 @@ impl Page<'_> {
                     lines.push(self.defined(head, &raw, &values[k], why));
                 }
             }
-            for b in &lot.bodies {
+            for b in &cluster.bodies {
                 let asks = |ask: &Ask| match ask {
                     Ask::Position { body, .. } | Ask::Velocity { body, .. } => body == b,
                     _ => false,
                 };
                 if self.asked(told, asks) {
-                    let arm = arm(lot, told, *b).map(|e| tidied(self.scene, &e));
+                    let arm = arm(cluster, told, *b).map(|e| tidied(self.scene, &e));
                     let index = format!("{}/{g}", words::center(self.scene, *b));
                     let math = vec![
                         name("r", &index, "+", true),
@@ -179,10 +183,13 @@ impl Page<'_> {
     /// The velocity with which a body that turns as one with others goes round their common center of mass at the end; the velocity
     /// of that center at the beginning.
     fn round(&self, told: &StageTold, body: usize) -> Option<[Vector; 2]> {
-        let lot = told.lots.iter().find(|lot| lot.bodies.contains(&body))?;
-        let [x, y] = arm(lot, told, body).map(|e| tidied(self.scene, &e));
-        let w = self.named(&lot.spin);
-        Some([[-(&w * y), w * x], lot.velocity.clone()])
+        let cluster = told
+            .clusters
+            .iter()
+            .find(|cluster| cluster.bodies.contains(&body))?;
+        let [x, y] = arm(cluster, told, body).map(|e| tidied(self.scene, &e));
+        let w = self.named(&cluster.spin);
+        Some([[-(&w * y), w * x], cluster.velocity.clone()])
     }
 
     /// The velocity upwards of a body at the end of a flight, from that at its beginning.
@@ -230,8 +237,11 @@ impl Page<'_> {
 
     /// The way of a body through a flight, in the velocities it began with and the time.
     fn way(&self, told: &StageTold, fall: &Fall, body: usize, time: &Expr) -> Vector {
-        let lot = told.lots.iter().find(|lot| lot.bodies.contains(&body));
-        let begins = lot.map_or(&told.before.velocity[body], |lot| &lot.velocity);
+        let cluster = told
+            .clusters
+            .iter()
+            .find(|cluster| cluster.bodies.contains(&body));
+        let begins = cluster.map_or(&told.before.velocity[body], |cluster| &cluster.velocity);
         let [x, y] = begins.each_ref().map(|v| self.named(v));
         let g = fall.gravity.clone().unwrap_or_else(Expr::zero);
         let mut way = [&x * time, &y * time - Expr::ratio(1, 2) * g * time.powi(2)];
@@ -240,9 +250,9 @@ impl Page<'_> {
             FallEnd::Range(s) if body == fall.body => way[0] = s.clone(),
             _ => {}
         }
-        if let Some(lot) = lot {
-            let begins = minus(&told.before.center[body], &lot.center);
-            let round = minus(&arm(lot, told, body), &begins);
+        if let Some(cluster) = cluster {
+            let begins = minus(&told.before.center[body], &cluster.center);
+            let round = minus(&arm(cluster, told, body), &begins);
             way = [0, 1].map(|k| &way[k] + tidied(self.scene, &round[k]));
         }
         way

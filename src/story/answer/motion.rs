@@ -235,7 +235,7 @@ pub(super) fn distance(question: &Question, told: &StageTold) -> Answer {
         false => format!("distance covered in `{stage}`"),
     };
     let value = told.way.clone();
-    let why = match told.lots.is_empty() {
+    let why = match told.clusters.is_empty() {
         true => "where it leads is open",
         false => {
             "bodies that are stuck together turn about their common center of mass and go along curves"

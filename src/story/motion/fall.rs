@@ -7,20 +7,22 @@ use crate::answer::calc::is_zero;
 use crate::expr::{Expr, Vector, dot, minus};
 use crate::formula::sentence;
 use crate::scene::{Fall, FallEnd, Stage};
-use crate::story::{Lot, Refused, StageTold, State};
+use crate::story::{Cluster, Refused, StageTold, State};
 
-/// Free fall or flight; lots of bodies that are stuck together and turn do so about their common center of mass.
+/// Free fall or flight; clusters of bodies that are stuck together and turn do so about their common center of mass.
 pub(in crate::story) fn fall(
     stage: &Stage,
     before: State,
     fall: &Fall,
-    lots: &[Vec<usize>],
+    clusters: &[Vec<usize>],
 ) -> Result<StageTold, Refused> {
     let scene = &stage.scene;
     let mut supposed = Supposed::of(stage);
-    let lots = lots.iter().map(|lot| Lot::of(stage, &before, lot));
-    let lots = lots.collect::<Result<Vec<_>, _>>()?;
-    ends_alone(stage, &before, fall, &lots)?;
+    let clusters = clusters
+        .iter()
+        .map(|cluster| Cluster::of(stage, &before, cluster));
+    let clusters = clusters.collect::<Result<Vec<_>, _>>()?;
+    ends_alone(stage, &before, fall, &clusters)?;
     let (time, down) = duration(stage, &before, fall, &mut supposed)?;
     let zero = Expr::zero();
     let g = fall.gravity.as_ref().unwrap_or(&zero);
@@ -37,8 +39,8 @@ pub(in crate::story) fn fall(
     let mut dropped = Vec::new();
     for b in fall.bodies() {
         let body = &scene.bodies[b];
-        let lot = lots.iter().find(|lot| lot.bodies.contains(&b));
-        let [vx, vy] = lot.map_or(&before.velocity[b], |lot| &lot.velocity);
+        let cluster = clusters.iter().find(|cluster| cluster.bodies.contains(&b));
+        let [vx, vy] = cluster.map_or(&before.velocity[b], |cluster| &cluster.velocity);
         let v_end = match (&down, b == fall.body) {
             (Some(down), true) => down.clone(),
             _ => tidied(stage, &(vy - &(g * &time)))?,
@@ -56,9 +58,9 @@ pub(in crate::story) fn fall(
             }
         };
         let (mut way, mut end) = ([along, -drop], [vx.clone(), v_end]);
-        let spin = lot.map_or(&before.spin[b], |lot| &lot.spin);
-        if let Some(lot) = lot {
-            let arm = minus(&before.center[b], &lot.center);
+        let spin = cluster.map_or(&before.spin[b], |cluster| &cluster.spin);
+        if let Some(cluster) = cluster {
+            let arm = minus(&before.center[b], &cluster.center);
             let turned = turned(b, spin);
             let arm_end = rotated(&arm, &[turned.cos(), turned.sin()]);
             let swings = [-(spin * &arm_end[1]), spin * &arm_end[0]];
@@ -99,25 +101,29 @@ pub(in crate::story) fn fall(
         _ => None,
     };
     // Without weight it goes straight on.
-    if fall.gravity.is_none() && !lots.iter().any(|lot| lot.bodies.contains(&fall.body)) {
+    if fall.gravity.is_none()
+        && !clusters
+            .iter()
+            .any(|cluster| cluster.bodies.contains(&fall.body))
+    {
         let v = &out.before.velocity[fall.body];
         out.way = Some(tidied(stage, &(&dot(v, v).sqrt() * &time))?);
     }
     out.time = Some(time);
-    out.lots = lots;
+    out.clusters = clusters;
     supposed.told(&mut out);
     Ok(out)
 }
 
-impl Lot {
-    fn of(stage: &Stage, before: &State, bodies: &[usize]) -> Result<Lot, Refused> {
+impl Cluster {
+    fn of(stage: &Stage, before: &State, bodies: &[usize]) -> Result<Cluster, Refused> {
         let mass = |b: &usize| &stage.scene.bodies[*b].mass;
         let all = Expr::sum(bodies.iter().map(|b| mass(b).clone()));
         let mean = |of: &[Vector], k: usize| {
             let parts = bodies.iter().map(|b| mass(b) * &of[*b][k]);
             tidied(stage, &(Expr::sum(parts) / &all))
         };
-        Ok(Lot {
+        Ok(Cluster {
             center: [mean(&before.center, 0)?, mean(&before.center, 1)?],
             velocity: [mean(&before.velocity, 0)?, mean(&before.velocity, 1)?],
             spin: before.spin[bodies[0]].clone(),
@@ -127,15 +133,22 @@ impl Lot {
 }
 
 /// A height or a distance is reached by what moves as a particle does, and not by a body that turns about a point beside its center.
-fn ends_alone(stage: &Stage, before: &State, fall: &Fall, lots: &[Lot]) -> Result<(), Refused> {
-    let is_at_center = |lot: &Lot| {
-        let arm = minus(&before.center[fall.body], &lot.center);
+fn ends_alone(
+    stage: &Stage,
+    before: &State,
+    fall: &Fall,
+    clusters: &[Cluster],
+) -> Result<(), Refused> {
+    let is_at_center = |cluster: &Cluster| {
+        let arm = minus(&before.center[fall.body], &cluster.center);
         arm.iter()
             .all(|e| is_zero(e, &stage.scene.domains) == Some(true))
     };
     let ends_at_place = !matches!(fall.until, FallEnd::Time(_) | FallEnd::Turned(_));
-    let mut lots = lots.iter().filter(|lot| lot.bodies.contains(&fall.body));
-    if ends_at_place && lots.any(|lot| !is_at_center(lot)) {
+    let mut clusters = clusters
+        .iter()
+        .filter(|cluster| cluster.bodies.contains(&fall.body));
+    if ends_at_place && clusters.any(|cluster| !is_at_center(cluster)) {
         let name = &stage.scene.bodies[fall.body].name;
         let why = format!(
             "`{name}` turns about the center of mass that it has in common with what sticks to it: when it is at this place has no closed form"

@@ -30,7 +30,7 @@ pub(in crate::numeric::follow) fn fall(
     fall: &Fall,
 ) -> Result<Passed, Lost> {
     let bodies = fall.bodies();
-    let lots = turning(course, &before, &bodies)?;
+    let clusters = turning(course, &before, &bodies)?;
     let gravity = course.optional(fall.gravity.as_ref(), "gravity")?;
     let end = match &fall.until {
         FallEnd::Time(time) => End::Time(course.number(time, "time")?),
@@ -40,7 +40,7 @@ pub(in crate::numeric::follow) fn fall(
         FallEnd::Top => End::Top,
     };
     let ends_at_place = matches!(end, End::Height(_) | End::Range(_) | End::Top);
-    if ends_at_place && lots.iter().any(|lot| lot.contains(&fall.body)) {
+    if ends_at_place && clusters.iter().any(|cluster| cluster.contains(&fall.body)) {
         return Err(course.out_of_reach("the place of a body that turns with another"));
     }
     if matches!(end, End::Time(time) if time < 0.0) {
@@ -66,7 +66,7 @@ pub(in crate::numeric::follow) fn fall(
         End::Range(_) => leader.velocity[0].is_ok(),
     };
     let is_known = bodies.iter().all(|b| before.bodies[*b].known().is_ok());
-    if !is_timed || !lots.is_empty() && !is_known {
+    if !is_timed || !clusters.is_empty() && !is_known {
         let time = Err(course.open(Why::Needed));
         return Ok(all_open(
             course,
@@ -79,9 +79,9 @@ pub(in crate::numeric::follow) fn fall(
     let from = [0, 1].map(|k| closed.bodies[fall.body].center[k].clone().unwrap_or(0.0));
     let movers = Movers::of(course, &bodies, &closed, from)
         .map_err(|_| course.out_of_reach("the place of the body is open"))?;
-    let stuck = lots.iter().map(|lot| {
+    let stuck = clusters.iter().map(|cluster| {
         let place = |b: &usize| bodies.iter().position(|other| other == b).unwrap_or(0);
-        lot.iter().map(place).collect()
+        cluster.iter().map(place).collect()
     });
     let flying = (&movers, stuck.collect::<Vec<_>>());
     let (units, run) = flight(course, &flying, gravity, (&end, fall.rising))?;
@@ -103,7 +103,7 @@ pub(in crate::numeric::follow) fn fall(
     Ok(course.moved([before, after], time, fall.gravity.is_some(), moved))
 }
 
-/// Bodies in flight that are joined to each other and turn, each lot with the rigid one in front.
+/// Bodies in flight that are joined to each other and turn, each cluster with the rigid one in front.
 fn turning(course: &Course<'_>, before: &State, bodies: &[usize]) -> Result<Vec<Vec<usize>>, Lost> {
     let is_rigid = |b: usize| course.solids[b].freedom == Freedom::Rigid;
     let all = before.joined.iter();
@@ -122,33 +122,33 @@ fn turning(course: &Course<'_>, before: &State, bodies: &[usize]) -> Result<Vec<
     };
     let mut out: Vec<Vec<usize>> = Vec::new();
     for start in bodies.iter().filter(|b| is_rigid(**b)) {
-        let mut lot = vec![*start];
+        let mut cluster = vec![*start];
         let mut k = 0;
-        while let Some(b) = lot.get(k) {
+        while let Some(b) = cluster.get(k) {
             let with: Vec<usize> = joined
                 .iter()
                 .filter(|p| p.contains(b))
                 .flat_map(|p| **p)
                 .collect();
             for b in with {
-                if !lot.contains(&b) {
-                    lot.push(b);
+                if !cluster.contains(&b) {
+                    cluster.push(b);
                 }
             }
             k += 1;
         }
-        let mut within = joined.iter().filter(|p| lot.contains(&p[0]));
+        let mut within = joined.iter().filter(|p| cluster.contains(&p[0]));
         if !within.any(|pair| apart(pair)) {
             continue;
         }
-        if lot[1..].iter().any(|b| is_rigid(*b)) {
+        if cluster[1..].iter().any(|b| is_rigid(*b)) {
             return Err(
                 course.out_of_reach("several bodies that turn and are joined to each other")
             );
         }
-        out.push(lot);
+        out.push(cluster);
     }
-    let is_in = |pair: &[usize; 2]| out.iter().any(|lot| lot.contains(&pair[0]));
+    let is_in = |pair: &[usize; 2]| out.iter().any(|cluster| cluster.contains(&pair[0]));
     match joined.iter().any(|pair| apart(pair) && !is_in(pair)) {
         true => Err(course.out_of_reach("particles that are joined and move apart")),
         false => Ok(out),
@@ -243,8 +243,8 @@ fn units_of(movers: &Movers, gravity: f64, end: &End) -> Units {
 fn free(movers: &Movers, stuck: &[Vec<usize>], gravity: f64, units: &Units) -> Mechanism {
     let welds = stuck
         .iter()
-        .flat_map(|lot| movers.welds(lot[0], lot.iter().copied(), units));
-    let is_stuck = |i: usize| stuck.iter().any(|lot| lot.contains(&i));
+        .flat_map(|cluster| movers.welds(cluster[0], cluster.iter().copied(), units));
+    let is_stuck = |i: usize| stuck.iter().any(|cluster| cluster.contains(&i));
     let mut out = movers.mechanism(units, [0.0, -gravity], welds.collect(), is_stuck);
     // What has no mass falls as all else does.
     let alone = out.inertias.iter_mut().zip(&mut out.forces).enumerate();
