@@ -106,6 +106,20 @@ pub(super) fn keep(scene: &mut Scene) {
     }
 }
 
+/// Notes with each flight which of its bodies are joined by then.
+pub(super) fn note(scene: &mut Scene) {
+    for i in 0..scene.stages.len() {
+        let moved = scene.stages[i].kind.moved();
+        let joints = joints(&scene.stages, &scene.stages[i]).into_iter();
+        let flying = joints.map(|joint| joint.bodies);
+        let flying = flying.filter(|pair| pair.iter().all(|b| moved.contains(b)));
+        let stuck = flying.collect();
+        if let StageKind::Fall(fall) = &mut scene.stages[i].kind {
+            fall.stuck = stuck;
+        }
+    }
+}
+
 /// How a stage keeps a particle where it sticks.
 enum Keep {
     /// An impact has this contact too.

@@ -618,6 +618,8 @@ pub struct Fall {
     pub until: FallEnd,
     /// Whether the body passes the height at which it ends on its way up, and not on its way down.
     pub rising: bool,
+    /// Pairs of these bodies that an earlier impact has joined, for whoever follows this stage by itself.
+    pub stuck: Vec<[usize; 2]>,
 }
 
 impl Fall {

@@ -152,7 +152,13 @@ fn through(scene: &Scene, solids: Vec<Solid>, start: &State, values: &Point<f64>
     for stage in course.iter() {
         let values = with_earlier(scene, &followed, stage, values);
         let before = match stage.from {
-            None => changed(stage, start, &values),
+            None => changed(stage, start, &values).map(|before| match &stage.kind {
+                StageKind::Fall(fall) => State {
+                    joined: fall.stuck.clone(),
+                    ..before
+                },
+                _ => before,
+            }),
             Some(j) => match &followed.stages[j] {
                 Ok(passed) => Ok(passed.after.clone()),
                 Err(_) => Err(Lost {

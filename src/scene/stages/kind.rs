@@ -222,6 +222,7 @@ fn fall_of(r: &mut Resolver<'_>, fall: &FallFile, span: Span) -> Option<Fall> {
         gravity,
         until,
         rising,
+        stuck: Vec::new(),
     })
 }
 

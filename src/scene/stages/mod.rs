@@ -160,6 +160,7 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     name_pivots(scene);
     begin(scene);
     joined::keep(scene);
+    joined::note(scene);
     for (stage, written) in scene.stages.iter().zip(stages) {
         slide::loaded_wheel(base, stage, written.name.span);
     }
