@@ -5,8 +5,9 @@
 
 use std::collections::BTreeMap;
 
-use super::calc::{solve, tidy};
+use super::calc::tidy;
 use super::formulas::{dimension_of, put};
+use super::solve::solve;
 use super::{Answer, Refused};
 use crate::dimension::Dimension;
 use crate::domain::{Domain, Domains, Limit};

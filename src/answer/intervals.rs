@@ -7,7 +7,8 @@
 use std::cmp::Ordering;
 
 use super::Answer;
-use super::calc::{Root, Seen, by_signs, essential, sign};
+use super::calc::{Seen, by_signs, essential, sign};
+use super::solve::Root;
 use super::threshold::beside;
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains};

@@ -8,8 +8,9 @@
 use num_traits::Signed;
 
 use super::Check;
-use super::calc::{Seen, is_zero, rounding, sign, tidy, within};
+use super::calc::{Seen, is_zero, rounding, sign, tidy};
 use super::powers::{self, Found, Tends, by_powers, not_zero};
+use super::solve::within;
 use super::taylor::{Side, Taylor, rooted};
 use super::{Answer, Form, Near};
 use crate::algebra::Sign;

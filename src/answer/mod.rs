@@ -12,6 +12,7 @@ pub mod limit;
 mod optimum;
 mod powers;
 mod roots;
+pub mod solve;
 mod taylor;
 mod threshold;
 mod undo;

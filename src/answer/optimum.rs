@@ -6,7 +6,8 @@
 
 use std::collections::BTreeMap;
 
-use super::calc::{Seen, Unsolved, by_signs, end_of, essential, is_zero, sign, solve, tidy};
+use super::calc::{Seen, by_signs, essential, is_zero, sign, tidy};
+use super::solve::{Unsolved, end_of, solve};
 use super::{Answer, Check, Form, ROOT, Refused};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, Limit};
@@ -202,7 +203,7 @@ fn over_positive(
 }
 
 /// Told where the derivative vanishes more than once, or where there is no maximum: only an interval decides then.
-fn elsewhere(name: &str, variable: &Symbol, roots: &[super::calc::Root]) -> Refused {
+fn elsewhere(name: &str, variable: &Symbol, roots: &[super::solve::Root]) -> Refused {
     let reason = match roots.len() {
         1 => String::from("where the derivative vanishes there is no maximum"),
         count => format!("the derivative vanishes at {count} values of {variable}"),

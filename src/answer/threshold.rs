@@ -6,10 +6,9 @@
 use std::collections::BTreeSet;
 
 use super::Check;
-use super::calc::{
-    Roots, Seen, Unsolved, above_zero, by_signs, end_of, essential, sign, solve, tidy,
-};
+use super::calc::{Seen, above_zero, by_signs, essential, sign, tidy};
 use super::inequality::{everywhere, sign_words};
+use super::solve::{Roots, Unsolved, end_of, solve};
 use super::{Answer, Form, intervals, limit, undo};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, Limit};
@@ -275,7 +274,7 @@ fn exists(out: &mut Answer, roots: &Roots, domains: &Domains) -> Domains {
             continue;
         };
         let at_end = Expr::from(low.value.clone());
-        let lost = |r: &super::calc::Root| tidy(&r.value.put(&symbol, &at_end), &domains).is_err();
+        let lost = |r: &super::solve::Root| tidy(&r.value.put(&symbol, &at_end), &domains).is_err();
         if low.open || low.of_pi || !roots.inside.iter().any(lost) {
             continue;
         }

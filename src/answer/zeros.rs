@@ -7,7 +7,8 @@ use std::collections::BTreeMap;
 
 use num_integer::Integer;
 
-use super::calc::{Root, Roots, Unsolved, is_zero, placed, real, sign, solve, tidy};
+use super::calc::{is_zero, sign, tidy};
+use super::solve::{Root, Roots, Unsolved, placed, real, solve};
 use crate::domain::{Domain, Domains, Limit};
 use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
 use crate::formula::{Sentence, sentence};

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use super::words::{self, fill, say};
 use super::{Claim, Inline, Part, Writer};
 use crate::algebra::{Field, Sign};
-use crate::answer::calc::{real, solve};
+use crate::answer::solve::{real, solve};
 use crate::answer::{Answer, Form};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol};
