@@ -293,6 +293,11 @@ pub struct StageTold {
 }
 
 impl StageTold {
+    /// The cluster in which a body flies, if it does.
+    pub fn cluster_of(&self, body: usize) -> Option<&Cluster> {
+        self.clusters.iter().find(|c| c.bodies.contains(&body))
+    }
+
     /// A stage of which no more is told yet than how it begins and ends.
     fn new(stage: &Stage, before: State, after: State) -> StageTold {
         StageTold {

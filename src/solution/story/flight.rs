@@ -3,6 +3,7 @@
 
 use super::Page;
 use crate::answer::Answer;
+use crate::answer::calc::is_zero;
 use crate::expr::{Expr, Symbol, Vector, dot, minus};
 use crate::scene::{Ask, Fall, FallEnd, StageKind};
 use crate::solution::neat::{alike, neat, tidied};
@@ -22,6 +23,12 @@ fn arm(cluster: &Cluster, told: &StageTold, body: usize) -> Vector {
     [&x * &c - &y * &s, x * s + y * c]
 }
 
+/// The way of a center of mass that begins with a velocity, in a time.
+fn drift([x, y]: &Vector, fall: &Fall, time: &Expr) -> Vector {
+    let g = fall.gravity.clone().unwrap_or_else(Expr::zero);
+    [x * time, y * time - Expr::ratio(1, 2) * g * time.powi(2)]
+}
+
 impl Page<'_> {
     /// Tells a flight by its acceleration in place of its energy; whether it did.
     pub(super) fn flight(&mut self, told: &StageTold) -> bool {
@@ -31,15 +38,13 @@ impl Page<'_> {
         let domains = &told.placed.scene.domains;
         let bodies = fall.bodies();
         let before = |b: &usize| &told.before.velocity[*b];
-        let is_zero = |e: &Expr| crate::answer::calc::is_zero(e, domains) == Some(true);
         let is_particle = |b: &usize| self.scene.bodies[*b].is_particle();
         let who = match (bodies.as_slice(), bodies.iter().all(is_particle)) {
-            _ if told
-                .clusters
-                .iter()
-                .any(|cluster| cluster.bodies.len() == bodies.len()) =>
-            {
-                String::from("the common center of mass G")
+            _ if bodies.iter().all(|b| told.cluster_of(*b).is_some()) => {
+                String::from(match told.clusters.as_slice() {
+                    [_] => "the common center of mass G",
+                    _ => "each common center of mass",
+                })
             }
             ([_, _, ..], true) => String::from("each body"),
             ([_, _, ..], false) => String::from("each center of mass"),
@@ -60,7 +65,11 @@ impl Page<'_> {
                 say(" downward"),
             ],
         };
-        if fall.gravity.is_some() && !bodies.iter().all(|b| is_zero(&before(b)[0])) {
+        if fall.gravity.is_some()
+            && !bodies
+                .iter()
+                .all(|b| is_zero(&before(b)[0], domains) == Some(true))
+        {
             text.push(say(" and leaves its horizontal velocity as it is"));
         }
         text.push(say("."));
@@ -72,7 +81,7 @@ impl Page<'_> {
         if !self.solution.says(&text) {
             self.solution.text(text);
         }
-        let mut lines = self.turning(told);
+        let mut lines = self.turning(told, fall, time);
         let by_height = matches!(fall.until, FallEnd::Drop(_));
         for b in bodies.iter().filter(|_| fall.gravity.is_some()) {
             let asks = |ask: &Ask| matches!(ask, Ask::Velocity { body, .. } if body == b);
@@ -105,10 +114,9 @@ impl Page<'_> {
     }
 
     /// The common center of mass of what turns as one, and the arms from it to what is asked about.
-    fn turning(&mut self, told: &StageTold) -> Vec<Line> {
+    fn turning(&mut self, told: &StageTold, fall: &Fall, time: &Expr) -> Vec<Line> {
         let mut lines = Vec::new();
-        let is_zero =
-            |e: &Expr| crate::answer::calc::is_zero(e, &told.placed.scene.domains) == Some(true);
+        let vanishes = |e: &Expr| is_zero(e, &told.placed.scene.domains) == Some(true);
         for cluster in &told.clusters {
             let g = match told.clusters.as_slice() {
                 [_] => String::from("G"),
@@ -123,7 +131,7 @@ impl Page<'_> {
             ];
             for (letters, of, values, is_rate) in quantities {
                 for (k, axis) in ["x", "y"].into_iter().enumerate() {
-                    if is_zero(&values[k]) {
+                    if vanishes(&values[k]) {
                         continue;
                     }
                     let parts = cluster.bodies.iter().map(|b| mass(b) * &of[*b][k]);
@@ -146,13 +154,19 @@ impl Page<'_> {
                 };
                 if self.asked(told, asks) {
                     let arm = arm(cluster, told, *b).map(|e| tidied(self.scene, &e));
+                    // The place at the end, less that of the common center.
+                    let way = drift(&cluster.velocity, fall, time);
+                    let claim = |k: usize| {
+                        let center = &cluster.center[k] + &way[k];
+                        Claim::new(&told.after.center[*b][k] - center, arm[k].clone())
+                    };
+                    let why = "the arm from the common center of mass, turned with the body";
+                    let claims = vec![claim(0), claim(1)];
+                    let step = Some(self.solution.step(Vec::new(), claims, why));
                     let index = format!("{}/{g}", words::center(self.scene, *b));
-                    let math = vec![
-                        name("r", &index, "+", true),
-                        Math::Op("="),
-                        Math::Vector(arm),
-                    ];
-                    lines.push(Line::plain(math));
+                    let head = name("r", &index, "+", true);
+                    let math = vec![head, Math::Op("="), Math::Vector(arm)];
+                    lines.push(Line { math, step });
                 }
             }
         }
@@ -183,10 +197,7 @@ impl Page<'_> {
     /// The velocity with which a body that turns as one with others goes round their common center of mass at the end; the velocity
     /// of that center at the beginning.
     fn round(&self, told: &StageTold, body: usize) -> Option<[Vector; 2]> {
-        let cluster = told
-            .clusters
-            .iter()
-            .find(|cluster| cluster.bodies.contains(&body))?;
+        let cluster = told.cluster_of(body)?;
         let [x, y] = arm(cluster, told, body).map(|e| tidied(self.scene, &e));
         let w = self.named(&cluster.spin);
         Some([[-(&w * y), w * x], cluster.velocity.clone()])
@@ -237,14 +248,9 @@ impl Page<'_> {
 
     /// The way of a body through a flight, in the velocities it began with and the time.
     fn way(&self, told: &StageTold, fall: &Fall, body: usize, time: &Expr) -> Vector {
-        let cluster = told
-            .clusters
-            .iter()
-            .find(|cluster| cluster.bodies.contains(&body));
+        let cluster = told.cluster_of(body);
         let begins = cluster.map_or(&told.before.velocity[body], |cluster| &cluster.velocity);
-        let [x, y] = begins.each_ref().map(|v| self.named(v));
-        let g = fall.gravity.clone().unwrap_or_else(Expr::zero);
-        let mut way = [&x * time, &y * time - Expr::ratio(1, 2) * g * time.powi(2)];
+        let mut way = drift(&begins.each_ref().map(|v| self.named(v)), fall, time);
         match &fall.until {
             FallEnd::Drop(h) if body == fall.body => way[1] = -h,
             FallEnd::Range(s) if body == fall.body => way[0] = s.clone(),

@@ -100,17 +100,13 @@ pub(in crate::story) fn fall(
         FallEnd::Turned(_) => Some(turned(fall.body, &lead)),
         _ => None,
     };
+    out.clusters = clusters;
     // Without weight it goes straight on.
-    if fall.gravity.is_none()
-        && !clusters
-            .iter()
-            .any(|cluster| cluster.bodies.contains(&fall.body))
-    {
+    if fall.gravity.is_none() && out.cluster_of(fall.body).is_none() {
         let v = &out.before.velocity[fall.body];
         out.way = Some(tidied(stage, &(&dot(v, v).sqrt() * &time))?);
     }
     out.time = Some(time);
-    out.clusters = clusters;
     supposed.told(&mut out);
     Ok(out)
 }
