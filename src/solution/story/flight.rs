@@ -30,7 +30,7 @@ fn drift([x, y]: &Vector, fall: &Fall, time: &Expr) -> Vector {
 }
 
 impl Page<'_> {
-    /// Tells a flight by its acceleration in place of its energy; whether it did.
+    /// Tells a flight by its acceleration; whether that does without its energy.
     pub(super) fn flight(&mut self, told: &StageTold) -> bool {
         let Some((fall, time)) = self.kinematic(told) else {
             return false;
@@ -110,7 +110,7 @@ impl Page<'_> {
             lines.push(self.defined(head, &raw, time, "the time of the flight"));
         }
         self.solution.display(lines);
-        true
+        !self.asks_energy(told)
     }
 
     /// The common center of mass of what turns as one, and the arms from it to what is asked about.
@@ -327,8 +327,8 @@ impl Page<'_> {
         self.to(told, is).is_some()
     }
 
-    /// A flight that is told by its acceleration, and its time: each but those whose energy is asked for, or in which
-    /// one body goes straight up or down through a height and is asked for no more than its velocity, which energy gives at once.
+    /// A flight that is told by its acceleration, and its time: each but those of which nothing but the energy is asked
+    /// for, besides velocities, or in which one body goes straight up or down through a height and is asked for no more than its velocity, which energy gives at once.
     pub(super) fn kinematic<'t>(&self, told: &'t StageTold) -> Option<(&'t Fall, &'t Expr)> {
         let StageKind::Fall(fall) = &told.placed.kind else {
             return None;
@@ -339,7 +339,11 @@ impl Page<'_> {
         let timeless = !self.asked(told, |ask| matches!(ask, Ask::Time | Ask::Position { .. }));
         let at_once = by_height && timeless && fall.bodies().iter().all(is_upright);
         let at_once = at_once && (fall.with.is_empty() || !self.goes_on(told));
-        let by_energy = self.asked(told, |ask| matches!(ask, Ask::Energy { .. }));
+        let by_energy = timeless && self.asks_energy(told);
         (!by_energy && !at_once).then_some((fall, time))
+    }
+
+    fn asks_energy(&self, told: &StageTold) -> bool {
+        self.asked(told, |ask| matches!(ask, Ask::Energy { .. }))
     }
 }
