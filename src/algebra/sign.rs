@@ -237,7 +237,10 @@ impl Field {
         let [a, b] = parts.as_slice() else {
             return None;
         };
-        let (sa, sb) = (self.sign_sub(a, depth)?, self.sign_sub(b, depth)?);
+        let sb = self.sign_sub(b, depth)?;
+        let Some(sa) = self.sign_sub(a, depth) else {
+            return self.by_part(p, a, sb, depth);
+        };
         if sa.is_not_negative() == sb.is_not_negative() {
             return Some(Sign::made(sa.is_not_negative(), sa.is_strict()));
         }
@@ -250,6 +253,25 @@ impl Field {
             _ => sb,
         };
         Some(Sign::made(decides.is_not_negative(), sn.is_strict()))
+    }
+
+    /// Terms of A with the sign of B√P can be left out of A + B√P where what remains has that sign.
+    fn by_part(&self, p: &Poly, a: &Poly, sign: Sign, depth: u32) -> Option<Sign> {
+        let adds = |term: &Poly| {
+            let own = self.by_coefficients(term, &[]);
+            own.is_some_and(|own| own.is_not_negative() == sign.is_not_negative())
+        };
+        let terms = a.terms().map(|(mono, k)| Poly::term(mono, k.clone()));
+        let adding = terms
+            .filter(adds)
+            .fold(Poly::zero(), |sum, term| sum.add(&term));
+        if adding.is_zero() {
+            return None;
+        }
+        let rest = self.sign_sub(&p.sub(&adding), depth)?;
+        let is_strict = rest.is_strict() || self.by_coefficients(&adding, &[])?.is_strict();
+        let agrees = rest.is_not_negative() == sign.is_not_negative();
+        agrees.then(|| Sign::made(rest.is_not_negative(), is_strict))
     }
 
     fn sign_sub(&self, p: &Poly, depth: u32) -> Option<Sign> {
