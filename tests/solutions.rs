@@ -1036,6 +1036,62 @@ fn lines(section: &solution::Section) -> impl Iterator<Item = (bool, &solution::
     })
 }
 
+/// Left side, sign and right side of a line that is one relation.
+fn related(line: &solution::Line) -> Option<(&carom::expr::Expr, &str, &carom::expr::Expr)> {
+    use solution::Math::{Expr, Op};
+    match line.math.as_slice() {
+        [Expr(left), Op(sign), Expr(right)] => Some((left, sign, right)),
+        [Expr(left), Op(sign), Expr(_), Op("="), Expr(right)] => Some((left, sign, right)),
+        _ => None,
+    }
+}
+
+/// Whether a relation holds at a point; `None` where it has no value, or lies too near its boundary.
+fn holds(
+    (left, sign, right): (&carom::expr::Expr, &str, &carom::expr::Expr),
+    point: &carom::expr::Point<f64>,
+) -> Option<bool> {
+    let gap = (left - right).evaluate(point)?;
+    let known = gap.is_finite() && gap.abs() > 1e-9;
+    known.then_some(matches!(sign, "<" | "≤") == (gap < 0.0))
+}
+
+#[test]
+fn each_line_of_an_inequality_says_what_the_range_in_its_box_says() {
+    let mut stories = shared::files("tests/stories/scenes", "json");
+    stories.retain(|path| fs::read_to_string(path).is_ok_and(|t| t.contains("threshold")));
+    let stories: Vec<Case> = stories.into_par_iter().map(Case::read).collect();
+    let mut compared = 0;
+    for case in cases().iter().chain(&stories) {
+        let domains = &case.scene.domains;
+        for section in &case.solution(Detail::Normal).sections {
+            let all: Vec<_> = lines(section).collect();
+            let boxed = all.iter().filter(|(boxed, _)| *boxed).count();
+            let Some((true, last)) = all.last().filter(|_| boxed == 1) else {
+                continue;
+            };
+            let Some(range) = related(last).filter(|(_, sign, _)| "<≤≥>".contains(sign)) else {
+                continue;
+            };
+            for (_, line) in &all[..all.len() - 1] {
+                let Some(told) = related(line).filter(|(_, sign, _)| "<≤≥>".contains(sign))
+                else {
+                    continue;
+                };
+                let formulas = [told.0, told.2, range.0, range.2];
+                for sample in domains.points(&formulas, 60) {
+                    let point = sample.doubles();
+                    if let (Some(a), Some(b)) = (holds(told, &point), holds(range, &point)) {
+                        assert_eq!(a, b, "{:?}: {told:?}, {range:?}, {point:?}", case.path);
+                        compared += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(compared > 500, "{compared}");
+}
+
 #[test]
 fn what_is_boxed_does_not_stand_above_the_box_as_well() {
     use solution::Math::{Expr, Op};

@@ -2,6 +2,7 @@
 //! the section of a worked solution, whether the scene has stages or not.
 
 use super::heading::{because, further, goes_on, heading};
+use super::isolate::on_the_way;
 use super::known::{known, number, worth_telling};
 use super::near::near;
 use super::neat::{alike, tidied};
@@ -168,6 +169,13 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     let stated = answer.stated.iter();
     for (left, relation, right) in stated.filter(|(l, _, r)| !plain(l) || !plain(r)) {
         lines.push(Line::plain(words::related(left, relation.sign(), right)));
+    }
+    if let (Some(stated), [range], Ask::Condition { .. }) = (&answer.stated, &*answer.range, ask)
+        && !brief
+    {
+        let way = on_the_way(scene, stated, range).into_iter();
+        let short = way.filter(|(left, _, right)| left.size() + right.size() <= READABLE);
+        lines.extend(short.map(|(l, op, r)| Line::plain(words::related(&l, op.sign(), &r))));
     }
     // The name of the answer comes first, so that what shows the answer is a claim about it. A parameter that is asked for keeps
     // its name.

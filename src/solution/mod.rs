@@ -12,6 +12,7 @@ mod block;
 mod contact;
 mod eliminate;
 mod heading;
+mod isolate;
 mod known;
 mod near;
 mod neat;

@@ -1,5 +1,6 @@
 //! Long roots that formulas share get a letter, told before its first use.
 
+use super::isolate::is_square_root;
 use super::words::{self, fill};
 use super::{Claim, Line, Meaning, Part, Writer};
 use crate::expr::{Expr, Node, Symbol};
@@ -64,11 +65,7 @@ impl Writer<'_> {
 }
 
 fn is_long_root(e: &Expr) -> bool {
-    let is_half = |k: &Expr| {
-        k.as_number()
-            .is_some_and(|k| *k == crate::expr::ratio(1, 2))
-    };
-    matches!(e.node(), Node::Power(_, k) if is_half(k)) && e.size() > LONG
+    is_square_root(e) && e.size() > LONG
 }
 
 /// What stands under a root.

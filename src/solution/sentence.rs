@@ -2,6 +2,7 @@
 
 use super::words::{self, say};
 use super::{Inline, Math};
+use crate::expr::Expr;
 use crate::formula::{Piece, Sentence};
 use crate::scene::Scene;
 
@@ -20,7 +21,16 @@ pub fn sentence(scene: &Scene, text: &Sentence) -> Vec<Inline> {
     for piece in &pieces {
         match piece {
             Piece::Words(words) => {
-                let words = called(scene, words);
+                let mut words = called(scene, words);
+                if let Some(Inline::Math(math)) = out.last_mut()
+                    && let Some((op, number, rest)) = number_in(&words)
+                {
+                    math.extend([Math::Op(op), Math::Expr(Expr::from(number))]);
+                    words = String::from(rest);
+                    if words.is_empty() {
+                        continue;
+                    }
+                }
                 relation = relation_in(&words);
                 match (relation, out.last_mut()) {
                     (Some(op), Some(Inline::Math(math))) => math.push(Math::Op(op)),
@@ -76,11 +86,21 @@ pub(super) fn called(scene: &Scene, words: &str) -> String {
     out
 }
 
+const RELATIONS: [&str; 6] = ["=", "≤", "≥", "<", ">", "≠"];
+
 /// The relation that these words are, if they are one and nothing else.
 fn relation_in(words: &str) -> Option<&'static str> {
-    ["=", "≤", "≥", "<", ">", "≠"]
-        .into_iter()
-        .find(|op| words.trim() == *op)
+    RELATIONS.into_iter().find(|op| words.trim() == *op)
+}
+
+/// The relation to a whole number that words begin with, and what follows it.
+fn number_in(words: &str) -> Option<(&'static str, i64, &str)> {
+    let words = words.strip_prefix(' ')?;
+    let mut all = RELATIONS.into_iter();
+    let (op, right) = all.find_map(|op| Some((op, words.strip_prefix(op)?.strip_prefix(' ')?)))?;
+    let end = right.find([' ', ';', ',', ')']).unwrap_or(right.len());
+    let (number, rest) = right.split_at(end);
+    Some((op, number.parse().ok()?, rest))
 }
 
 /// A sentence that begins with a capital and ends with a full stop.

@@ -1,0 +1,98 @@
+//! The lines between a relation and the value of the parameter it was solved for: roots and arcs undone, a power or a
+//! cosine of the parameter alone on one side.
+
+use super::neat::tidied;
+use crate::algebra::{Sign, sign};
+use crate::expr::{Expr, Function, Node, ratio};
+use crate::formula::Relation;
+use crate::scene::Scene;
+
+/// Left side, relation, right side.
+pub(super) type Related = (Expr, Relation, Expr);
+
+/// What lies between a relation and the range of a parameter that comes of it, each line the same as the one before.
+pub(super) fn on_the_way(scene: &Scene, stated: &Related, range: &Related) -> Vec<Related> {
+    let undone = undone(scene, stated);
+    // What is of the first degree in the parameter is solved without its square.
+    let (left, _, right) = undone.as_ref().unwrap_or(stated);
+    let slope = range
+        .0
+        .as_symbol()
+        .map(|p| (p, (left - right).derivative(p)));
+    let is_linear = slope.is_some_and(|(p, slope)| !slope.mentions(p));
+    let alone = alone(scene, range).filter(|_| !is_linear);
+    let lines = undone.into_iter().chain(alone);
+    lines
+        .filter(|line| line != stated && line != range)
+        .collect()
+}
+
+/// Both sides squared where the left one is a root, or their cosines where it is an arc cosine.
+fn undone(scene: &Scene, (left, relation, right): &Related) -> Option<Related> {
+    if let Node::Call(Function::Acos, x) = left.node() {
+        // The cosine falls all the way from 0 to π.
+        let beyond = Expr::symbol("pi") - right.clone();
+        let falls = [right, &beyond]
+            .into_iter()
+            .all(|e| never_below_zero(scene, e));
+        let holds = *relation == Relation::Equal || falls;
+        return holds.then(|| (x.clone(), relation.turned(), tidied(scene, &right.cos())));
+    }
+    // Beside zero what the root is multiplied by has no part.
+    if let (Node::Product(factors), true) = (left.node(), right.is_zero()) {
+        let (roots, others): (Vec<_>, Vec<_>) = factors.iter().cloned().partition(is_square_root);
+        if let [root] = roots.as_slice()
+            && sign(&Expr::product(others), &scene.domains) == Some(Sign::Positive)
+        {
+            return undone(scene, &(root.clone(), *relation, right.clone()));
+        }
+    }
+    (is_root(left) && never_below_zero(scene, left) && never_below_zero(scene, right))
+        .then(|| (square(scene, left), *relation, square(scene, right)))
+}
+
+/// The square of a parameter whose value is a root, or the cosine, sine or tangent of one whose value is an arc.
+fn alone(scene: &Scene, (p, relation, value): &Related) -> Option<Related> {
+    if let Node::Call(arc, x) = value.node() {
+        let inverse = match arc {
+            Function::Acos => p.cos(),
+            Function::Asin => p.sin(),
+            Function::Atan => p.tan(),
+            _ => return None,
+        };
+        return (*relation == Relation::Equal).then(|| (inverse, Relation::Equal, x.clone()));
+    }
+    (is_root(value) && never_below_zero(scene, p) && never_below_zero(scene, value))
+        .then(|| (square(scene, p), *relation, square(scene, value)))
+}
+
+/// The square, without the size that a root of a square in it would leave.
+fn square(scene: &Scene, e: &Expr) -> Expr {
+    let squared = |factor: &Expr| match factor.node() {
+        Node::Power(base, _) if is_square_root(factor) => base.clone(),
+        _ => factor.powi(2),
+    };
+    let square = match e.node() {
+        Node::Product(factors) => Expr::product(factors.iter().map(squared)),
+        _ => squared(e),
+    };
+    tidied(scene, &square)
+}
+
+fn never_below_zero(scene: &Scene, e: &Expr) -> bool {
+    sign(e, &scene.domains).is_some_and(Sign::is_not_negative)
+}
+
+/// Whether it is a root, or has one root among its factors.
+fn is_root(e: &Expr) -> bool {
+    match e.node() {
+        Node::Product(factors) => factors.iter().filter(|f| is_square_root(f)).count() == 1,
+        _ => is_square_root(e),
+    }
+}
+
+/// Whether it is the square root of something.
+pub(super) fn is_square_root(e: &Expr) -> bool {
+    let half = |k: &Expr| k.as_number().is_some_and(|k| *k == ratio(1, 2));
+    matches!(e.node(), Node::Power(_, k) if half(k))
+}
