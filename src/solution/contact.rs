@@ -3,12 +3,23 @@
 
 use super::words::{self, say, set, vector};
 use super::{Inline, Math, Writer};
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Symbol, Vector};
 use crate::laws::Place;
 use crate::scene::{ContactLaw, KnownQuantity};
 
 /// Largest velocity, in nodes, that is written out for a touching point.
 const READABLE: usize = 90;
+
+/// Two bodies that touch.
+pub(super) struct Touching {
+    /// The one that the normal points away from.
+    pub from: usize,
+    /// The one that it points to.
+    pub to: usize,
+    /// Those of the two that move at the contact.
+    pub moving: Vec<usize>,
+    pub normal: Option<Vector>,
+}
 
 impl Writer<'_> {
     /// What is known of the motion just after, with the relation of rigid bodies where it is about a point of one.
@@ -62,7 +73,6 @@ impl Writer<'_> {
     /// Restitution in vectors, and how the touching points move.
     pub(super) fn restitution(&mut self, c: usize) {
         let contact = &self.scene.contacts[c];
-        let [one, two] = contact.bodies;
         let at = contact.name.clone();
         let ContactLaw::Frictionless { restitution } = contact.law.clone() else {
             return;
@@ -94,27 +104,20 @@ impl Writer<'_> {
             true => String::new(),
             false => format!(" at {at_it}"),
         };
-        // Of a support at rest nothing needs to be said; the normal points away from it.
-        let place = Place::Contact(c);
-        let moving: Vec<usize> = [one, two]
-            .into_iter()
-            .filter(|b| !self.stands(*b, place))
-            .collect();
-        let flipped = moving == [one];
-        let (from, to) = if flipped { (two, one) } else { (one, two) };
-        let (first, second) = (words::body(self.scene, from), words::body(self.scene, to));
+        let touching = self.touching(c);
+        let (first, second) = (
+            words::body(self.scene, touching.from),
+            words::body(self.scene, touching.to),
+        );
         let mut normal = vec![vector("n", "", "")];
-        if let Some(n) = self.scene.contacts[c].normal.clone() {
-            let n = if flipped { n.map(|x| -x) } else { n };
-            let n = self.tidy_vector(&n);
+        if let Some(n) = touching.normal.clone() {
             normal.extend([Math::Op("="), Math::Vector(n)]);
         }
         let normal = Inline::Math(normal);
-        let through: Vec<usize> = moving
-            .iter()
-            .copied()
-            .filter(|b| self.passes_center(*b, c))
-            .collect();
+        let through: Vec<usize> = match &touching.normal {
+            Some(n) => self.centers_on(&touching, c, n),
+            None => Vec::new(),
+        };
         let with = |words: &str| match again {
             true => format!("; {words}"),
             false => format!(". {}", words::capital(words)),
@@ -138,18 +141,49 @@ impl Writer<'_> {
             text.extend([say(with("the normal ")), normal, end]);
         }
         self.text(text);
-        self.separation(c, &restitution, [from, to], (moving.len(), &through));
+        if let Some(n) = &touching.normal {
+            self.separation(c, &restitution, &touching, ("n", n));
+        }
     }
 
-    /// The law of restitution at a contact, `from` one body `to` the other; so many of the two move, and the normal passes through
-    /// the centers of mass of some.
-    fn separation(
+    /// The bodies at a contact that move there, and its normal. Of a support at rest nothing needs to be said; the normal points
+    /// away from it.
+    pub(super) fn touching(&mut self, c: usize) -> Touching {
+        let [one, two] = self.scene.contacts[c].bodies;
+        let moving = [one, two].into_iter();
+        let moving: Vec<usize> = moving
+            .filter(|b| !self.stands(*b, Place::Contact(c)))
+            .collect();
+        let flipped = moving == [one];
+        let (from, to) = if flipped { (two, one) } else { (one, two) };
+        let normal = self.scene.contacts[c].normal.clone();
+        let normal = normal.map(|n| if flipped { n.map(|x| -x) } else { n });
+        Touching {
+            from,
+            to,
+            normal: normal.map(|n| self.tidy_vector(&n)),
+            moving,
+        }
+    }
+
+    /// The bodies through whose centers of mass a direction at a contact passes.
+    fn centers_on(&mut self, touching: &Touching, c: usize, direction: &Vector) -> Vec<usize> {
+        let moving = touching.moving.iter().copied();
+        moving
+            .filter(|b| self.passes_center(*b, c, direction))
+            .collect()
+    }
+
+    /// The law of restitution at a contact along its normal, or the like along its tangent.
+    pub(super) fn separation(
         &mut self,
         c: usize,
         restitution: &Expr,
-        [from, to]: [usize; 2],
-        (moving, through): (usize, &[usize]),
+        touching: &Touching,
+        (letter, direction): (&'static str, &Vector),
     ) {
+        let through = self.centers_on(touching, c, direction);
+        let (from, to, moving) = (touching.from, touching.to, touching.moving.len());
         let at = self.scene.contacts[c].name.clone();
         let index = |b: usize| {
             if self.scene.bodies[b].is_particle()
@@ -172,7 +206,7 @@ impl Writer<'_> {
                 false => one,
             }
         };
-        let n = || vector("n", "", "");
+        let n = || vector(letter, "", "");
         let mut math = set("{} · {} =", [relative("+"), n()]);
         let turns = |index: &String| index.starts_with(at.as_str());
         // Of a single point the relation of rigid bodies stands in the same line.
@@ -189,17 +223,14 @@ impl Writer<'_> {
         self.show(math, None);
         for (b, index) in [to, from].into_iter().zip(indices.iter().rev()) {
             if both && turns(index) {
-                self.point_velocity(b, c, index);
+                self.point_velocity(b, c, index, (letter, direction));
             }
         }
     }
 
     /// Whether the normal at a contact passes through the center of mass of a body, so that its spin does not count.
-    pub(super) fn passes_center(&mut self, b: usize, c: usize) -> bool {
+    fn passes_center(&mut self, b: usize, c: usize, n: &Vector) -> bool {
         let body = &self.scene.bodies[b];
-        let Some(n) = self.scene.contacts[c].normal.clone() else {
-            return false;
-        };
         if body.is_particle() || body.is_fixed() || self.reduction.tree.iter().any(|l| l.body == b)
         {
             return false;
@@ -226,16 +257,19 @@ impl Writer<'_> {
         whole.remove(0)
     }
 
-    /// The velocity just after of the touching point of a body along the normal, (v + ω × r) · n.
-    pub(super) fn point_velocity(&mut self, b: usize, c: usize, index: &str) {
-        let Some(n) = self.scene.contacts[c].normal.clone() else {
-            return;
-        };
+    /// The velocity just after of the touching point of a body along a direction, (v + ω × r) · n.
+    fn point_velocity(
+        &mut self,
+        b: usize,
+        c: usize,
+        index: &str,
+        (letter, n): (&'static str, &Vector),
+    ) {
         let at = self.g.place(Place::Contact(c)).clone();
         let forms = self.reduced.velocity_of(&self.g, b, &at);
         let v = [0, 1].map(|axis| self.form(&forms[axis]));
         let along = self.tidy(&(&v[0] * &n[0] + &v[1] * &n[1]));
-        let n = || vector("n", "", "");
+        let n = || vector(letter, "", "");
         let mut math = set("{} · {} =", [vector("v", index, "+"), n()]);
         let rigid = self.rigid(b, &self.scene.contacts[c].name);
         math.extend(set("{} · {}", [rigid, n()]));

@@ -1,9 +1,10 @@
 //! A contact with friction in a worked solution: its law, what it does in the case that is told, and why each of its two
 //! conditions holds.
 
-use super::words::{self, fill, say};
-use super::{Inline, Writer};
-use crate::expr::{Expr, dot};
+use super::words::{self, fill, say, vector};
+use super::{Inline, Math, Writer};
+use crate::expr::{Expr, Symbol, Vector, dot};
+use crate::laws::Place;
 use crate::scene::{Contact, ContactLaw, Decided, Hypothesis, Mode, Scene};
 
 /// Longest condition, in nodes, that stands in the sentence about its case.
@@ -128,7 +129,73 @@ impl Writer<'_> {
             )],
             other => fill("{} at {}:", [say(words::capital(other)), here]),
         };
+        let words = decided.conditions[index].words;
+        let impulse = decided.conditions[index].impulse.clone();
+        self.directions(contact);
         self.text(text);
+        self.in_vectors(contact, words, &impulse);
+    }
+
+    /// Names the normal and the tangent of a rough contact, where they do not lie along the axes.
+    fn directions(&mut self, c: usize) {
+        let Some(([_, to], [n, t])) = self.inclined(c) else {
+            return;
+        };
+        let contact = &self.scene.contacts[c].name;
+        if !self
+            .told
+            .insert(Symbol::from(format!("normal at {contact}")))
+        {
+            return;
+        }
+        let at = words::place(contact, "contact");
+        let lead = "Let {} be the normal at {}, towards {}, and {} the tangent.";
+        let set = |letter: &'static str, v: Vector| {
+            Inline::Math(vec![vector(letter, "", ""), Math::Op("="), Math::Vector(v)])
+        };
+        let toward = words::body(self.scene, to);
+        self.text(fill(lead, [set("n", n), say(at), say(toward), set("t", t)]));
+    }
+
+    /// The law of a rough contact in vectors, where its components along the axes would not be recognized.
+    fn in_vectors(&mut self, c: usize, law: &str, impulse: &Vector) {
+        let Some((_, [n, t])) = self.inclined(c) else {
+            return;
+        };
+        let touching = self.touching(c);
+        match law {
+            "no slip after" => self.separation(c, &Expr::zero(), &touching, ("t", &t)),
+            "restitution" => {
+                let ContactLaw::Decided(decided) = &self.scene.contacts[c].law else {
+                    return;
+                };
+                let e = decided.law.restitution.clone();
+                self.separation(c, &e, &touching, ("n", &n));
+            }
+            "friction of a sliding contact" => {
+                // P is at right angles to what it is multiplied by.
+                let ratio = -dot(impulse, &n) / dot(impulse, &t);
+                let ratio = self.tidy(&ratio);
+                let at = words::point(self.scene, Place::Contact(c));
+                let of = || vector("P", &at, "");
+                let [n, t] = ["n", "t"].map(|letter| vector(letter, "", ""));
+                let mut math = words::set("{} · {} =", [of(), t]);
+                math.extend(ratio.is_negative().then_some(Math::Op("−")));
+                let size = if ratio.is_negative() { -ratio } else { ratio };
+                math.extend(words::set("{} {} · {}", [Math::Factor(size), of(), n]));
+                self.show(math, None);
+            }
+            _ => {}
+        }
+    }
+
+    /// The bodies at a contact, the normal from the first to the second and the tangent, where these lie along no axis.
+    fn inclined(&mut self, c: usize) -> Option<([usize; 2], [Vector; 2])> {
+        let touching = self.touching(c);
+        let n = touching.normal?;
+        let along_no_axis = n.iter().all(|x| !x.is_zero());
+        let t = [n[1].clone(), -&n[0]];
+        along_no_axis.then_some(([touching.from, touching.to], [n, t]))
     }
 
     /// The speed of approach at a contact and by how much a unit of the normal impulse lessens it in compression: this is what
