@@ -14,6 +14,8 @@ use crate::formula::listed;
 pub(super) fn words(told: &StageTold, case: &Case) -> Vec<String> {
     let scene = &told.placed.scene;
     let given: Vec<&Expr> = case.conditions.iter().map(|(_, e)| e).collect();
+    let supposed = |domains: Domains, e: &&Expr| domains.given(e, true);
+    let domains = given.iter().fold(scene.domains.clone(), supposed);
     let bodies = scene.bodies.iter().enumerate();
     let mut all: Vec<(Clause, Vec<String>)> = Vec::new();
     for (b, body) in bodies.filter(|(_, body)| !body.is_fixed()) {
@@ -21,7 +23,7 @@ pub(super) fn words(told: &StageTold, case: &Case) -> Vec<String> {
             told,
             case,
             b,
-            domains: &scene.domains,
+            domains: &domains,
             given: &given,
         };
         let Some(clause) = change.words(&body.name, body.is_particle()) else {
@@ -157,20 +159,23 @@ impl Change<'_> {
             };
             return Some(format!("moves {way} or {rest}"));
         }
-        let (mut ways, mut not) = (Vec::new(), Vec::new());
+        let (mut sure, mut open, mut not) = (Vec::new(), Vec::new(), Vec::new());
         for way in known.into_iter().flatten() {
             match way {
-                Way::Sure(way) => ways.push(way),
-                Way::NotBack([_, back]) => not.push(back),
+                Way::Sure(way) => sure.push(way),
+                Way::NotBack([way, back]) => {
+                    open.push(way);
+                    not.push(back);
+                }
             }
         }
-        let ways = ways.join(" and ");
-        match (ways.is_empty(), not.as_slice()) {
+        let ways = sure.join(" and ");
+        match (ways.is_empty(), open.as_slice()) {
             (true, []) => None,
-            (true, [one, other]) => Some(format!("moves neither {one} nor {other}")),
-            (true, not) => Some(format!("does not move {}", not.join(""))),
+            (true, [one, other]) => Some(format!("moves {one} and {other}, if at all")),
+            (true, _) => Some(format!("does not move {}", not.join(""))),
             (false, []) => Some(format!("moves {ways}")),
-            (false, not) => Some(format!("moves {ways} and not {}", not.join(""))),
+            (false, open) => Some(format!("moves {ways}, and {} if at all", open.join(""))),
         }
     }
 
