@@ -580,7 +580,7 @@ fn one(
             supposed,
         } => {
             joined::left_out(scene, stage)?;
-            let named = named(scene, stages);
+            let named = named(scene, stages, stage);
             let acting = (one_sided.as_slice(), supposed.as_deref());
             impact::tell(&scene.stages, stage, before, acting, &named, given)
         }
@@ -604,18 +604,24 @@ fn one(
     }
 }
 
-/// Speeds and spins at the end of motions that have the name of a question, for the impacts after them to go on with.
-fn named(scene: &Scene, stages: &[StageTold]) -> Vec<(Symbol, Expr)> {
+/// Speeds and spins at the end of a stage that have the name of a question, for the impacts after it to go on with.
+fn named(scene: &Scene, stages: &[StageTold], later: &Stage) -> Vec<(Symbol, Expr)> {
     let mut out = Vec::new();
+    let earlier = std::iter::successors(later.from, |j| scene.stages[*j].from);
+    let earlier: Vec<usize> = earlier.collect();
     for question in &scene.questions {
-        let Some(stage) = question.stage else {
+        let Some(stage) = question.stage.filter(|stage| earlier.contains(stage)) else {
             continue;
         };
         let name = &scene.stages[stage].name;
-        let is_it = |s: &&StageTold| s.placed.name == *name && s.cases.is_empty();
-        let Some(told) = stages.iter().find(is_it) else {
+        let mut all = stages.iter().filter(|s| s.placed.name == *name);
+        let Some(told) = all.next().filter(|s| s.cases.len() <= 1) else {
             continue;
         };
+        // Of an impact that was reached on several ways the name stands for several values.
+        if !told.cases.is_empty() && all.next().is_some() {
+            continue;
+        }
         let value = match told.placed.asked(question) {
             Ask::Spin { body, clockwise } => {
                 let w = &told.after.spin[*body];

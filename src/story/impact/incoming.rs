@@ -5,11 +5,17 @@ use std::collections::BTreeMap;
 
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, essential, is_zero, sign, tidy};
-use crate::domain::Domain;
+use crate::domain::{Domain, Domains};
 use crate::expr::{Expr, Node, Symbol, dot, minus};
 use crate::formula::write_plain;
 use crate::scene::{Body, OneSided, Scene, Stage, touch};
 use crate::story::{Part, Refused, State};
+
+/// A motion of more nodes than this goes by the name that a question gives it,
+const LONG: usize = 16;
+
+/// where the factors beside that name have no more than so many.
+const SHORT: usize = 8;
 
 /// A particle is touched where it is, but by what slides on it in some stage: a plank of no given size is below that wherever it is.
 pub(super) fn touches(
@@ -230,9 +236,42 @@ fn split(e: &Expr) -> (Expr, Expr) {
     (product(others), product(roots))
 }
 
+/// How many times another value a value is, without roots; nothing where that divides by what may vanish.
+fn multiple(e: &Expr, value: &Expr, domains: &Domains) -> Option<Expr> {
+    let ratio = tidy(&(e / value), domains).ok()?;
+    // What may vanish and stays below the line divides nothing.
+    let has_pole = ratio.parts().any(|part| match part.node() {
+        Node::Power(base, k) => k.is_negative() && !is_definite(sign(base, domains)),
+        _ => false,
+    });
+    (!has_root(&ratio) && !ratio.is_zero() && !has_pole).then_some(ratio)
+}
+
+/// The bodies on which an impulse acts.
+fn acted_on(scene: &Scene) -> Vec<usize> {
+    let contacts = scene.contacts.iter().flat_map(|c| c.bodies);
+    let hinges = scene.hinges.iter().flat_map(|h| h.bodies);
+    let all = contacts.chain(hinges);
+    all.chain(scene.blows.iter().map(|b| b.body)).collect()
+}
+
+/// The question by whose name all motion that is handed on to an impact is told, each part in few symbols, where its value is
+/// long.
+fn named_once<'n>(scene: &Scene, named: &'n [(Symbol, Expr)]) -> Option<&'n (Symbol, Expr)> {
+    let bodies = acted_on(scene);
+    let bodies = bodies.iter().map(|b| &scene.bodies[*b]);
+    let parts = bodies.flat_map(|body| body.velocity.iter().chain([&body.spin]));
+    let parts: Vec<&Expr> = parts.filter(|e| !e.is_zero()).collect();
+    let is_short = |e: &&Expr, value: &Expr| {
+        multiple(e, value, &scene.domains).is_some_and(|ratio| ratio.size() <= SHORT)
+    };
+    let mut long = named.iter().filter(|(_, value)| value.size() > LONG);
+    long.find(|(_, value)| !parts.is_empty() && parts.iter().all(|e| is_short(e, value)))
+}
+
 /// Replaces what an earlier stage hands on by symbols where it holds roots: the impact is then a matter of fractions, proved
 /// and tried at exact points for any motion handed on, and the roots are put in afterwards. A speed or spin that a question
-/// names keeps that name. Gives what the symbols stand for.
+/// names keeps that name, and stands for what is long as well. Gives what the symbols stand for.
 pub(super) fn hand_on(scene: &mut Scene, named: &[(Symbol, Expr)]) -> BTreeMap<Symbol, Expr> {
     let mut handed: Vec<(Symbol, Expr)> = Vec::new();
     let mut domains = scene.domains.clone();
@@ -242,30 +281,24 @@ pub(super) fn hand_on(scene: &mut Scene, named: &[(Symbol, Expr)]) -> BTreeMap<S
     let is_taken = |n: &Symbol| {
         parameters.iter().any(|p| p.name == *n) || asked.iter().any(|q| *q.name == **n)
     };
-    let mut replace = |e: &mut Expr, is_spin: bool| {
-        if !has_root(e) {
+    let once = named_once(scene, named);
+    let acted_on = acted_on(scene);
+    let mut replace = |e: &mut Expr, is_spin: bool, is_acted_on: bool| {
+        let by_name = once.filter(|_| is_acted_on && !e.is_zero());
+        if !has_root(e) && by_name.is_none() {
             return;
         }
-        // What may vanish and stays below the line divides nothing.
-        let has_pole = |ratio: &Expr| {
-            ratio.parts().any(|part| match part.node() {
-                Node::Power(base, k) => k.is_negative() && !is_definite(sign(base, &original)),
-                _ => false,
-            })
-        };
-        let ratio = |e: &Expr, value: &Expr| {
-            let ratio = tidy(&(e / value), &original).ok()?;
-            (!has_root(&ratio) && !ratio.is_zero() && !has_pole(&ratio)).then_some(ratio)
-        };
+        let ratio = |e: &Expr, value: &Expr| multiple(e, value, &original);
         for (name, value) in &handed {
             if let Some(ratio) = ratio(e, value) {
                 *e = &ratio * &Expr::symbol(name);
                 return;
             }
         }
-        let of_question = named
-            .iter()
-            .find_map(|(name, value)| Some((name, value, ratio(e, value)?)));
+        // The latest of those of which it is the simplest multiple.
+        let names = named.iter().rev().chain(by_name);
+        let all = names.filter_map(|(name, value)| Some((name, value, ratio(e, value)?)));
+        let of_question = all.min_by_key(|(.., ratio)| ratio.size());
         let (name, value, factor) = match of_question {
             Some((name, value, ratio)) => (name.clone(), value.clone(), ratio),
             None => {
@@ -298,9 +331,11 @@ pub(super) fn hand_on(scene: &mut Scene, named: &[(Symbol, Expr)]) -> BTreeMap<S
         *e = &factor * &Expr::symbol(&name);
         handed.push((name, value));
     };
-    for body in &mut scene.bodies {
-        replace(&mut body.spin, true);
-        body.velocity.iter_mut().for_each(|v| replace(v, false));
+    for (b, body) in scene.bodies.iter_mut().enumerate() {
+        let is_acted_on = acted_on.contains(&b);
+        replace(&mut body.spin, true, is_acted_on);
+        let velocity = body.velocity.iter_mut();
+        velocity.for_each(|v| replace(v, false, is_acted_on));
     }
     scene.domains = domains;
     for (name, value) in &handed {
