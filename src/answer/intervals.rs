@@ -31,7 +31,7 @@ pub(super) fn fill(
     };
     let Some(zeros) = ordered(roots, domains) else {
         let values: Vec<Expr> = roots.iter().map(|r| r.value.clone()).collect();
-        let why = ", and which of these is larger hangs on the values";
+        let why = ", and which of these is larger depends on the values";
         out.text.push(meet(&values, why));
         return;
     };

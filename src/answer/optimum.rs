@@ -301,7 +301,7 @@ impl Search<'_> {
                 Ok(roots.inside.into_iter().map(|r| r.value).collect())
             }
             Ok(_) | Err(Unsolved::Inside) => Err(self.refused(format!(
-                "where the derivative by {} vanishes has no closed form here",
+                "where the derivative with respect to {} vanishes has no closed form here",
                 self.p
             ))),
             Err(Unsolved::Absent) => Ok(Vec::new()),
@@ -330,7 +330,7 @@ impl Search<'_> {
             .push(by_signs("maximum", words, rising.is_proved()));
         let bound = self.bound(&value, open);
         out.text.push(sentence!(
-            "the derivative by {} does not vanish inside: the largest value is {}",
+            "the derivative with respect to {} does not vanish inside: the largest value is {}",
             p,
             bound
         ));
@@ -399,7 +399,7 @@ impl Search<'_> {
         };
         let [Some(low), Some(high)] = ends.map(|end| end.filter(|end| !is_pole(end))) else {
             let why = format!(
-                "the derivative by {p} vanishes where the value is not largest, and the interval does not end"
+                "the derivative with respect to {p} vanishes where the value is not largest, and the interval does not end"
             );
             let hint = format!(
                 "give {p} a \"domain\" with `min` and `max`: the ends are then compared too"
@@ -425,7 +425,7 @@ impl Search<'_> {
         let best = all.find(|(_, above)| above.iter().all(is_above));
         let Some(((place, end, _), above)) = best else {
             return Err(self.refused(format!(
-                "which of the values where the derivative by {p} vanishes and at the ends is largest hangs on the other parameters"
+                "which of the values where the derivative with respect to {p} vanishes and at the ends is largest depends on the other parameters"
             )));
         };
         let words = "of the places where the derivative vanishes and the two ends it is largest there ({how})";

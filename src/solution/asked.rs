@@ -1,6 +1,7 @@
 //! What is asked beyond the motion: thresholds, largest values, limits, identities, words. One function turns an answer into
 //! the section of a worked solution, whether the scene has stages or not.
 
+use super::given::given_that;
 use super::heading::{because, further, goes_on, heading};
 use super::isolate::on_the_way;
 use super::known::{known, number, worth_telling};
@@ -259,20 +260,6 @@ fn moment_of_momentum(scene: &Scene, b: usize, about: Option<&str>) -> Option<Li
         math.extend([words::name("I", &c, "", false), words::spin(scene, b, "")]);
     }
     Some(Line::plain(math))
-}
-
-/// What an answer rests on beyond what the whole solution does, which is told at its end.
-pub(super) fn given_that(solution: &mut Solution, scene: &Scene, answer: &Answer) {
-    let stages = scene.has_stages();
-    let given = answer.assumptions.iter();
-    let given = given.filter(|a| stages || !solution.assumptions.contains(&a.to_string()));
-    let given: Vec<Sentence> = given.cloned().collect();
-    if !given.is_empty() {
-        let mut text = vec![say("Given that ")];
-        text.extend(sentence(scene, &Sentence::join(by_reason(given), "; ")));
-        text.push(say(","));
-        solution.text(text);
-    }
 }
 
 /// Whether the name of an answer is new; its symbol is noted then.
@@ -541,56 +528,4 @@ pub(super) fn stands_for(ask: &Ask, answer: &Answer) -> Option<(Expr, &'static s
         Some(vector) if !axis.is_empty() => (Expr::symbol(&format!("{vector}{axis}")), op),
         _ => (of.clone(), op),
     })
-}
-
-/// Conditions one after the other; those with the same reason in brackets behind them share it.
-fn by_reason(all: Vec<Sentence>) -> Vec<Sentence> {
-    let mut out: Vec<Sentence> = Vec::new();
-    for one in all {
-        let opens = |p: &Piece| matches!(p, Piece::Words(words) if words.starts_with(" ("));
-        let reason = one.0.iter().rposition(opens).map(|at| &one.0[at..]);
-        match (out.last_mut(), reason) {
-            (Some(before), Some(reason)) if before.0.ends_with(reason) => {
-                let (own, reason) = (before.0.len() - reason.len(), reason.to_vec());
-                before.0.truncate(own);
-                match between(&before.0, &one.0) {
-                    Some(chain) => before.0 = [chain, reason].concat(),
-                    None => {
-                        before.0.push(Piece::Words(String::from(" and ")));
-                        before.0.extend(one.0);
-                    }
-                }
-            }
-            _ => out.push(one),
-        }
-    }
-    out
-}
-
-/// Two lower or upper limits of one quantity as a chain, a ≤ x ≤ b.
-fn between(one: &[Piece], two: &[Piece]) -> Option<Vec<Piece>> {
-    let sides = |all: &[Piece]| match all {
-        [
-            Piece::Formula(large),
-            Piece::Words(sign),
-            Piece::Formula(small),
-            ..,
-        ] => (sign == " ≥ ").then(|| (large.clone(), small.clone())),
-        _ => None,
-    };
-    let ((a, b), (c, d)) = (sides(one)?, sides(two)?);
-    let [low, middle, high] = match (a == d, b == c) {
-        (true, _) => [b, a, c],
-        (_, true) => [d, b, a],
-        _ => return None,
-    };
-    let at_most = || Piece::Words(String::from(" ≤ "));
-    let formula = Piece::Formula;
-    Some(vec![
-        formula(low),
-        at_most(),
-        formula(middle),
-        at_most(),
-        formula(high),
-    ])
 }

@@ -11,6 +11,7 @@ mod balance;
 mod block;
 mod contact;
 mod eliminate;
+mod given;
 mod heading;
 mod isolate;
 mod known;

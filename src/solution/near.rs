@@ -1,7 +1,8 @@
 //! What a formula comes to near a value of a parameter: its highest order in one box, what is left out in one sentence, lower
 //! orders in a line.
 
-use super::asked::{defined, given_that, is_fresh, stands_for};
+use super::asked::{defined, is_fresh, stands_for};
+use super::given::given_that;
 use super::heading::{goes_on, heading};
 use super::known::worth_telling;
 use super::sentence::{called, sentence};

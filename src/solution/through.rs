@@ -121,11 +121,20 @@ impl Writer<'_> {
                 )
             }
             _ => {
-                let forces = along.iter().map(|(axis, bodies)| {
-                    let on = words::either(bodies);
-                    format!("on {on} along {}", direction(axis))
+                let both: Vec<String> = match along.as_slice() {
+                    [(_, one), (_, other)] => {
+                        one.iter().filter(|b| other.contains(b)).cloned().collect()
+                    }
+                    _ => Vec::new(),
+                };
+                let alone = along.iter().filter_map(|(axis, bodies)| {
+                    let bodies = bodies.iter().filter(|b| !both.contains(b));
+                    let bodies: Vec<String> = bodies.cloned().collect();
+                    let on = words::either(&bodies);
+                    (!bodies.is_empty()).then(|| format!("on {on} along {}", direction(axis)))
                 });
-                let forces: Vec<String> = forces.collect();
+                let whole = (!both.is_empty()).then(|| format!("on {}", words::either(&both)));
+                let forces: Vec<String> = whole.into_iter().chain(alone).collect();
                 let forces = match forces.is_empty() {
                     true => None,
                     false => Some(format!("no impulse acts {}", forces.join(", nor "))),

@@ -107,7 +107,7 @@ impl Asked<'_> {
             _ => return open("a turn that begins as those before suggest is not worked out"),
         };
         let Some(mine) = single(&one, &told, 0..turns.stages) else {
-            return open("what happens in a turn hangs on its number");
+            return open("what happens in a turn depends on its number");
         };
         let end = &told[mine[mine.len() - 1]].after;
         let mut after = states.iter().enumerate().skip(1);

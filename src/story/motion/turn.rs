@@ -278,7 +278,7 @@ fn conserved(turn: &Turn) -> Vec<crate::story::Kept> {
         (_, Some(_)) => kept(
             "energy",
             false,
-            "the moment does work, its size times the angle",
+            "the moment does work equal to its size times the angle",
         ),
         (Some(_), None) => kept(
             "energy",

@@ -274,7 +274,7 @@ impl<'a> Line<'a> {
         let (conserved, why) = match () {
             () if self.rubs() => (false, "friction does work against the slip"),
             () if self.slide.force.is_some() => {
-                (false, "the force does work, its size times the distance")
+                (false, "the force does work equal to its size times the distance")
             }
             () if self.slide.spring.is_some() && self.round.is_some() => (
                 true,

@@ -1,0 +1,125 @@
+//! What an answer rests on beyond what the whole solution does: its conditions in one sentence, none of them said twice.
+
+use super::Solution;
+use super::sentence::sentence;
+use super::words::say;
+use crate::algebra::{Sign, sign};
+use crate::answer::Answer;
+use crate::expr::Expr;
+use crate::formula::{Piece, Sentence};
+use crate::scene::Scene;
+
+/// What an answer rests on beyond what the whole solution does, which is told at its end.
+pub(super) fn given_that(solution: &mut Solution, scene: &Scene, answer: &Answer) {
+    let stages = scene.has_stages();
+    let given = answer.assumptions.iter();
+    let given = given.filter(|a| stages || !solution.assumptions.contains(&a.to_string()));
+    let given = needed(scene, given.cloned().collect());
+    if !given.is_empty() {
+        let mut text = vec![say("Given that ")];
+        text.extend(sentence(scene, &Sentence::join(by_reason(given), "; ")));
+        text.push(say(","));
+        solution.text(text);
+    }
+}
+
+/// Conditions without those that follow from another one. Those that say which case it is stay.
+fn needed(scene: &Scene, mut all: Vec<Sentence>) -> Vec<Sentence> {
+    let mut k = 0;
+    while k < all.len() {
+        let others = all.iter().enumerate().filter(|(j, _)| *j != k);
+        let mut others = others.filter_map(|(_, other)| excess(other));
+        let follows = excess(&all[k]).is_some_and(|(e, is_open)| {
+            !is_case(&all[k])
+                && others.any(|(given, open)| {
+                    let domains = scene.domains.given(&given, !open);
+                    match sign(&e, &domains) {
+                        Some(Sign::Positive) => true,
+                        Some(told) => told.is_not_negative() && !is_open,
+                        None => false,
+                    }
+                })
+        });
+        match follows {
+            true => drop(all.remove(k)),
+            false => k += 1,
+        }
+    }
+    all
+}
+
+/// Whether a condition is that of a case, which stands behind it in brackets.
+fn is_case(condition: &Sentence) -> bool {
+    let opens = |p: &Piece| matches!(p, Piece::Words(words) if words.starts_with(" ("));
+    condition.0.iter().any(opens)
+}
+
+/// What a condition says is positive, or not negative, and whether it is the former.
+fn excess(condition: &Sentence) -> Option<(Expr, bool)> {
+    let [Piece::Formula(left), Piece::Words(op), rest @ ..] = condition.0.as_slice() else {
+        return None;
+    };
+    let right = match rest {
+        [Piece::Formula(right), ..] => right.clone(),
+        _ => return None,
+    };
+    Some(match op.as_str() {
+        " ≥ " => (left - &right, false),
+        " > " => (left - &right, true),
+        " ≤ " => (&right - left, false),
+        " < " => (&right - left, true),
+        _ => return None,
+    })
+}
+
+/// Conditions one after the other; those with the same reason in brackets behind them share it.
+fn by_reason(all: Vec<Sentence>) -> Vec<Sentence> {
+    let mut out: Vec<Sentence> = Vec::new();
+    for one in all {
+        let opens = |p: &Piece| matches!(p, Piece::Words(words) if words.starts_with(" ("));
+        let reason = one.0.iter().rposition(opens).map(|at| &one.0[at..]);
+        match (out.last_mut(), reason) {
+            (Some(before), Some(reason)) if before.0.ends_with(reason) => {
+                let (own, reason) = (before.0.len() - reason.len(), reason.to_vec());
+                before.0.truncate(own);
+                match between(&before.0, &one.0) {
+                    Some(chain) => before.0 = [chain, reason].concat(),
+                    None => {
+                        before.0.push(Piece::Words(String::from(" and ")));
+                        before.0.extend(one.0);
+                    }
+                }
+            }
+            _ => out.push(one),
+        }
+    }
+    out
+}
+
+/// Two lower or upper limits of one quantity as a chain, a ≤ x ≤ b.
+fn between(one: &[Piece], two: &[Piece]) -> Option<Vec<Piece>> {
+    let sides = |all: &[Piece]| match all {
+        [
+            Piece::Formula(large),
+            Piece::Words(sign),
+            Piece::Formula(small),
+            ..,
+        ] => (sign == " ≥ ").then(|| (large.clone(), small.clone())),
+        _ => None,
+    };
+    let ((a, b), (c, d)) = (sides(one)?, sides(two)?);
+    let [low, middle, high] = match (a == d, b == c) {
+        (true, _) => [b, a, c],
+        (_, true) => [d, b, a],
+        _ => return None,
+    };
+    let at_most = || Piece::Words(String::from(" ≤ "));
+    let formula = Piece::Formula;
+    Some(vec![
+        formula(low),
+        at_most(),
+        formula(middle),
+        at_most(),
+        formula(high),
+    ])
+}
