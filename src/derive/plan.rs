@@ -9,7 +9,6 @@ use std::ops::RangeInclusive;
 use rustc_hash::FxHashSet;
 
 use super::offered;
-use crate::domain::generic_point;
 use crate::expr::{Expr, Vector};
 use crate::laws::{self, Direction, Geometry, Kinematics, Law, Place, Unknown};
 use crate::scene::{ContactLaw, Scene};
@@ -166,7 +165,7 @@ pub struct Planner {
 impl Planner {
     /// Lists the candidates; `None` where the scene is too large for a search or has no value at the planning point.
     pub fn new(scene: &Scene, reduction: &Reduction) -> Option<Planner> {
-        let point = generic_point(scene.symbols(), &scene.domains);
+        let point = scene.generic_point();
         let value = |e: &Expr| e.evaluate(&point).ok_or(());
         let g = Geometry::<f64>::of(scene, value).ok()?;
         let motion = reduction.kinematics(scene, &g);

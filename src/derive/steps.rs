@@ -6,7 +6,6 @@
 
 use super::{Definition, Stop, Work};
 use crate::algebra::Row;
-use crate::domain::generic_point;
 use crate::expr::{Expr, Point};
 use crate::formula::write_plain;
 use crate::laws::Unknown;
@@ -28,7 +27,7 @@ struct Entry {
 /// Solves the rows for the unknowns, adding the definitions of all steps to `work`. False where the system is singular or
 /// has no value in general position.
 pub(super) fn solve(work: &mut Work<'_>, rows: &[Row], unknowns: &[Unknown]) -> Result<bool, Stop> {
-    let mut point = generic_point(work.scene.symbols(), &work.scene.domains);
+    let mut point = work.scene.generic_point();
     for definition in &work.definitions {
         let Some(value) = definition.value.evaluate(&point) else {
             return Ok(false);

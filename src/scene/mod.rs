@@ -37,11 +37,11 @@ mod stages;
 pub mod touch;
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::dimension::{self, Dimension};
-use crate::domain::Domains;
-use crate::expr::{Expr, Symbol, Vector, minus};
+use crate::domain::{Domains, generic_point};
+use crate::expr::{Expr, Point, Symbol, Vector, minus};
 use crate::formula::Symbols;
 use crate::formula::near::nearest;
 
@@ -229,6 +229,15 @@ impl Scene {
     /// Names of its parameters.
     pub fn symbols(&self) -> impl Iterator<Item = &Symbol> + Clone {
         self.parameters.iter().map(|p| &p.name)
+    }
+
+    /// Values in general position of its parameters, and of what stands for places and motion that earlier stages leave open.
+    pub fn generic_point(&self) -> Point<f64> {
+        let bodies = self.bodies.iter();
+        let state = bodies.flat_map(|b| b.center.iter().chain(&b.velocity).chain([&b.spin]));
+        let open: BTreeSet<Symbol> = state.flat_map(Expr::symbols).collect();
+        let open = open.iter().filter(|name| self.parameter(name).is_none());
+        generic_point(self.symbols().chain(open), &self.domains)
     }
 
     /// Whether anything acts on a body in the impact.

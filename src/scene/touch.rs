@@ -13,7 +13,7 @@ use super::parameters::number_words;
 use super::proof::sign;
 use super::{Body, Contact, ContactLaw, Scene, Shape};
 use crate::algebra::Sign;
-use crate::domain::{Domains, generic_point, roles, samples};
+use crate::domain::{Domains, roles, samples};
 use crate::expr::{Expr, Point, Symbol, Vector, minus};
 
 /// A contact or a blow that does not lie on one of its bodies.
@@ -137,7 +137,7 @@ fn away(distance: f64, body: &str) -> String {
 
 /// Whether a spot fits at one point of the domain, as far as doubles tell: then it is not off whatever the parameters are.
 fn is_met(spot: &Spot, scene: &Scene) -> bool {
-    let mut point = generic_point(scene.symbols(), &scene.domains);
+    let mut point = scene.generic_point();
     point.values.extend(values(scene).values);
     let value = |e: &Expr| e.evaluate(&point).unwrap_or(f64::NAN);
     let mut relations = scene.domains.relations.iter();

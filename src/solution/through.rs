@@ -51,6 +51,16 @@ impl Writer<'_> {
     pub(super) fn keeps(&mut self, blocks: &[&Block]) {
         let bodies = self.scene.bodies.iter().filter(|b| !b.is_fixed()).count();
         let mut rest = blocks.to_vec();
+        // Of what earlier stages leave open there is nothing to tell.
+        rest.retain(|block| {
+            let mut values = self.d.solution(block).into_iter();
+            let is_known = |e: Expr| {
+                e.symbols()
+                    .iter()
+                    .all(|s| self.scene.parameter(s).is_some())
+            };
+            self.is_asked(block) || values.all(is_known)
+        });
         for (axis, direction) in super::block::AXES.iter().enumerate() {
             let rests = |b: &&&Block| {
                 let is_along = matches!(b.unknowns[0], Unknown::Velocity(_, a) if a == axis);

@@ -499,9 +499,10 @@ impl<'a> Pair<'a> {
         let (conserved, why) = match () {
             () if self.is_belt() => (false, "what drives the belt and friction do work"),
             () if self.rubs() => (false, "friction does work against the slip"),
-            () if self.slide.force.is_some() || self.below.force.is_some() => {
-                (false, "the force does work equal to its size times the distance")
-            }
+            () if self.slide.force.is_some() || self.below.force.is_some() => (
+                false,
+                "the force does work equal to its size times the distance",
+            ),
             () if self.is_undriven() => (true, "no force acts along the line"),
             () => (true, "the surfaces are smooth, and weight has a potential"),
         };

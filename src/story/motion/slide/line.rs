@@ -273,9 +273,10 @@ impl<'a> Line<'a> {
     pub fn energy_kept(&self) -> Kept {
         let (conserved, why) = match () {
             () if self.rubs() => (false, "friction does work against the slip"),
-            () if self.slide.force.is_some() => {
-                (false, "the force does work equal to its size times the distance")
-            }
+            () if self.slide.force.is_some() => (
+                false,
+                "the force does work equal to its size times the distance",
+            ),
             () if self.slide.spring.is_some() && self.round.is_some() => (
                 true,
                 match self.slide.along[1].is_zero() {
