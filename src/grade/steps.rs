@@ -142,6 +142,7 @@ fn check_with(
     desk.ahead = names::definitions(&read);
     desk.along_normal(&read);
     desk.solved_for = names::solved_for(&read);
+    desk.later = names::later(sheet, &read);
     let mut before = String::new();
     let lines = text
         .lines()
@@ -187,6 +188,8 @@ struct Desk<'a> {
     ahead: Vec<(Symbol, String)>,
     /// Names that some line solves for.
     solved_for: BTreeSet<Symbol>,
+    /// Names that stand for something else with a prime.
+    later: BTreeSet<Symbol>,
     /// Own names that were used before the line that says what they are.
     early: BTreeSet<Symbol>,
     /// Spins as vectors: the name with an arrow, the spin, and whether it counts clockwise.
@@ -267,6 +270,7 @@ impl<'a> Desk<'a> {
             slipped: Vec::new(),
             ahead: Vec::new(),
             solved_for: BTreeSet::new(),
+            later: BTreeSet::new(),
             early: BTreeSet::new(),
             spins: spins(&sheet.scene),
             parts: parts(&sheet.scene),
@@ -328,7 +332,8 @@ impl<'a> Desk<'a> {
         // `ω⁺` and `ω'` are what is asked of the moment just after, and a vector may wear its arrow.
         let now = |name: &&Symbol| !name.contains('^') && !is_vector(name);
         for name in self.closed.keys().filter(now) {
-            for mark in ["^{+}", "'"] {
+            let marks = ["^{+}", "'"];
+            for mark in &marks[..marks.len() - usize::from(self.later.contains(name))] {
                 let after = format!("{}{mark}", formula::latex_name(name));
                 symbols.declare_as(name.clone(), Some(&after), None);
             }

@@ -13,7 +13,7 @@ use crate::domain::Domains;
 use crate::equality::{self};
 use crate::expr::{Expr, Function, Symbol, dot, ratio};
 use crate::formula::{self, Content, Reading, Remark, Symbols};
-use crate::scene::{Ask, Body, StageKind};
+use crate::scene::{Ask, Body, Scene, StageKind};
 
 /// Most names a student may introduce.
 const MOST_NAMES: usize = 100;
@@ -77,6 +77,31 @@ pub(super) const ACCELERATIONS: [&str; 9] = [
     "a", "a_G", "a_cm", "a_CM", "a_C", "a_c", "a_S", "a_x", "a_y",
 ];
 
+/// The equations of a worked solution that can be read by themselves.
+fn readings(scene: &Scene, text: &str) -> Vec<Reading> {
+    let mut symbols = Symbols::open();
+    scene.declare_parameters(&mut symbols);
+    let lines = text.lines().take(super::MAX_LINES);
+    let parts = lines.flat_map(super::text::equations);
+    let readings = parts.filter_map(|part| formula::read(part, &symbols).ok());
+    readings.collect()
+}
+
+/// Names of what is asked before the last impact that a worked solution writes with a prime as well: with it they are of a later
+/// moment.
+pub(super) fn later(sheet: &Sheet, text: &str) -> BTreeSet<Symbol> {
+    let Some(last) = sheet.impacts.last() else {
+        return BTreeSet::new();
+    };
+    let readings = readings(&sheet.scene, text);
+    let used: BTreeSet<Symbol> = readings.iter().flat_map(Reading::symbols).collect();
+    let both = |name: &Symbol| used.contains(name) && used.contains(&*format!("{name}'"));
+    let is_last = |name: &Symbol| last.questions.iter().any(|q| *q.name == **name);
+    let asked = sheet.scene.questions.iter();
+    let asked = asked.map(|q| Symbol::from(q.name.as_str()));
+    asked.filter(|name| both(name) && !is_last(name)).collect()
+}
+
 /// The accelerations that such a name in a worked solution may stand for, counted either way: those of the scene, where it
 /// has no such name itself and the solution says that of nothing else. `None` stands for whatever the solution says it is.
 pub(super) fn accelerations(sheet: &Sheet, text: &str) -> Vec<Option<(Symbol, Expr)>> {
@@ -88,20 +113,13 @@ pub(super) fn accelerations(sheet: &Sheet, text: &str) -> Vec<Option<(Symbol, Ex
     if sheet.accelerations.is_empty() {
         return vec![None];
     }
-    let mut symbols = Symbols::open();
-    scene.declare_parameters(&mut symbols);
     let rate = Dimension::new(0, 1, -2);
     let of = |name: &str| Some(scene.parameter(name)?.dimension.clone());
     let is_rate = |side: &Content| match side.expr().map(|e| dimension::of(e, &of)) {
         Some(Ok(Some(found))) => found == rate,
         _ => true,
     };
-    let parts = text
-        .lines()
-        .take(super::MAX_LINES)
-        .flat_map(super::text::equations);
-    let readings = parts.filter_map(|part| formula::read(part, &symbols).ok());
-    let readings: Vec<Reading> = readings.collect();
+    let readings = readings(scene, text);
     let used: BTreeSet<Symbol> = readings.iter().flat_map(Reading::symbols).collect();
     let free = |name: &&&str| !taken.contains(**name) && used.contains(**name);
     let Some(name) = ACCELERATIONS.iter().find(free) else {

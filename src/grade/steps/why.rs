@@ -6,7 +6,9 @@ use super::super::behind::{Named, behind};
 use super::super::belief::BELIEFS;
 use super::super::relation::solve_for;
 use super::super::{Diagnosis, Options};
+use super::cause::size_in;
 use super::{Desk, MOST_TERMS};
+use crate::algebra::{Sign, sign};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{self, Content, Reading};
 use crate::laws;
@@ -35,7 +37,13 @@ impl Desk<'_> {
                 let mut known = earlier.clone();
                 known.remove(&name);
                 let reduced = d.substitute(&known).substitute(&others);
-                if let Some(root) = solve_for(&reduced, &name, &self.sheet.scene.domains) {
+                let domains = &self.sheet.scene.domains;
+                // In an energy or a law of constant acceleration it stands by its square, and has the sign that it has in truth.
+                let size = || size_in(&reduced, &name, domains);
+                let below = || matches!(sign(&self.closed[&name], domains), Some(Sign::Negative));
+                let root = solve_for(&reduced, &name, domains)
+                    .or_else(|| size().map(|size| if below() { -size } else { size }));
+                if let Some(root) = root {
                     let mut values = earlier.clone();
                     self.carry_along(&name, &root, &mut values);
                     // What is the same in truth, as a spin some time later, is believed to be the same.
