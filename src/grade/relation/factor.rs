@@ -26,6 +26,16 @@ pub(super) struct Factor {
     pub weak: Vec<Expr>,
 }
 
+impl Factor {
+    /// One that is positive everywhere.
+    pub(super) fn positive() -> Factor {
+        Factor {
+            positive: true,
+            weak: Vec::new(),
+        }
+    }
+}
+
 /// The quotient of two differences, where its sign is known.
 pub(super) fn factor(f: &Expr, g: &Expr, domains: &Domains) -> Option<Factor> {
     let (field, x, y) = Field::pair(&domains.of(&[f, g]), f, g).ok()?;

@@ -13,10 +13,11 @@ use super::{
 };
 use crate::algebra::Sign;
 use crate::domain::{Domains, Sample};
-use crate::equality::poles;
+use crate::equality::{self, poles};
 use crate::expr::Expr;
 use crate::formula::Relation;
 use crate::interval::{Big, Outcome, evaluate};
+use num_traits::{Signed, Zero};
 
 /// Where a relation `difference < 0` or `≤ 0` holds on a domain, as far as the sign of its difference tells.
 pub(super) fn extent(n: &Normal, domains: &Domains) -> Extent {
@@ -44,7 +45,10 @@ pub(super) fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) ->
             return inequalities(ctx, &a, &b);
         }
     }
-    let by_factor = common.and_then(|common| by_factor(ctx, expected, answer, &common));
+    let alike = || same_bound(f, g, domains).then(Factor::positive);
+    let by_factor = common
+        .or_else(alike)
+        .and_then(|common| by_factor(ctx, expected, answer, &common));
     if let Some(finding) = by_factor {
         return finding;
     }
@@ -170,6 +174,22 @@ fn beside_boundary(ctx: &Context, open: &Normal, sure: &Normal) -> Finding {
         }
         None => undecided("the two differ at most on a boundary"),
     }
+}
+
+/// Whether two differences grow alike with a symbol, and by a number, and vanish at the same value of it.
+fn same_bound(f: &Expr, g: &Expr, domains: &Domains) -> bool {
+    unknowns(f, g).iter().any(|name| {
+        let slopes = [f, g].map(|d| d.derivative(name));
+        let [Some(a), Some(b)] = slopes.each_ref().map(Expr::as_number) else {
+            return false;
+        };
+        if b.is_zero() || !(a / b).is_positive() {
+            return false;
+        }
+        let [mine, theirs] = [f, g].map(|d| d.put(name, &Expr::zero()));
+        let scaled = theirs * Expr::from(a / b);
+        equality::identical(&mine, &scaled, domains)
+    })
 }
 
 /// Whether two inequalities set different bounds on the same symbol, one of which lies inside its domain where they differ.

@@ -2,7 +2,7 @@
 
 use super::super::compare::{Context, Finding};
 use super::equations::{LOST, OTHER, told};
-use super::solved::{lies_in, solve_for};
+use super::solved::{angles, lies_in, solve_for};
 use super::{Normal, cells, same_solutions};
 use crate::domain::Domains;
 use crate::equality::{self, Equality};
@@ -70,7 +70,10 @@ pub(super) fn values(expected: &Normal, answer: &Normal, domains: &Domains) -> O
         return None;
     }
     let alone = [vec![other.clone()]];
-    let count = cells::compare(&alone, &alone, domains)?.count[0]?;
+    let count = match cells::compare(&alone, &alone, domains) {
+        Some(along) => along.count[0]?,
+        None => angles(&other.difference, &name, domains)?.len(),
+    };
     let mut inside: Vec<Enclosure> = Vec::new();
     let mut beside = None;
     for value in list {

@@ -10,7 +10,7 @@ use crate::domain::{Domain, Domains, Sample, roles};
 use crate::equality::{self, Equality};
 use crate::expr::angle::angle;
 use crate::expr::number::to_f64;
-use crate::expr::{Expr, Function, Node, Symbol, effort};
+use crate::expr::{Expr, Function, Node, Rational, Symbol, effort};
 use crate::interval::{Big, Enclosure, Interval, Outcome, evaluate};
 
 /// The value of a symbol at which a difference vanishes, where it is linear in the symbol.
@@ -158,8 +158,61 @@ pub(super) fn same_angle(f: &Expr, g: &Expr, domains: &Domains) -> Option<bool> 
     })
 }
 
-/// The one value of an angle on its domain at which a difference may vanish.
-fn angle_of(f: &Expr, name: &Symbol, domain: &Domain, domains: &Domains) -> Option<Expr> {
+/// An equation for the value of one sine, cosine or tangent, of a multiple of an angle and a multiple of π.
+struct Turning {
+    function: Function,
+    value: Expr,
+    factor: Rational,
+    shift: Rational,
+    /// From where to where the argument goes on the domain of the angle, in units of π.
+    span: [f64; 2],
+}
+
+impl Turning {
+    fn of(f: &Expr, name: &Symbol, domain: &Domain, domains: &Domains) -> Option<Turning> {
+        let mut calls = calls(f, name);
+        let (function, argument) = calls.pop().filter(|_| calls.is_empty())?;
+        let read = angle(&argument).filter(|a| a.symbols.len() == 1)?;
+        let (factor, shift) = (read.symbols.get(name)?.clone(), read.pi);
+        let turns = |end: f64| end / std::f64::consts::PI * to_f64(&factor) + to_f64(&shift);
+        let [from, to] = domain.bounds().map(|end| end.map(turns));
+        let (from, to) = (from?, to?);
+        let value: Symbol = "value of the function".into();
+        let plain = f.replace(&Expr::call(function, argument), &Expr::symbol(&value));
+        if plain.symbols().contains(name) {
+            return None;
+        }
+        // Of either sign, where a symbol that nobody declares is positive.
+        let mut domains = domains.clone();
+        domains.symbols.insert(value.clone(), Domain::real());
+        Some(Turning {
+            function,
+            value: solve_for(&plain, &value, &domains)?,
+            factor,
+            shift,
+            span: [from.min(to), from.max(to)],
+        })
+    }
+
+    /// The arc whose function has the value.
+    fn arc(&self) -> Expr {
+        let inverse = match self.function {
+            Function::Sin => Function::Asin,
+            Function::Cos => Function::Acos,
+            _ => Function::Atan,
+        };
+        Expr::call(inverse, self.value.clone())
+    }
+
+    /// The angle of which this is the argument.
+    fn angle(&self, argument: Expr) -> Expr {
+        let turned = argument - Expr::pi() * Expr::from(self.shift.clone());
+        turned * Expr::from(self.factor.recip())
+    }
+}
+
+/// The sines, cosines and tangents in which an angle stands.
+fn calls(f: &Expr, name: &Symbol) -> Vec<(Function, Expr)> {
     let turning = [Function::Sin, Function::Cos, Function::Tan];
     let call = |part: &Expr| match part.node() {
         Node::Call(function, x) if turning.contains(function) && x.symbols().contains(name) => {
@@ -169,40 +222,62 @@ fn angle_of(f: &Expr, name: &Symbol, domain: &Domain, domains: &Domains) -> Opti
     };
     let mut calls: Vec<(Function, Expr)> = f.parts().filter_map(call).collect();
     calls.dedup();
-    let [(function, argument)] = calls.as_slice() else {
-        let linear = calls.is_empty();
-        return linear.then(|| solve_for(f, name, domains)).flatten();
-    };
-    let read = angle(argument).filter(|a| a.symbols.len() == 1)?;
-    let (factor, shift) = (read.symbols.get(name)?, &read.pi);
-    let turns = |end: f64| end / std::f64::consts::PI * to_f64(factor) + to_f64(shift);
-    let [from, to] = domain.bounds().map(|end| end.map(turns));
-    let (from, to) = (from?, to?);
-    let (least, most) = match function {
-        Function::Cos => (0.0, 1.0),
-        _ => (-0.5, 0.5),
+    calls
+}
+
+/// The one value of an angle on its domain at which a difference may vanish.
+fn angle_of(f: &Expr, name: &Symbol, domain: &Domain, domains: &Domains) -> Option<Expr> {
+    if calls(f, name).is_empty() {
+        return solve_for(f, name, domains);
+    }
+    let turning = Turning::of(f, name, domain, domains)?;
+    let [least, most] = match turning.function {
+        Function::Cos => [0.0, 1.0],
+        _ => [-0.5, 0.5],
     };
     let margin = 1e-9;
-    if from.min(to) < least - margin || from.max(to) > most + margin {
+    let [from, to] = turning.span;
+    let one = from >= least - margin && to <= most + margin;
+    one.then(|| turning.angle(turning.arc()))
+}
+
+/// All values of an angle on its domain at which a difference without other symbols vanishes; nothing where that is not sure.
+pub(super) fn angles(f: &Expr, name: &Symbol, domains: &Domains) -> Option<Vec<Expr>> {
+    const MOST_TURNS: f64 = 16.0;
+    let (all, _) = domains.completed(&roles(&[f]));
+    let turning = Turning::of(f, name, all.symbols.get(name)?, &all)?;
+    let [from, to] = turning.span;
+    if to - from > MOST_TURNS {
         return None;
     }
-    let value: Symbol = "value of the function".into();
-    let call = Expr::call(*function, argument.clone());
-    let plain = f.replace(&call, &Expr::symbol(&value));
-    if plain.symbols().contains(name) {
-        return None;
-    }
-    // Of either sign, where a symbol that nobody declares is positive.
-    let mut domains = domains.clone();
-    domains.symbols.insert(value.clone(), Domain::real());
-    let value = solve_for(&plain, &value, &domains)?;
-    let inverse = match function {
-        Function::Sin => Function::Asin,
-        Function::Cos => Function::Acos,
-        _ => Function::Atan,
+    let arc = turning.arc();
+    let (period, firsts) = match turning.function {
+        Function::Sin => (2, vec![arc.clone(), Expr::pi() - arc]),
+        Function::Cos => (2, vec![arc.clone(), -arc]),
+        _ => (1, vec![arc]),
     };
-    let turned = Expr::call(inverse, value) - Expr::pi() * Expr::from(shift.clone());
-    Some(turned * Expr::from(factor.recip()))
+    let mut found: Vec<(Expr, Enclosure)> = Vec::new();
+    for turn in from.floor() as i64 - 2..=to.ceil() as i64 + 2 {
+        for first in firsts.iter().filter(|_| turn % period == 0) {
+            let root = turning.angle(first + Expr::pi() * Expr::from(turn));
+            let Outcome::Value(place) = evaluate::<Big<200>>(&root, &Default::default()) else {
+                return None;
+            };
+            let domain = all.symbols.get(name)?;
+            let ends = [&place.0.low, &place.0.high];
+            match ends.map(|end| domain.contains(&end.to_rational())) {
+                [true, true] => {}
+                [false, false] => continue,
+                _ => return None,
+            }
+            match found.iter().find(|(_, other)| !other.is_disjoint(&place.0)) {
+                Some((other, _)) if equality::identical(other, &root, &all) => {}
+                Some(_) => return None,
+                None => found.push((root, place.0)),
+            }
+        }
+    }
+    Some(found.into_iter().map(|(root, _)| root).collect())
 }
 
 /// Whether the value at a point lies inside a domain for certain.
