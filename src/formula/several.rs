@@ -29,6 +29,10 @@ pub(super) fn is_likely(text: &str, held: Held) -> bool {
         || held.any("\\") && text.match_indices('\\').any(|(at, _)| command(at))
 }
 
+/// What says that each of two will do, and that both hold, between relations.
+const OR: [&str; 4] = ["or", "∨", "\\vee", "\\lor"];
+const AND: [&str; 4] = ["and", "∧", "\\wedge", "\\land"];
+
 /// Most values or bounds of one text.
 const MOST: usize = 12;
 
@@ -280,6 +284,26 @@ fn gaps(text: &str, set: bool) -> Vec<(usize, usize)> {
     }
 }
 
+/// One of several parts: a formula or a relation, or several that `and` or brackets hold together.
+fn part(text: &str, [from, to]: [usize; 2], symbols: &Symbols) -> Option<Reading> {
+    let inside = text[from..to].trim();
+    if !gaps(inside, false).is_empty()
+        && let Some(Ok(several)) = values(&format!("{:from$}{inside}", ""), symbols)
+    {
+        return Some(several);
+    }
+    let bracketed = || {
+        let inside = inside.strip_prefix('(')?.strip_suffix(')')?;
+        let relates = inside.contains(['<', '>', '=', '≤', '≥', '≠']);
+        let at = from + 1;
+        let text = relates.then(|| format!("{:at$}{inside}", ""))?;
+        part(&text, [at, text.len()], symbols)
+    };
+    read_either(&text[..to], from, symbols, 0)
+        .ok()
+        .or_else(bracketed)
+}
+
 /// `x = 3 or x = -3`, `2, -2` and `{1, 2, 3}` as values of which each will do; `x > 1 and x < 3` as a chain; other relations
 /// joined by a word, and values of several names, as they are.
 pub(super) fn values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fault>> {
@@ -294,7 +318,15 @@ pub(super) fn values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fa
     let (text, stop) = plain
         .as_ref()
         .map_or((text, stop), |plain| (plain, plain.len()));
-    let gaps = gaps(&text[start..stop], list);
+    let mut gaps = gaps(&text[start..stop], list);
+    // `and` binds tighter than `or`.
+    let joins = |gap: &(usize, usize), signs: &[&str]| {
+        let gap = &text[start + gap.0..start + gap.1];
+        signs.iter().any(|sign| gap.contains(*sign))
+    };
+    if gaps.iter().any(|gap| joins(gap, &AND)) && gaps.iter().any(|gap| joins(gap, &OR)) {
+        gaps.retain(|gap| joins(gap, &OR));
+    }
     if list && gaps.is_empty() {
         let one = read_either(&text[..stop], start, symbols, 0).ok();
         return one
@@ -308,7 +340,7 @@ pub(super) fn values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fa
     let mut parts = Vec::new();
     let last = [(stop - start, stop - start)];
     for (end, next) in gaps.iter().chain(&last).take(MOST + 1) {
-        let strict = read_either(&text[..start + end], from, symbols, 0).ok()?;
+        let strict = part(text, [from, start + end], symbols)?;
         if strict.notes.iter().any(|n| n.remark == Remark::Letters) {
             return None;
         }
@@ -324,15 +356,10 @@ pub(super) fn values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fa
         .iter()
         .flat_map(|part| part.notes.iter().cloned())
         .collect();
-    let between = |signs: &[&str]| {
-        let mut gaps = gaps
-            .iter()
-            .map(|(end, next)| &text[start + end..start + next]);
-        gaps.any(|gap| signs.iter().any(|sign| gap.contains(*sign)))
-    };
-    let said = match between(&["or", "∨", "\\vee"]) {
+    let between = |signs: &[&str]| gaps.iter().any(|gap| joins(gap, signs));
+    let said = match between(&OR) {
         true => Some(Join::Or),
-        false => between(&["and", "∧", "\\wedge"]).then_some(Join::And),
+        false => between(&AND).then_some(Join::And),
     };
     let (content, unit) = together(&parts, said)?;
     // Lines hold results with their names; `a\\b` is a slip of the pen.
@@ -363,18 +390,15 @@ pub(super) fn values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fa
 /// their sides are formulas, as in `x = y and x = z`, and are a list of its values else.
 pub(super) fn together(parts: &[Reading], said: Option<Join>) -> Option<(Content, Option<Unit>)> {
     let contents: Vec<&Content> = parts.iter().map(|part| &part.content).collect();
-    let signs = |content: &&Content| match content {
-        Content::Relations(_, signs) => Some(signs.clone()),
-        _ => None,
-    };
-    let signs: Option<Vec<Vec<Relation>>> = contents.iter().map(signs).collect();
+    let signs: Option<Vec<Vec<Relation>>> = contents.iter().map(|c| signs_of(c)).collect();
     let Some(signs) = signs else {
         return list(&contents);
     };
     let whole = || contents.iter().map(|part| (*part).clone()).collect();
     if signs.concat().iter().all(|sign| *sign == Relation::Equal) {
         let formula = |part: &&Content| part.answer().expr().is_some_and(|e| !e.is_constant());
-        let both = || (said != Some(Join::Or)).then(|| (Content::Joined(Join::And, whole()), None));
+        // `a = 0 or x = y`
+        let both = || Some((Content::Joined(said.unwrap_or(Join::And), whole()), None));
         return match said != Some(Join::Or) && contents.iter().all(formula) {
             true => both(),
             false => list(&contents).or_else(both),
@@ -389,6 +413,18 @@ pub(super) fn together(parts: &[Reading], said: Option<Join>) -> Option<(Content
         content.unwrap_or_else(|| Content::Joined(join, whole())),
         None,
     ))
+}
+
+/// The signs of relations that are said together.
+fn signs_of(content: &Content) -> Option<Vec<Relation>> {
+    match content {
+        Content::Relations(_, signs) => Some(signs.clone()),
+        Content::Joined(_, parts) => {
+            let all: Vec<_> = parts.iter().map(signs_of).collect::<Option<_>>()?;
+            Some(all.concat())
+        }
+        _ => None,
+    }
 }
 
 /// `x > 1` and `x < 3` as `1 < x < 3`: nothing where one of them is no single relation, or they bound different things.

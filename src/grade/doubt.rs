@@ -281,9 +281,13 @@ pub(super) fn number(key: &Key, answer: &str, options: &Options) -> Option<Grade
     let parts = parted(answer, comma).filter(|_| !pair);
     let comma = parts.into_iter().flat_map(|parts| {
         let thousands = parts[1..].iter().all(|part| digits(part) == 3);
-        let signs: &[&str] = if thousands { &["", "."] } else { &["."] };
-        let read = |sign: &&str| (parts.join(*sign), hint);
-        signs.iter().map(read).collect::<Vec<_>>()
+        let mut signs = if thousands { vec!["", "."] } else { vec!["."] };
+        // `x=2,3` are two values where the expected equation has two.
+        if matches!(key.reading.content, Content::Relations(..)) {
+            signs.push(", ");
+        }
+        let read = |sign| (parts.join(sign), hint);
+        signs.into_iter().map(read).collect::<Vec<_>>()
     });
     let mixed = mixed(answer).map(|text| (text, beside));
     comma.chain(mixed).find_map(|(text, hint)| {

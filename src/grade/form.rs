@@ -1,6 +1,7 @@
 //! Demands on the way an answer is written: simplified, factored, in given symbols, to so many digits, with a unit.
 
-use super::{Diagnosis, Key};
+use super::compare::Finding;
+use super::{Diagnosis, Key, Verdict};
 use crate::algebra::{Field, tidy};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Content, Reading, Shape, Written};
@@ -44,12 +45,19 @@ impl Form {
     }
 }
 
+/// Turns a right answer that does not have the form demanded into a different one.
+pub(super) fn demand(forms: &[Form], key: &Key, answer: &Reading, finding: &mut Finding) {
+    if finding.is_equivalent()
+        && let Some((note, diagnosis)) = unmet(forms, key, answer)
+    {
+        finding.verdict = Verdict::Different;
+        finding.note = note;
+        finding.diagnosis.insert(0, diagnosis);
+    }
+}
+
 /// The first demand that is not met.
-pub(crate) fn unmet(
-    forms: &[Form],
-    key: &Key,
-    answer: &Reading,
-) -> Option<(&'static str, Diagnosis)> {
+fn unmet(forms: &[Form], key: &Key, answer: &Reading) -> Option<(&'static str, Diagnosis)> {
     forms.iter().find_map(|form| {
         let (note, code, words) = check(form, key, answer)?;
         Some((

@@ -377,6 +377,11 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         read::differentials(key, &mut reading);
     }
     let mut finding = compare::contents(key, &reading, options);
+    if finding.verdict == Verdict::Different
+        && let Some(grade) = doubt::number(key, answer, options)
+    {
+        return grade;
+    }
     doubt::turned(key, answer, options, &mut reading, &mut finding);
     doubt::unit_behind(key, answer, options, &mut reading, &mut finding);
     unit::behind(key, &reading, &mut finding);
@@ -401,13 +406,7 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
     if effort::spent() {
         finding.stopped();
     }
-    if finding.verdict == Verdict::Equivalent
-        && let Some((note, diagnosis)) = form::unmet(&options.forms, key, &reading)
-    {
-        finding.verdict = Verdict::Different;
-        finding.note = note;
-        finding.diagnosis.insert(0, diagnosis);
-    }
+    form::demand(&options.forms, key, &reading, &mut finding);
     if options.strength == Strength::Identity {
         finding
             .diagnosis

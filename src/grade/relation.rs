@@ -27,7 +27,7 @@ use crate::domain::{Domain, Domains, roles};
 use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{Content, Join, Relation, is_angle_name, write_plain};
 use cells::Cases;
-use equations::equations;
+use equations::{alternatives, equations};
 use inequality::inequalities;
 use num_traits::Signed;
 use points::{apart_at_points, apart_in_cases};
@@ -136,7 +136,13 @@ pub(crate) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Fin
     }
     match (mine.as_slice(), theirs.as_slice()) {
         ([mine], [theirs]) => {
-            let found = system::compare(ctx, mine, theirs, domains);
+            let either = [expected, answer]
+                .iter()
+                .any(|content| matches!(content, Content::Joined(Join::Or, _)));
+            let found = match (mine.as_slice(), theirs.as_slice()) {
+                ([e], [a]) if either => alternatives(ctx, &e.difference, &a.difference),
+                _ => system::compare(ctx, mine, theirs, domains),
+            };
             match found.verdict {
                 Verdict::Undecided => apart_at_points(ctx, mine, theirs).unwrap_or(found),
                 _ => found,
@@ -196,7 +202,11 @@ fn cases(content: &Content) -> Option<Vec<Vec<Normal>>> {
         Content::Joined(join, parts) => {
             let parts: Vec<_> = parts.iter().map(cases).collect::<Option<_>>()?;
             match join {
-                Join::Or => Some(parts.concat()),
+                // One of several equations holds where the product of their differences vanishes.
+                Join::Or => Some(match one_of(&parts) {
+                    Some(product) => vec![vec![product]],
+                    None => parts.concat(),
+                }),
                 Join::And => {
                     let system = |cases: Vec<Vec<Normal>>| <[_; 1]>::try_from(cases).ok();
                     let all: Vec<[Vec<Normal>; 1]> =
@@ -207,6 +217,19 @@ fn cases(content: &Content) -> Option<Vec<Vec<Normal>>> {
         }
         _ => None,
     }
+}
+
+/// The equation that holds where one of several does.
+fn one_of(parts: &[Vec<Vec<Normal>>]) -> Option<Normal> {
+    let alone = |cases: &Vec<Vec<Normal>>| match cases.as_slice() {
+        [system] => match system.as_slice() {
+            [n] if n.relation == Relation::Equal => Some(n.difference.clone()),
+            _ => None,
+        },
+        _ => None,
+    };
+    let differences: Vec<Expr> = parts.iter().map(alone).collect::<Option<_>>()?;
+    Some(Normal::new(Expr::product(differences), Relation::Equal))
 }
 
 /// The relations of a chain; an equation between vectors is one for each component, and with ± it is one that vanishes for

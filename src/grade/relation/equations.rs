@@ -13,6 +13,7 @@ use crate::equality;
 use crate::expr::{Expr, Symbol};
 use crate::grade::compare::{Context, Finding};
 use crate::grade::{Apart, Diagnosis};
+use std::collections::BTreeSet;
 
 /// Note, words and hint where each of two equations has a solution of its own, and where one is lost or gained.
 pub(super) const OTHER: [&str; 3] = [
@@ -67,26 +68,40 @@ fn poles(f: &Expr, g: &Expr, domains: &Domains) -> Vec<String> {
     poles.map(|pole| not_zero(&pole)).collect()
 }
 
+/// What is sought among the symbols that two equations share.
+type Sought<'a> = &'a dyn Fn(BTreeSet<Symbol>) -> BTreeSet<Symbol>;
+
+/// Equations of which one holds, as their products: what a factor fulfils counts, whatever is sought.
+pub(super) fn alternatives(ctx: &Context, f: &Expr, g: &Expr) -> Finding {
+    let found = by_parts(ctx, f, g, &|_| BTreeSet::new());
+    found.unwrap_or_else(|| undecided("the cases could not be solved to compare their solutions"))
+}
+
+/// Two equations by their extents and the parts that only one of them has, where these tell.
+fn by_parts(ctx: &Context, f: &Expr, g: &Expr, sought: Sought) -> Option<Finding> {
+    let compared = locus::compare(f, g, &ctx.key.question.domains)?;
+    match compared.extents {
+        [Extent::All, Extent::All] | [Extent::None, Extent::None] => {
+            Some(vacuous(ctx, f, g, sought))
+        }
+        [Extent::All, _] => {
+            let words = "the expected equation holds everywhere, and the answer does not";
+            Some(Finding::different("DIFF_EQUATION", "solutions", words))
+        }
+        [_, Extent::All] => {
+            let words = "the answer holds everywhere: it says nothing";
+            Some(Finding::different("DIFF_EQUATION", "solutions", words))
+        }
+        _ => from_parts(ctx, f, g, compared, sought),
+    }
+}
+
 /// Two equations by their solutions, wherever both have values.
 fn solutions(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     let domains = &ctx.key.question.domains;
     let (f, g) = (&expected.difference, &answer.difference);
-    let compared = locus::compare(f, g, domains);
-    match compared.as_ref().map(|c| c.extents) {
-        Some([Extent::All, Extent::All] | [Extent::None, Extent::None]) => {
-            return vacuous(ctx, f, g);
-        }
-        Some([Extent::All, _]) => {
-            let words = "the expected equation holds everywhere, and the answer does not";
-            return Finding::different("DIFF_EQUATION", "solutions", words);
-        }
-        Some([_, Extent::All]) => {
-            let words = "the answer holds everywhere: it says nothing";
-            return Finding::different("DIFF_EQUATION", "solutions", words);
-        }
-        _ => {}
-    }
-    if let Some(finding) = compared.and_then(|c| from_parts(ctx, f, g, c)) {
+    let sought: Sought = &|shared| sought_of(ctx, shared);
+    if let Some(finding) = by_parts(ctx, f, g, sought) {
         return finding;
     }
     let same_angle = same_angle(f, g, domains);
@@ -108,7 +123,8 @@ fn solutions(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     if plain.iter().any(Option::is_some) {
         let [p, q] = plain.map(|n| n.map(|n| n.difference));
         let (a, b) = (p.unwrap_or(f.clone()), q.unwrap_or(g.clone()));
-        let found = locus::compare(&a, &b, domains).and_then(|c| from_parts(ctx, &a, &b, c));
+        let found =
+            locus::compare(&a, &b, domains).and_then(|c| from_parts(ctx, &a, &b, c, sought));
         if let Some(found) = found.filter(Finding::is_equivalent) {
             return found;
         }
@@ -119,7 +135,7 @@ fn solutions(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
 }
 
 /// Two equations that both hold nowhere on the domain, or both everywhere.
-fn vacuous(ctx: &Context, f: &Expr, g: &Expr) -> Finding {
+fn vacuous(ctx: &Context, f: &Expr, g: &Expr, sought: Sought) -> Finding {
     let reals = over_reals(&ctx.key.question.domains, &[f, g]);
     let Some(compared) = locus::compare(f, g, &reals) else {
         return undecided("neither equation has a solution on the domain");
@@ -132,7 +148,7 @@ fn vacuous(ctx: &Context, f: &Expr, g: &Expr) -> Finding {
         }
         _ => {}
     }
-    match from_parts(ctx, f, g, compared) {
+    match from_parts(ctx, f, g, compared, sought) {
         Some(mut finding) => {
             let words = "neither equation has a solution on the domain: ";
             finding.proof.words = format!("{words}{REALS}, {}", finding.proof.words);
@@ -144,7 +160,13 @@ fn vacuous(ctx: &Context, f: &Expr, g: &Expr) -> Finding {
 }
 
 /// The verdict from the parts that only one of two equations has, where they tell.
-fn from_parts(ctx: &Context, f: &Expr, g: &Expr, compared: Compared) -> Option<Finding> {
+fn from_parts(
+    ctx: &Context,
+    f: &Expr,
+    g: &Expr,
+    compared: Compared,
+    sought: Sought,
+) -> Option<Finding> {
     let Compared {
         lost,
         gained,
@@ -159,7 +181,7 @@ fn from_parts(ctx: &Context, f: &Expr, g: &Expr, compared: Compared) -> Option<F
         }
         return Some(finding);
     }
-    let sought = sought_of(ctx, shared);
+    let sought = sought(shared);
     let free = |part: &Part| part.expr.symbols().is_disjoint(&sought);
     if !sought.is_empty() && lost.iter().chain(&gained).all(free) {
         let mut finding = same_solutions("the two differ by factors without the sought quantity");
