@@ -144,6 +144,7 @@ fn check_with(
     desk.solved_for = names::solved_for(&read);
     desk.later = names::later(sheet, &read);
     let mut before = String::new();
+    let dashes = text::has_dashes(text);
     let lines = text
         .lines()
         .zip(read.lines())
@@ -152,7 +153,8 @@ fn check_with(
         .take(MAX_LINES)
         .map(|(i, (line, read))| {
             let line = line.trim();
-            let whole = text::continued(&before, &text::unaligned(read.trim()));
+            let item = text::unlisted(read.trim(), dashes);
+            let whole = text::continued(&before, &text::unaligned(item));
             let (status, diagnosis) = desk.line(i + 1, &whole, options);
             before = whole;
             Line {
@@ -204,6 +206,8 @@ struct Desk<'a> {
     supposed: Vec<usize>,
     /// What is said last of each quantity.
     finals: BTreeMap<String, Final>,
+    /// The wrong values that were given last, by what they are of.
+    said: BTreeMap<Symbol, Expr>,
 }
 
 impl<'a> Desk<'a> {
@@ -278,6 +282,7 @@ impl<'a> Desk<'a> {
             sought: sought::sought(sheet),
             supposed: Vec::new(),
             finals: BTreeMap::new(),
+            said: BTreeMap::new(),
         }
     }
 
@@ -412,6 +417,9 @@ impl<'a> Desk<'a> {
                     Some(reading) => reading,
                     None if letter && self.new_name(text).is_some() => {
                         return (Status::Defines, Vec::new());
+                    }
+                    None if self.has_normal(text, &reading) && self.new_side(text).is_some() => {
+                        formula::read(text, &self.symbols(text)).unwrap_or(reading)
                     }
                     None => reading,
                 }

@@ -424,27 +424,22 @@ impl Desk<'_> {
         status
     }
 
-    /// Whether an answer by the names of others is right with the wrong values that were given for these, as a square is whose
-    /// root has the wrong sign.
-    fn stands_anyway(&self, name: &Symbol, answer: &Content) -> bool {
-        let is_wrong = |n: &Symbol| {
-            let told = self.finals.get(&**n);
-            n != name && told.is_some_and(|f| f.verdict == Verdict::Different)
+    /// Whether an answer by the names of others is right with the values that were given for these, wrong ones among them:
+    /// a square is whose root has the wrong sign.
+    fn stands(&self, name: &Symbol, answer: &Content) -> Option<bool> {
+        let mut answer = self.with_own(answer.expr()?);
+        let wrong = |n: &Symbol| {
+            let told = self.finals.get(&**n).filter(|_| n != name);
+            told.is_some_and(|f| f.verdict != Verdict::Equivalent)
         };
-        let (Some(answer), Some(truth)) = (answer.expr(), self.closed.get(name)) else {
-            return false;
-        };
-        let answer = self.with_own(answer);
-        let wrong = answer.symbols().into_iter().filter(is_wrong);
-        let given = wrong.map(|n| {
-            let mut implied = self.believed.iter().rev();
-            let value = implied.find_map(|(_, values)| values.get(&n).cloned());
-            Some((n, value?))
-        });
-        let given: Option<BTreeMap<Symbol, Expr>> = given.collect();
-        given.is_some_and(|given| {
-            self.all_zero(&[answer.substitute(&given) - truth], &BTreeMap::new()) == Some(true)
-        })
+        // One answer may stand on the other.
+        for _ in 0..self.said.len().min(4) {
+            answer = answer.substitute(&self.said);
+        }
+        let truth = self.closed.get(name)?;
+        let open = answer.symbols().iter().any(wrong);
+        let off = self.all_zero(&[answer - truth], &BTreeMap::new());
+        off.filter(|_| !open)
     }
 
     /// Keeps what a line says of a quantity that is asked for, where it ends in what is given.
@@ -511,14 +506,22 @@ impl Desk<'_> {
         };
         let verdict = match (verdict, used.iter().all(|v| *v == Verdict::Equivalent)) {
             (verdict, true) => verdict,
-            (Verdict::Equivalent, _) if used.contains(&Verdict::Different) => {
-                match self.stands_anyway(name, last) {
-                    true => Verdict::Equivalent,
-                    false => Verdict::Different,
+            (verdict, false) => match (self.stands(name, last), verdict) {
+                (Some(true), _) => Verdict::Equivalent,
+                (Some(false), _) => Verdict::Different,
+                (None, Verdict::Equivalent) if used.contains(&Verdict::Different) => {
+                    Verdict::Different
                 }
-            }
-            _ => Verdict::Undecided,
+                (None, _) => Verdict::Undecided,
+            },
         };
+        match (last.expr(), verdict) {
+            (Some(value), Verdict::Different | Verdict::Undecided) => {
+                let value = self.with_own(value);
+                self.said.insert(name.clone(), value);
+            }
+            _ => drop(self.said.remove(name)),
+        }
         self.finals
             .insert(name.to_string(), Final::new(number, text, verdict));
     }

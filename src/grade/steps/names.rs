@@ -234,6 +234,14 @@ impl Desk<'_> {
         let (name, right) = named(text).filter(|(name, _)| new(name))?;
         let right = super::super::read::sense(right).map_or(right, |(value, _)| value);
         let right = match formula::read(right, &self.symbols(right)) {
+            // Of a normal force that is said nowhere yet, nothing is known.
+            Ok(reading) if self.has_normal(right, &reading) => match self.looked_ahead(right) {
+                Some(reading) => reading,
+                None => {
+                    let found = self.definition_by_parts(number, text, options);
+                    return found.or(Some((Status::Defines, Vec::new())));
+                }
+            },
             Ok(reading) => reading,
             Err(_) => match self.looked_ahead(right) {
                 Some(reading) => reading,
@@ -353,14 +361,28 @@ impl Desk<'_> {
     /// The one side of a chain that has a new name says what the name stands for by the last of the other sides.
     pub(super) fn new_side(&mut self, text: &str) -> Option<Status> {
         let symbols = self.symbols(text);
-        let (known, new): (Vec<&str>, Vec<&str>) = text
-            .split('=')
-            .map(str::trim)
-            .partition(|side| formula::read(side, &symbols).is_ok());
+        let (known, new): (Vec<&str>, Vec<&str>) =
+            text.split('=').map(str::trim).partition(|side| {
+                let read = formula::read(side, &symbols);
+                read.is_ok_and(|reading| !self.has_normal(side, &reading))
+            });
         match (new.as_slice(), known.last()) {
             ([new], Some(last)) => self.new_name(&format!("{new} = {last}")),
             _ => None,
         }
+    }
+
+    /// Whether what was read as newtons is a force by its letter: behind what has no dimension, as in `μ N`.
+    pub(super) fn has_normal(&self, text: &str, reading: &Reading) -> bool {
+        let Some((from, _)) = behind(text, reading).filter(|(from, to)| &text[*from..*to] == "N")
+        else {
+            return false;
+        };
+        let before = text[..from].rsplit(['=', '≈']).next().unwrap_or_default();
+        let factor = formula::read(before, &self.symbols(before)).ok();
+        let of = |name: &str| Some(self.sheet.scene.parameter(name)?.dimension.clone());
+        let found = factor.and_then(|f| dimension::of(f.expr()?, &of).ok()?);
+        found.is_some_and(|dimension| dimension.is_none())
     }
 
     /// Whether a line only says that something stays what it is, in names that it never gives: `H_C = H_C'`, `E_1 = E_2`.

@@ -1,5 +1,6 @@
 //! The equations in a line as students write them, with words and arrows around them.
 
+use crate::dimension;
 use crate::formula::Fault;
 
 /// Signs that relate two sides.
@@ -8,7 +9,7 @@ const SIGNS: [char; 5] = ['<', '>', '≤', '≥', '≈'];
 /// Words and arrows before an equation.
 const LEADS: &str = "=>|⇒|⟹|∴|→|->|\\Rightarrow|\\implies|\\therefore|therefore|hence|thus|so|then|with|\
      and|where|gives|which gives|this gives|we get|we find|we have|it follows that|that is|i.e.|since|because|\
-     as|from";
+     as|from|let";
 
 /// What stands between two equations of one line.
 const BETWEEN: &str = "<=>|⇔|\\Leftrightarrow|\\iff|=>|⇒|⟹|∴|\\Rightarrow|\\implies|\\therefore|\
@@ -20,7 +21,7 @@ const MOMENTS: &str = "(just before)|(just after)|(before)|(after)|just before|j
 /// First words of a remark in brackets behind an equation, which are never names.
 const REMARKS: &str = "along angular anticlockwise as because by clockwise conservation counterclockwise definition down \
     downward downwards due energy from geometry hinge horizontal horizontally in kinematics leftward leftwards linear momentum \
-    newton no restitution rightward rightwards rolling since symmetry to towards up upward upwards using vertical vertically";
+    newton no parallel perpendicular relative restitution rightward rightwards rolling since symmetry to towards up upward upwards using vertical vertically";
 
 /// Words of a description that stands in place of a name left of an equality sign: `kinetic energy before = …`.
 const DESCRIBING: &str = "angular change energy force impulse kinetic loss lost momentum potential rotational speed total \
@@ -43,6 +44,13 @@ pub(super) fn equations(text: &str) -> Vec<&str> {
             Some(sign) if relates(&text[start..at]) && parts(sign, &rest[sign.len()..]) => {
                 out.push(equation(&text[start..at]));
                 at += sign.len();
+                start = at;
+            }
+            // `Energy is conserved. …`
+            _ if [". ", "; "].iter().any(|end| rest.starts_with(end))
+                && says(&text[start..at], if rest.starts_with('.') { 3 } else { 2 }) =>
+            {
+                at += 2;
                 start = at;
             }
             _ => {
@@ -220,7 +228,42 @@ pub(super) fn unaligned(line: &str) -> String {
         .trim_end_matches("\\\\")
         .replace("&=", "=")
         .replace("&\\approx", "\\approx");
-    line.replace("\\quad", " ").replace('&', " ")
+    let line = line.replace("\\quad", " ").replace('&', " ");
+    // `v = 3 u/7 [m/s]`
+    let unit = line.strip_suffix(']').and_then(|l| l.rsplit_once('['));
+    match unit.filter(|(_, unit)| dimension::unit(unit).is_ok()) {
+        Some((said, unit)) => format!("{said}{unit}"),
+        None => line,
+    }
+}
+
+/// A line without the mark of an item in a list: `1) ω = …`, `(a) ω = …`, `* ω = …`, and `- ω = …` where `dashes` are marks.
+pub(super) fn unlisted(line: &str, dashes: bool) -> &str {
+    let marks = ["* ", "• ", "– ", "- "]
+        .iter()
+        .take(3 + usize::from(dashes));
+    if let Some(rest) = marks.filter_map(|mark| line.strip_prefix(mark)).next() {
+        return rest.trim_start();
+    }
+    let Some((mark, rest)) = line.split_once(") ") else {
+        return line;
+    };
+    let number = |mark: &str| mark.len() < 3 && mark.bytes().all(|b| b.is_ascii_digit());
+    let is_mark = match mark.strip_prefix('(') {
+        // `(2) v + (3) u` are factors.
+        Some(inside) => {
+            ["a", "b", "c", "i", "ii", "iii", "iv"].contains(&inside)
+                || number(inside) && !rest.contains('(')
+        }
+        None => mark.len() == 1 || number(mark),
+    };
+    if is_mark { rest.trim_start() } else { line }
+}
+
+/// Whether dashes begin the items of a list: more than one line begins with one that a blank follows.
+pub(super) fn has_dashes(text: &str) -> bool {
+    let dashed = |line: &&str| line.trim_start().starts_with("- ");
+    text.lines().filter(dashed).count() > 1
 }
 
 /// Whether a line says what a name is as a function of time: `v(t) = …`.
@@ -293,10 +336,13 @@ fn equation(text: &str) -> &str {
     {
         rest = behind.trim_start();
     }
-    // `The gate turns at a steady rate, t = …`
-    if let Some((said, behind)) = rest.split_once(", ")
-        && is_sentence(said)
-        && relates(behind)
+    // `The gate turns at a steady rate, t = …`, `Putting (1) into (2) gives …`
+    let ends = [", ", " we get ", " gives ", " yields "];
+    let said = ends.iter().filter_map(|end| rest.split_once(end));
+    let least = |said: &str| if said.ends_with(')') { 3 } else { 4 };
+    if let Some((_, behind)) = said
+        .filter(|(said, behind)| says(said, least(said)) && relates(behind))
+        .min_by_key(|(said, _)| said.len())
     {
         rest = behind.trim_start();
     }
@@ -305,7 +351,7 @@ fn equation(text: &str) -> &str {
         && !behind.starts_with('=')
         && relates(behind)
         && !words.contains(['=', '<', '>', '^', '*'])
-        && words.chars().any(char::is_alphabetic)
+        && (words.chars().any(char::is_alphabetic) || words.starts_with('('))
     {
         rest = behind.trim_start();
     }
@@ -352,16 +398,28 @@ fn turns_sign(word: &str) -> bool {
         .any(|sense| sense.eq_ignore_ascii_case(word))
 }
 
-/// Whether words say something by themselves: `The gate turns at a steady rate`.
-fn is_sentence(words: &str) -> bool {
-    let all = || words.split([' ', '-']);
-    all().count() > 3
-        && all().all(|word| word.chars().all(char::is_alphabetic) && !turns_sign(word))
+/// Whether words say something by themselves, so many at least: `The gate turns at a steady rate`, `Using (1) and (2)`.
+fn says(words: &str, least: usize) -> bool {
+    let all = || words.trim().split([' ', '-']);
+    let number = |word: &str| {
+        let inside = word.strip_prefix('(').and_then(|w| w.strip_suffix(')'));
+        inside.is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()))
+    };
+    // A reason turns no sign: `Since no torque acts about C, …`.
+    let reason = ["since ", "because ", "as "].iter().any(|lead| {
+        let start = words.trim().get(..lead.len());
+        start.is_some_and(|start| start.eq_ignore_ascii_case(lead))
+    });
+    let is_said =
+        |word: &str| word.chars().all(char::is_alphabetic) && (reason || !turns_sign(word));
+    all().count() >= least - usize::from(all().any(number))
+        && all().all(|word| is_said(word) || number(word))
 }
 
 /// An equation without the reason in words behind it: `T1 = T2 since the pulley is light`, `…, where v' is the speed after`.
 fn without_reason(text: &str) -> &str {
-    const REASONS: &str = " where | which | because | since | using | due to | as the | by the ";
+    const REASONS: &str =
+        " be the | where | which | because | since | using | due to | as the | by the ";
     const PLACES: &str = " at the | at rest| in the | in this | in that | on the | along the | during the | for the | until the | of the ";
     let first = |leads: &str| {
         let found = leads

@@ -46,14 +46,20 @@ impl Desk<'_> {
                 if let Some(root) = root {
                     let mut values = earlier.clone();
                     self.carry_along(&name, &root, &mut values);
-                    // What is the same in truth, as a spin some time later, is believed to be the same.
+                    // What is the same in truth, as a spin some time later, is believed to be the same; or not, where that is
+                    // a coincidence.
                     let truth = &self.closed[&name];
-                    for (other, _) in self
-                        .closed
-                        .iter()
-                        .filter(|(n, v)| **n != name && *v == truth)
-                    {
-                        values.entry(other.clone()).or_insert_with(|| root.clone());
+                    let same = |(n, v): &(&Symbol, &Expr)| **n != name && *v == truth;
+                    let same: Vec<Symbol> = (self.closed.iter().filter(same))
+                        .map(|(n, _)| n.clone())
+                        .collect();
+                    if !same.is_empty() {
+                        let mut alone = values.clone();
+                        alone.insert(name.clone(), root.clone());
+                        self.believed.push((cause, alone));
+                    }
+                    for other in same {
+                        values.entry(other).or_insert_with(|| root.clone());
                     }
                     values.insert(name, root);
                     self.believed.push((cause, values));
