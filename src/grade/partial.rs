@@ -156,13 +156,17 @@ pub(crate) fn vectors(
         return vec![Diagnosis::new("SWAPPED", message, hint)];
     }
     let mut found = Vec::new();
+    let axis = ["x", "y", "z"][first];
     if others {
-        let axis = ["x", "y", "z"][first];
         let message = format!("only the {axis}-component is wrong");
         let hint = "one of the components is right";
         found.push(Diagnosis::new("COMPONENT", message, hint));
     }
     found.extend(diagnose(ctx, &expected[first], &answer[first]));
+    // What is found of one of several wrong components is not said of the whole.
+    for d in found.iter_mut().filter(|_| !others) {
+        d.message = format!("along {axis}: {}", d.message);
+    }
     found
 }
 
