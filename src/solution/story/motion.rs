@@ -39,6 +39,14 @@ impl Page<'_> {
             return;
         }
         let mut lines: Vec<Line> = self.inertia(stage, told).into_iter().collect();
+        if let Some((inertia, impulse)) = driven(told) {
+            lines.extend(self.driven(told, [&inertia, &impulse]));
+            if !named {
+                lines.extend(self.speed(stage, told));
+                self.solution.display(lines);
+                return self.whirled(stage, told);
+            }
+        }
         if self.is_of_moments(told) {
             self.solution.display(lines);
             return self.whirled(stage, told);
@@ -234,6 +242,28 @@ impl Page<'_> {
         is_size.then_some(Line::plain(math))
     }
 
+    /// How a moment changes a rotation in a given time, by its angular impulse.
+    fn driven(&mut self, told: &StageTold, [inertia, impulse]: [&Expr; 2]) -> Vec<Line> {
+        let StageKind::Turn(turn) = &told.placed.kind else {
+            return Vec::new();
+        };
+        let about = say(&turn.about_name);
+        let lead = "The moment changes the angular momentum about {} by its size times the time.";
+        self.solution.text(fill(lead, [about]));
+        let [before, after] = ["-", "+"].map(|mark| name("H", &turn.about_name, mark, false));
+        let [raw, end] = [&told.before, &told.after].map(|s| inertia * &s.spin[turn.body]);
+        let [start, end] = [&raw, &end].map(|e| tidied(self.scene, e));
+        let why = "angular momentum about the fixed point at the beginning";
+        let first = self.chain(vec![before.clone()], &raw, &start, why);
+        let (form, size) = match impulse.is_negative() {
+            true => ("{} = {} − {} = {}", -impulse),
+            false => ("{} = {} + {} = {}", impulse.clone()),
+        };
+        let math = set(form, [after, before, size.into(), (&end).into()]);
+        let why = "the angular impulse of the moment changes the angular momentum";
+        vec![first, self.claimed(math, &(&raw + impulse), &end, why)]
+    }
+
     /// When a moment alone has stopped a rotation: its angular impulse takes up the angular momentum.
     fn stopped(&mut self, told: &StageTold, turn: &Turn) {
         let time = self.to(told, |ask| matches!(ask, Ask::Time));
@@ -415,8 +445,12 @@ impl Page<'_> {
             }
             _ => return None,
         };
+        let turned = driven(told).map(|_| &told.after.spin[told.placed.kind.moved()[0]]);
         let square = Expr::from(2) * end / &inertia;
-        let speed = tidied(self.scene, &tidied(self.scene, &square).sqrt());
+        let speed = turned.map_or_else(
+            || tidied(self.scene, &tidied(self.scene, &square).sqrt()),
+            Expr::clone,
+        );
         // A speed that is asked for stands in the box.
         let asked = self.answered(told).find(|a| a.formula() == Some(&speed));
         if let Some(answer) = asked.filter(|_| letter == "v") {
@@ -429,9 +463,17 @@ impl Page<'_> {
         let latex = format!("{}^{{+}}", crate::formula::latex_name(letter));
         self.solution.names.insert(symbol.clone(), latex);
         let symbol = Expr::symbol(&symbol);
-        let energy = Expr::ratio(1, 2) * &inertia * symbol.powi(2);
-        let kinetic = words::kinetic("", "+");
-        let parts = [energy.into(), kinetic, symbol.into(), speed.into()];
+        let (made, of) = match &stage.kind {
+            StageKind::Turn(turn) if turned.is_some() => {
+                let momentum = name("H", &turn.about_name, "+", false);
+                (&inertia * &symbol, momentum)
+            }
+            _ => {
+                let energy = Expr::ratio(1, 2) * &inertia * symbol.powi(2);
+                (energy, words::kinetic("", "+"))
+            }
+        };
+        let parts = [made.into(), of, symbol.into(), speed.into()];
         let math = set("{} = {} ⇒ {} = {}", parts);
         Some(Line::plain(math))
     }
@@ -625,4 +667,26 @@ pub(super) fn pulley(stage: &Stage, body: usize) -> Option<(&Slide, Expr)> {
     let radius = b.shape.radius()?;
     slide.pulleys().find(|p| *p == body)?;
     Some((slide, &b.inertia / &radius.powi(2)))
+}
+
+/// The moment of inertia about the fixed point of a rotation that a moment drives for a given time, and the angular impulse of
+/// the moment, counterclockwise.
+pub(super) fn driven(told: &StageTold) -> Option<(Expr, Expr)> {
+    let StageKind::Turn(turn) = &told.placed.kind else {
+        return None;
+    };
+    let (Until::For(time), Some(torque), Some([_, inertia])) =
+        (&turn.until, &turn.torque, &told.inertia)
+    else {
+        return None;
+    };
+    let [before, after] = [&told.before, &told.after].map(|s| &s.spin[turn.body]);
+    let scene = &told.placed.scene;
+    let gained = tidied(scene, &(inertia * &(after - before)));
+    let impulse = torque * time;
+    let is_clockwise = gained == tidied(scene, &-&impulse);
+    Some((
+        inertia.clone(),
+        if is_clockwise { -impulse } else { impulse },
+    ))
 }

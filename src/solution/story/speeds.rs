@@ -1,12 +1,12 @@
 //! What the end of a motion leads to: the kinetic energy in terms of what is asked, and the velocities of points.
 
 use super::Page;
-use super::motion::pulley;
+use super::motion::{driven, pulley};
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol};
 use crate::scene::{Ask, StageKind};
 use crate::solution::neat::tidied;
-use crate::solution::words::{self, set, vector};
+use crate::solution::words::{self, name, set, vector};
 use crate::solution::{Line, Math};
 use crate::story::StageTold;
 
@@ -109,6 +109,15 @@ impl Page<'_> {
         let otherwise = !told.steps.is_empty() || self.kinematic(told).is_some();
         if otherwise || matches!(told.placed.kind, StageKind::Linkage(_)) {
             return None;
+        }
+        if let (StageKind::Turn(turn), Some((inertia, _))) = (&told.placed.kind, driven(told)) {
+            let momentum = name("H", &turn.about_name, "+", false);
+            let Ask::Spin { clockwise, .. } = ask else {
+                return None;
+            };
+            let spin = Expr::symbol(symbol);
+            let made = &inertia * if *clockwise { -spin } else { spin };
+            return Some(Line::plain(set("{} = {}", [made.into(), momentum])));
         }
         let inertia = match (ask, &told.inertia) {
             (Ask::Spin { .. }, Some([_, about])) => about.clone(),

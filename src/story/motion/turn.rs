@@ -74,11 +74,9 @@ pub(in crate::story) fn turn(
     if !work.is_zero() || !matches!(turn.until, Until::For(_)) {
         assumptions.extend(assumed);
     }
-    let spin_end = if work.is_zero() {
-        spin.clone()
-    } else {
-        let size = (&(&Expr::from(2) * &end) / &inertia).sqrt();
-        tidied(stage, &(&Expr::from(way) * &size))?
+    let spin_end = match work.is_zero() {
+        true => spin.clone(),
+        false => driven(stage, turn, &spin, [&inertia, &end], way)?,
     };
     let gained = &Expr::from(way) * &(&spin_end - &spin);
     let time = match (&turn.until, &turn.torque) {
@@ -117,6 +115,24 @@ pub(in crate::story) fn turn(
     out.needs = needs;
     out.assumptions = assumptions;
     Ok(out)
+}
+
+/// The spin to which work has brought a rotation: in a given time a moment may also turn it back.
+fn driven(
+    stage: &Stage,
+    turn: &Turn,
+    spin: &Expr,
+    [inertia, end]: [&Expr; 2],
+    way: i64,
+) -> Result<Expr, Refused> {
+    let way = Expr::from(way);
+    match (&turn.until, &turn.torque) {
+        (Until::For(time), Some(torque)) => {
+            let gained = &(torque * time) / inertia;
+            tidied(stage, &(spin + &(&way * &gained)))
+        }
+        _ => tidied(stage, &(&way * &(&(&Expr::from(2) * end) / inertia).sqrt())),
+    }
 }
 
 /// Work done on the bodies, by what.
