@@ -23,6 +23,18 @@ impl Offset {
             format!(r#"["{}/2", "{}/3"]"#, self.x, self.y)
         }
     }
+
+    /// The same along a rod, if it is one: level.
+    fn on(&self, is_rod: bool) -> Offset {
+        match is_rod {
+            true => Offset {
+                x: if self.x == 0 { self.y } else { self.x },
+                y: 0,
+                ..*self
+            },
+            false => self.clone(),
+        }
+    }
 }
 
 fn offset() -> impl Strategy<Value = Offset> {
@@ -84,10 +96,11 @@ impl Structure {
         let mut questions = Vec::new();
         let mut joint = String::from("O");
         for i in 0..n {
-            let center = self.centers[i].text("l");
+            let is_rod = self.shapes[i] == 0;
+            let center = self.centers[i].on(is_rod).text("l");
             points.push(format!(r#""G{i}": {{"from": "{joint}", "by": {center}}}"#));
             let shape = match self.shapes[i] {
-                0 => r#""shape": "rod", "length": "2*l""#.to_string(),
+                0 => r#""shape": "rod", "length": "20*l""#.to_string(),
                 1 => r#""shape": "disk", "radius": "r""#.to_string(),
                 2 => r#""shape": "rectangle", "width": "l", "height": "3*r""#.to_string(),
                 3 => format!(r#""shape": "body", "inertia": "I{i}""#),
@@ -112,13 +125,13 @@ impl Structure {
             ));
             points.push(format!(
                 r#""J{i}": {{"from": "{joint}", "by": {}}}"#,
-                self.joints[i].text("l")
+                self.joints[i].on(is_rod).text("l")
             ));
             joint = format!("J{i}");
         }
         points.push(format!(
             r#""K": {{"from": "{joint}", "by": {}}}"#,
-            self.hit.text("r")
+            self.hit.on(self.shapes[n - 1] == 0).text("r")
         ));
         let last = n - 1;
         let normal = [

@@ -6,6 +6,7 @@
 use super::fault::{Fault, Span};
 use super::parameters::number_words;
 use super::proof::{Given, Zero, given, middle, sign, violation, zero};
+use super::touch::Placed;
 use super::{ALONE, Ask, Contact, Hinge, Scene, beside_friction, touch};
 use crate::algebra::Sign;
 use crate::expr::{Expr, Function, Node, Symbol, Vector, dot, minus};
@@ -39,10 +40,8 @@ pub(super) enum Claim {
     },
     /// The bodies of this contact do not separate.
     Approach(usize),
-    /// This contact lies on the bodies that touch there.
-    Touch(usize),
-    /// This blow lies on the body that it strikes.
-    Struck(usize),
+    /// This contact, blow or hinge lies on its bodies.
+    Placed(Placed),
     /// Both bodies of this hinge move alike there.
     Hinge(usize),
     /// The bodies of this contact do not strike, for another one has friction.
@@ -61,7 +60,7 @@ pub(super) fn check(scene: &mut Scene, claims: &[Claimed]) -> Vec<Fault> {
     let given = given(scene);
     for claimed in claims {
         // Where a size or a place is wrong, so is the outline.
-        if matches!(claimed.claim, Claim::Touch(_) | Claim::Struck(_)) && !faults.is_empty() {
+        if matches!(claimed.claim, Claim::Placed(_)) && !faults.is_empty() {
             continue;
         }
         let (fault, remark) = try_claim(scene, claimed, &given);
@@ -82,9 +81,11 @@ pub(super) fn at_values(scene: &Scene, span: Span) -> Option<Fault> {
         Some(Claimed { span, claim })
     });
     let contacts = 0..scene.contacts.len();
-    let contacts = contacts.flat_map(|i| [Claim::Touch(i), Claim::Approach(i)]);
-    let blows = (0..scene.blows.len()).map(Claim::Struck);
-    let approaches = contacts.chain(blows).map(|claim| Claimed { span, claim });
+    let contacts = contacts.flat_map(|i| [Claim::Placed(Placed::Contact(i)), Claim::Approach(i)]);
+    let blows = (0..scene.blows.len()).map(Placed::Blow);
+    let hinges = (0..scene.hinges.len()).map(Placed::Hinge);
+    let places = blows.chain(hinges).map(Claim::Placed);
+    let approaches = contacts.chain(places).map(|claim| Claimed { span, claim });
     let given = given(scene);
     let turns = scene.questions.iter().filter_map(|q| match &q.ask {
         Ask::Turn { number, .. } => Some(Claim::Whole(number.clone())),
@@ -168,8 +169,8 @@ fn try_claim(scene: &Scene, claimed: &Claimed, given: &Given) -> (Option<Fault>,
         Claim::AtParticle { offset, at, body } => at_particle(scene, offset, at, *body),
         Claim::Rests(i) => rests(scene, *i),
         Claim::Approach(i) => return (approach(scene, *i, given, claimed.span), None),
-        Claim::Touch(i) => placed(touch::misplaced_contact(scene, *i)),
-        Claim::Struck(i) => placed(touch::misplaced_blow(scene, *i)),
+        Claim::Placed(one) => touch::misplaced_one(scene, *one)
+            .map_or(Tried::Holds, |off| Tried::Refuted(off.words, off.hint)),
         Claim::Hinge(i) => scene
             .hinges
             .get(*i)
@@ -180,11 +181,6 @@ fn try_claim(scene: &Scene, claimed: &Claimed, given: &Given) -> (Option<Fault>,
         Tried::Refuted(message, hint) => (Some(Fault::new(claimed.span, message).hint(hint)), None),
         Tried::Undecided(remark) => (None, Some(remark)),
     }
-}
-
-/// Whether something lies on its bodies.
-fn placed(misplaced: Option<touch::Misplaced>) -> Tried {
-    misplaced.map_or(Tried::Holds, |off| Tried::Refuted(off.words, off.hint))
 }
 
 /// A number within its bounds, unless it is seen outside.

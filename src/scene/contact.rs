@@ -7,6 +7,7 @@ use super::fault::{Fault, Span};
 use super::formulas::Quantity;
 use super::record::{Formula, Text, is_sound};
 use super::resolve::{Resolver, text};
+use super::touch::Placed;
 use super::{
     ALONE, Body, Contact, ContactLaw, Friction, Hypothesis, Known, KnownQuantity, Mode, Scene,
     beside_friction,
@@ -81,7 +82,10 @@ impl Resolver<'_> {
             self.reach(bodies, &at, name.span, &name.text);
             if self.file.stages.is_none() {
                 // In stages bodies have moved by then; where they are shows when the stages are followed.
-                self.claim(name.span, Claim::Touch(scene.contacts.len()));
+                self.claim(
+                    name.span,
+                    Claim::Placed(Placed::Contact(scene.contacts.len())),
+                );
             }
             if normal.is_some() {
                 self.claim(name.span, Claim::Approach(scene.contacts.len()));

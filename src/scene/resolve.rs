@@ -14,6 +14,7 @@ use super::formulas::{Quantity, Symbols};
 use super::geometry::turned;
 use super::place::Place;
 use super::record::{Formula, Map, Pair, Text};
+use super::touch::Placed;
 use super::{
     Blow, BlowImpulse, Body, Force, Hinge, NamedPoint, Scene, Shape, Turns, parameters, plots,
     questions,
@@ -193,6 +194,9 @@ impl<'f> Resolver<'f> {
             if let (Some(bodies), Some(at)) = (bodies, at) {
                 self.reach(bodies, &at, name.span, &name.text);
                 self.claim(name.span, Claim::Hinge(scene.hinges.len()));
+                if self.file.stages.is_none() {
+                    self.claim(name.span, Claim::Placed(Placed::Hinge(scene.hinges.len())));
+                }
                 scene.hinges.push(Hinge {
                     name: name.text.clone(),
                     bodies,
@@ -224,7 +228,7 @@ impl<'f> Resolver<'f> {
             if let (Some(body), Some(at), Some(impulse)) = (body, at, impulse) {
                 self.reach([body, body], &at, name.span, &name.text);
                 if self.file.stages.is_none() {
-                    self.claim(name.span, Claim::Struck(scene.blows.len()));
+                    self.claim(name.span, Claim::Placed(Placed::Blow(scene.blows.len())));
                 }
                 scene.blows.push(Blow {
                     name: name.text.clone(),

@@ -16,7 +16,7 @@ use crate::algebra::Sign;
 use crate::domain::{Domains, roles, samples};
 use crate::expr::{Expr, Point, Symbol, Vector, minus};
 
-/// A contact or a blow that does not lie on one of its bodies.
+/// A contact, a blow or a hinge that does not lie on one of its bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Misplaced {
     /// Index of the body.
@@ -45,40 +45,84 @@ pub fn is_second_latch(scene: &Scene, contact: &Contact) -> bool {
     sticks(contact) && first.any(same)
 }
 
-/// The contacts and blows that lie off their bodies.
+/// What has its place on a body, by its index.
+#[derive(Clone, Copy)]
+pub enum Placed {
+    /// A contact, on both bodies.
+    Contact(usize),
+    /// A blow, on the body it strikes.
+    Blow(usize),
+    /// A hinge, on those of its bodies that are rods.
+    Hinge(usize),
+}
+
+/// The contacts, blows and hinges that lie off their bodies.
 pub fn misplaced(scene: &Scene) -> Vec<Misplaced> {
-    let contacts = (0..scene.contacts.len()).filter_map(|i| misplaced_contact(scene, i));
-    let blows = (0..scene.blows.len()).filter_map(|i| misplaced_blow(scene, i));
-    contacts.chain(blows).collect()
+    let contacts = (0..scene.contacts.len()).map(Placed::Contact);
+    let blows = (0..scene.blows.len()).map(Placed::Blow);
+    let hinges = (0..scene.hinges.len()).map(Placed::Hinge);
+    let all = contacts.chain(blows).chain(hinges);
+    all.filter_map(|one| misplaced_one(scene, one)).collect()
 }
 
-/// The same for one blow, which may also go to the middle of a body.
-pub fn misplaced_blow(scene: &Scene, i: usize) -> Option<Misplaced> {
-    let blow = scene.blows.get(i)?;
-    let body = scene.bodies.get(blow.body)?;
-    let words = off(scene, (&blow.at, true), body)?;
-    Some(Misplaced {
-        body: blow.body,
-        words: format!("the blow `{}` {words}", blow.name),
-        hint: hint(body),
-    })
-}
-
-/// The same for one contact.
-pub fn misplaced_contact(scene: &Scene, i: usize) -> Option<Misplaced> {
-    let contact = scene.contacts.get(i)?;
-    if is_second_latch(scene, contact) {
-        return None;
-    }
-    contact.bodies.iter().find_map(|&b| {
+/// The same for one of them. A blow may also go to the middle of a body, and a hinge may sit there; what is no rod may hang on
+/// its hinge by a light arm.
+pub fn misplaced_one(scene: &Scene, one: Placed) -> Option<Misplaced> {
+    let (what, name, at, inside, bodies) = match one {
+        Placed::Contact(i) => {
+            let c = scene.contacts.get(i)?;
+            if is_second_latch(scene, c) {
+                return None;
+            }
+            (
+                "contact",
+                &c.name,
+                &c.at,
+                may_lie_inside(c),
+                c.bodies.to_vec(),
+            )
+        }
+        Placed::Blow(i) => {
+            let blow = scene.blows.get(i)?;
+            ("blow", &blow.name, &blow.at, true, vec![blow.body])
+        }
+        Placed::Hinge(i) => {
+            let hinge = scene.hinges.get(i)?;
+            let is_rod = |b: &usize| matches!(scene.bodies[*b].shape, Shape::Rod { .. });
+            let rods = hinge.bodies.into_iter().filter(is_rod).collect();
+            ("hinge", &hinge.name, &hinge.at, true, rods)
+        }
+    };
+    bodies.iter().find_map(|&b| {
         let body = scene.bodies.get(b)?;
-        let words = off(scene, (&contact.at, may_lie_inside(contact)), body)?;
+        let words = off(scene, (at, inside), body)?;
+        if let [first, second] = bodies[..]
+            && is_between(scene, at, [first, second])
+        {
+            let [a, b] = [first, second].map(|b| &scene.bodies[b].name);
+            return Some(Misplaced {
+                body: second,
+                words: format!("`{a}` and `{b}` do not touch at the {what} `{name}`: their centers are not as far apart as their radii together"),
+                hint: "move one of them until they touch".into(),
+            });
+        }
         Some(Misplaced {
             body: b,
-            words: format!("the contact `{}` {words}", contact.name),
+            words: format!("the {what} `{name}` {words}"),
             hint: hint(body),
         })
     })
+}
+
+/// Whether a place divides the line between the centers of two round bodies as their radii do, as where it was found so.
+fn is_between(scene: &Scene, at: &Vector, bodies: [usize; 2]) -> bool {
+    let [a, b] = bodies.map(|b| &scene.bodies[b]);
+    let [Some(of_a), Some(of_b)] = [a, b].map(|body| body.shape.radius()) else {
+        return false;
+    };
+    let [to_a, to_b] = [a, b].map(|body| minus(at, &body.center));
+    let mut parts = to_a.iter().zip(&to_b).map(|(x, y)| x * of_b + y * of_a);
+    parts.all(|e| sign(&e, &scene.domains) == Some(Sign::Zero))
 }
 
 /// How a place lies off a body, if it does for certain; whether it may lie inside is told with it.

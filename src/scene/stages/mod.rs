@@ -469,7 +469,7 @@ fn one(
     // they are checked then.
     r.claims.retain(|c| match &c.claim {
         Claim::Approach(_) | Claim::Hinge(_) | Claim::Rests(_) => false,
-        Claim::AtParticle { .. } | Claim::Touch(_) | Claim::Struck(_) => places.is_empty(),
+        Claim::AtParticle { .. } | Claim::Placed(_) => places.is_empty(),
         _ => true,
     });
     let Resolver {
