@@ -5,15 +5,15 @@
 
 use std::convert::Infallible;
 
-use num_traits::{One, Zero};
+use num_traits::Zero;
 
 use super::{Stop, Work};
 use crate::algebra;
 
 use crate::domain::{Coordinate, roles, samples};
 use crate::expr::rows::reduce;
-use crate::expr::{Expr, Point, Rational, Vector, number, ratio};
-use crate::laws::{self, Direction, Geometry, Kinematics, Law, Linear, Place, Quantity, Unknown};
+use crate::expr::{Expr, Point, Rational, Vector, ratio};
+use crate::laws::{self, Direction, Geometry, Kinematics, Law, Linear, Place, Unknown};
 use crate::scene::{ContactLaw, Scene};
 
 /// What counting says about the full system.
@@ -172,27 +172,6 @@ fn closing_laws(scene: &Scene) -> Vec<String> {
         out.push(format!("frictionless at {at} with restitution e: 1 unknown less, impulse along the normal; 1 more equation"));
     }
     out
-}
-
-impl Quantity for Rational {
-    fn zero() -> Rational {
-        Zero::zero()
-    }
-    fn one() -> Rational {
-        One::one()
-    }
-    fn add(&self, other: &Rational) -> Rational {
-        number::sum(self, other, false)
-    }
-    fn mul(&self, other: &Rational) -> Rational {
-        number::product(self, other)
-    }
-    fn neg(&self) -> Rational {
-        -self
-    }
-    fn vanishes(&self) -> bool {
-        self.is_zero()
-    }
 }
 
 /// The full system at a rational point; `None` where a formula of the scene has no rational value there.

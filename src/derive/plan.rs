@@ -9,6 +9,7 @@ use std::ops::RangeInclusive;
 use rustc_hash::FxHashSet;
 
 use super::offered;
+use crate::expr::arithmetic::Number;
 use crate::expr::{Expr, Vector};
 use crate::laws::{self, Direction, Geometry, Kinematics, Law, Place, Unknown};
 use crate::scene::{ContactLaw, Scene};
@@ -105,7 +106,7 @@ pub fn reduction(scene: &Scene) -> Reduction {
 
 impl Reduction {
     /// The motion after in terms of what is left free.
-    pub fn kinematics<T: laws::Quantity>(&self, scene: &Scene, g: &Geometry<T>) -> Kinematics<T> {
+    pub fn kinematics<T: Number>(&self, scene: &Scene, g: &Geometry<T>) -> Kinematics<T> {
         let mut motion = Kinematics::full(scene, g);
         for link in &self.tree {
             let at = g.place(link.at).clone();

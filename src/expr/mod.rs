@@ -5,6 +5,7 @@
 //! two expressions are equal is the work of [`crate::algebra`]; how somebody wrote one is kept in [`crate::formula`].
 
 pub mod angle;
+pub mod arithmetic;
 mod build;
 mod derivative;
 pub(crate) mod effort;

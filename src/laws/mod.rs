@@ -8,16 +8,17 @@
 //! Balance of angular momentum of a system about O:        Σ [ I (ω⁺ − ω⁻) + r_{G/O} × m (v⁺ − v⁻) ] = Σ r_{Q/O} × P
 //! with the impulses P from outside the system (17.57). Contact laws and joints add conditions on velocities after.
 //!
-//! Every equation is written over any [`Quantity`]: symbolically for the derivation, in doubles for planning it. This
+//! Every equation is written over any [`Number`]: symbolically for the derivation, in doubles for planning it. This
 //! module solves nothing and chooses nothing.
 
+mod affine;
 pub mod friction;
-mod quantity;
 mod words;
 
-pub use quantity::{Affine, Linear, Quantity};
+pub use affine::{Affine, Linear};
 pub use words::{body_list, describe, place as place_name};
 
+use crate::expr::arithmetic::{Number, difference};
 use crate::expr::{Expr, Vector};
 use crate::scene::{BlowImpulse, Condition, ContactLaw, ImpulseAt, KnownQuantity, Scene};
 
@@ -159,7 +160,7 @@ pub struct Geometry<T> {
 /// A known value after: the place and direction of a velocity component, or `None` for a spin; and the value.
 type Given<T> = (Option<([T; 2], [T; 2])>, T);
 
-impl<T: Quantity> Geometry<T> {
+impl<T: Number> Geometry<T> {
     /// Every formula of the scene turned into a number by `value`; the first failure is returned.
     pub fn of<E>(
         scene: &Scene,
@@ -227,10 +228,10 @@ impl<T: Quantity> Geometry<T> {
 
     /// Velocity just before of the point of body `b` at `at`, v⁻ [m/s].
     pub fn velocity_before(&self, b: usize, at: &[T; 2]) -> [T; 2] {
-        let r = minus(at, &self.center[b]);
+        let r = difference(at, &self.center[b]);
         [
-            self.velocity[b][0].sub(&self.spin[b].mul(&r[1])),
-            self.velocity[b][1].add(&self.spin[b].mul(&r[0])),
+            self.velocity[b][0].minus(&self.spin[b].times(&r[1])),
+            self.velocity[b][1].plus(&self.spin[b].times(&r[0])),
         ]
     }
 
@@ -259,7 +260,7 @@ pub struct Kinematics<T> {
     pub spin: Vec<Affine<T>>,
 }
 
-impl<T: Quantity> Kinematics<T> {
+impl<T: Number> Kinematics<T> {
     /// Every body with laws has its own unknown velocity and spin; the others keep their motion.
     pub fn full(scene: &Scene, g: &Geometry<T>) -> Kinematics<T> {
         let bodies = 0..scene.bodies.len();
@@ -271,7 +272,7 @@ impl<T: Quantity> Kinematics<T> {
 
     /// Velocity after of the point of body `b` at `at`, v⁺ = v_G⁺ + ω⁺ × r.
     pub fn velocity_of(&self, g: &Geometry<T>, b: usize, at: &[T; 2]) -> [Affine<T>; 2] {
-        let r = minus(at, &g.center[b]);
+        let r = difference(at, &g.center[b]);
         [
             self.velocity[b][0].minus(&self.spin[b].times(&r[1])),
             self.velocity[b][1].plus(&self.spin[b].times(&r[0])),
@@ -288,14 +289,14 @@ impl<T: Quantity> Kinematics<T> {
         carrier: [Affine<T>; 2],
     ) {
         let spin = own_spin(scene, g, b);
-        let r = minus(&g.center[b], at);
+        let r = difference(&g.center[b], at);
         let [x, y] = carrier;
         self.velocity[b] = [x.minus(&spin.times(&r[1])), y.plus(&spin.times(&r[0]))];
         self.spin[b] = spin;
     }
 }
 
-fn own_velocity<T: Quantity>(scene: &Scene, g: &Geometry<T>, b: usize) -> [Affine<T>; 2] {
+fn own_velocity<T: Number>(scene: &Scene, g: &Geometry<T>, b: usize) -> [Affine<T>; 2] {
     [0, 1].map(|axis| {
         if !scene.has_law(b) {
             Affine::constant(g.velocity[b][axis].clone())
@@ -305,7 +306,7 @@ fn own_velocity<T: Quantity>(scene: &Scene, g: &Geometry<T>, b: usize) -> [Affin
     })
 }
 
-fn own_spin<T: Quantity>(scene: &Scene, g: &Geometry<T>, b: usize) -> Affine<T> {
+fn own_spin<T: Number>(scene: &Scene, g: &Geometry<T>, b: usize) -> Affine<T> {
     if !scene.has_law(b) {
         Affine::constant(g.spin[b].clone())
     } else if scene.bodies[b].is_particle() {
@@ -372,7 +373,7 @@ pub fn of(scene: &Scene) -> Vec<Law> {
 }
 
 /// Writes a law as a linear equation. `direction` turns the vector of a named direction into the number type.
-pub fn equation<T: Quantity, E>(
+pub fn equation<T: Number, E>(
     scene: &Scene,
     g: &Geometry<T>,
     motion: &Kinematics<T>,
@@ -405,10 +406,10 @@ pub fn equation<T: Quantity, E>(
             let at = &g.contact[*c];
             let [one, two] = contact.bodies;
             let after = after(contact.bodies, at);
-            let before = minus(&g.velocity_before(two, at), &g.velocity_before(one, at));
-            let approach = before[0].mul(&n[0]).add(&before[1].mul(&n[1]));
+            let before = difference(&g.velocity_before(two, at), &g.velocity_before(one, at));
+            let approach = before[0].times(&n[0]).plus(&before[1].times(&n[1]));
             along_direction(&after, n)
-                .plus(&Affine::constant(e.mul(&approach)))
+                .plus(&Affine::constant(e.times(&approach)))
                 .equals_zero()
         }
         Law::Sticking(c, axis) => {
@@ -428,7 +429,7 @@ pub fn equation<T: Quantity, E>(
             let impulse = impulse_at(scene, g, Place::Contact(*c));
             along_direction(&impulse, &condition.impulse)
                 .plus(&along_direction(&after, &condition.velocity))
-                .plus(&Affine::constant(condition.right.neg()))
+                .plus(&Affine::constant(condition.right.negated()))
                 .equals_zero()
         }
         Law::Given(k) => {
@@ -445,13 +446,15 @@ pub fn equation<T: Quantity, E>(
                 }
                 None => motion.spin[known.body].clone(),
             };
-            quantity.plus(&Affine::constant(value.neg())).equals_zero()
+            quantity
+                .plus(&Affine::constant(value.negated()))
+                .equals_zero()
         }
     })
 }
 
 /// What bodies gain of momentum less the impulses on them, along a direction or along an axis.
-fn linear<T: Quantity>(
+fn linear<T: Number>(
     scene: &Scene,
     g: &Geometry<T>,
     motion: &Kinematics<T>,
@@ -467,10 +470,10 @@ fn linear<T: Quantity>(
         let (after, before, m) = (&motion.velocity[b], &g.velocity[b], &g.mass[b]);
         let mut add = |axis: usize, m: &T| {
             total.add_times(&after[axis], m);
-            total.add_known(&before[axis], &m.neg());
+            total.add_known(&before[axis], &m.negated());
         };
         match &along {
-            Ok(d) => (0..2).for_each(|axis| add(axis, &m.mul(&d[axis]))),
+            Ok(d) => (0..2).for_each(|axis| add(axis, &m.times(&d[axis]))),
             Err(axis) => add(*axis, m),
         }
     }
@@ -481,7 +484,7 @@ fn linear<T: Quantity>(
 }
 
 /// What bodies gain of angular momentum about a place less the impulses' moments on them.
-fn angular<T: Quantity>(
+fn angular<T: Number>(
     scene: &Scene,
     g: &Geometry<T>,
     motion: &Kinematics<T>,
@@ -492,27 +495,27 @@ fn angular<T: Quantity>(
     for &b in system {
         if !scene.bodies[b].is_particle() {
             total.add_times(&motion.spin[b], &g.inertia[b]);
-            total.add_known(&g.spin[b], &g.inertia[b].neg());
+            total.add_known(&g.spin[b], &g.inertia[b].negated());
         }
         // m r × (v⁺ − v⁻)
-        let r = minus(&g.center[b], o);
+        let r = difference(&g.center[b], o);
         let (after, before) = (&motion.velocity[b], &g.velocity[b]);
-        let arms = [g.mass[b].mul(&r[1]).neg(), g.mass[b].mul(&r[0])];
+        let arms = [g.mass[b].times(&r[1]).negated(), g.mass[b].times(&r[0])];
         for (axis, arm) in arms.iter().enumerate() {
             total.add_times(&after[axis], arm);
-            total.add_known(&before[axis], &arm.neg());
+            total.add_known(&before[axis], &arm.negated());
         }
     }
     for (at, impulse) in external(scene, g, system) {
-        let r = minus(&at, o);
-        total.add_times(&impulse[1], &r[0].neg());
+        let r = difference(&at, o);
+        total.add_times(&impulse[1], &r[0].negated());
         total.add_times(&impulse[0], &r[1]);
     }
     total
 }
 
 /// The impulse on the second body of a contact or hinge, or of a blow, as an affine function of the unknowns.
-pub fn impulse_at<T: Quantity>(scene: &Scene, g: &Geometry<T>, place: Place) -> [Affine<T>; 2] {
+pub fn impulse_at<T: Number>(scene: &Scene, g: &Geometry<T>, place: Place) -> [Affine<T>; 2] {
     match place {
         Place::Contact(c) => match &g.normal[c] {
             Some(n) => [0, 1].map(|axis| Affine::unknown(Unknown::Normal(c)).times(&n[axis])),
@@ -532,7 +535,7 @@ pub fn impulse_at<T: Quantity>(scene: &Scene, g: &Geometry<T>, place: Place) -> 
 }
 
 /// The impulses from outside on a system, each with its point of application.
-fn external<T: Quantity>(
+fn external<T: Number>(
     scene: &Scene,
     g: &Geometry<T>,
     system: &[usize],
@@ -567,15 +570,11 @@ fn external<T: Quantity>(
     all
 }
 
-fn minus<T: Quantity>(a: &[T; 2], b: &[T; 2]) -> [T; 2] {
-    [a[0].sub(&b[0]), a[1].sub(&b[1])]
-}
-
-fn relative<T: Quantity>(one: &[Affine<T>; 2], two: &[Affine<T>; 2]) -> [Affine<T>; 2] {
+fn relative<T: Number>(one: &[Affine<T>; 2], two: &[Affine<T>; 2]) -> [Affine<T>; 2] {
     [0, 1].map(|axis| two[axis].minus(&one[axis]))
 }
 
-fn along_direction<T: Quantity>(v: &[Affine<T>; 2], d: &[T; 2]) -> Affine<T> {
+fn along_direction<T: Number>(v: &[Affine<T>; 2], d: &[T; 2]) -> Affine<T> {
     v[0].times(&d[0]).plus(&v[1].times(&d[1]))
 }
 

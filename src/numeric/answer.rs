@@ -8,11 +8,11 @@ use std::fmt;
 
 use super::friction::{Followed, settle};
 use super::given::{Given, GivenImpulse, GivenLaw, Undefined, given, vector};
-use super::number::{Number, dot};
 use super::path::NoPath;
 use super::solution::{Contradiction, Motion, Solution, motion};
 use super::system::{Law, System, Unknown, assemble, motion_of};
 use super::values::NoPoint;
+use crate::expr::arithmetic::{Number, dot};
 use crate::expr::{Point, Vector};
 use crate::scene::{Ask, EnergyWhen, ImpulseAt, Scene};
 

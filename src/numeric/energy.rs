@@ -1,8 +1,8 @@
 //! Kinetic energy before, after and lost; the loss from impulses, never as a difference of large numbers.
 
 use super::given::{Freedom, Given, GivenLaw, Joint};
-use super::number::{Number, difference, dot, total, velocity_at};
 use super::solution::Motion;
+use crate::expr::arithmetic::{Number, difference, dot, total, velocity_at};
 
 /// Velocity just after of a body's material point at `point` [m/s].
 pub fn velocity_after<T: Number>(

@@ -3,8 +3,8 @@
 //! The pivot with the fewest fill-ins goes first (Markowitz), among equals the largest; what is exactly zero is never touched,
 //! and what may be zero is no pivot. Over enclosures the outcome encloses the true solution, whatever the pivots.
 
-use super::number::Number;
 use super::system::System;
+use crate::expr::arithmetic::Number;
 
 /// The solution of a system with as many independent rows as unknowns; `None` where a pivot may be zero, where rows are
 /// left over, or beyond 128 unknowns or rows.

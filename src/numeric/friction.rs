@@ -6,10 +6,10 @@
 use super::answer::NoAnswer;
 use super::energy::relative_velocities;
 use super::given::{Given, GivenLaw, Joint};
-use super::number::{Number, dot, stretched, total};
 use super::path::{Corner, Event, NoPath, Path, follow};
 use super::solution::{Contradiction, Solution, motion};
 use super::system::{System, Unknown, assemble};
+use crate::expr::arithmetic::{Number, difference, dot, stretched, total};
 use crate::scene::{Condition, ContactSpace, Hypothesis, Mode};
 
 /// How an impact with friction went.
@@ -79,7 +79,7 @@ fn strikes<T: Number>(given: &Given<T>, contact: usize) -> bool {
     let centers = bodies.map(|b| given.bodies[b].velocity.clone());
     let parts = speeds.iter().chain(&centers).flatten();
     let largest = parts.map(Number::size).fold(0.0, f64::max);
-    let along = super::number::difference(&speeds[1], &speeds[0]);
+    let along = difference(&speeds[1], &speeds[0]);
     let opening = match (&contact.law, &contact.normal) {
         (GivenLaw::Sticking, _) | (_, None) => along.to_vec(),
         (_, Some(normal)) => vec![dot(&along, normal)],
@@ -151,7 +151,7 @@ pub fn contact_space<T: Number>(
     let [one, two] = joint
         .bodies
         .map(|b| given.bodies[b].velocity_before(&joint.at));
-    let before = super::number::difference(&two, &one);
+    let before = difference(&two, &one);
     // Everything at rest, and one unit of impulse: the velocity after is a column of W.
     let mut probe = given.clone();
     for body in &mut probe.bodies {

@@ -4,7 +4,7 @@
 
 use std::fmt;
 
-use super::number::{Number, difference, velocity_at};
+use crate::expr::arithmetic::{Number, difference, velocity_at};
 use crate::expr::{Expr, Point, Symbol, Vector};
 use crate::scene::{BlowImpulse, Condition, Contact, ContactLaw, Friction, KnownQuantity, Scene};
 

@@ -9,8 +9,8 @@ use super::energy::{
     velocity_after, work,
 };
 use super::given::{Freedom, Given, GivenContact, GivenLaw, Joint};
-use super::number::{Number, cross, difference, dot};
 use super::solution::Motion;
+use crate::expr::arithmetic::{Number, cross, difference, dot};
 
 /// What an identity states. Bodies, contacts and hinges by index.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -17,7 +17,7 @@ pub mod given;
 pub mod invariants;
 mod jet;
 mod least;
-pub mod number;
+mod number;
 pub mod path;
 pub mod points;
 pub mod random;
@@ -30,6 +30,7 @@ pub mod values;
 #[cfg(test)]
 mod tests;
 
+pub use crate::expr::arithmetic::Number;
 pub use answer::{Answer, Answered, NoAnswer, Solved, answer, answers, solved};
 pub use correct::{Correct, CorrectAnswers, How, correct};
 pub use doubles::doubles;
@@ -41,7 +42,6 @@ pub use follow::{Followed, Lost, follow};
 pub use friction::settle;
 pub use given::{Given, Reason, Undefined, given};
 pub use invariants::{ContactReport, Identity, Invariant, contact_reports, identities};
-pub use number::Number;
 pub use points::{Needed, needed, point_of_any_size, random_point, rounded};
 pub use solution::{Contradiction, Motion, Solution, motion};
 pub use system::{Law, System, Unknown, assemble, motion_of};

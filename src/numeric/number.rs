@@ -1,98 +1,11 @@
-//! What the numeric side asks of a number beyond evaluation: differences, neutral elements, and a few plane vectors.
-//!
-//! Doubles, exact fractions, and enclosures of any precision for values that are no fractions.
+//! Enclosures of any precision as numbers of equations, for values that are no fractions.
 
-use num_integer::Integer;
-use num_traits::{One, ToPrimitive, Zero};
+use num_traits::{One, Zero};
 
-use crate::expr::number::sum;
-use crate::expr::{Int, Rational, Scalar};
+use crate::expr::Scalar;
+use crate::expr::arithmetic::Number;
 use crate::interval::dyadic::Round;
 use crate::interval::{Big, Enclosure, Outcome};
-
-/// A number type in which the equations of a scene can be assembled.
-pub trait Number: Scalar {
-    /// The neutral element of addition.
-    fn zero() -> Self;
-    /// The neutral element of multiplication.
-    fn one() -> Self;
-    /// Whether the number is exactly zero, for sure.
-    fn is_zero(&self) -> bool;
-    /// Difference.
-    fn minus(&self, other: &Self) -> Self;
-    /// The number with the other sign.
-    fn negated(&self) -> Self;
-    /// Half of the number.
-    fn halved(&self) -> Self;
-    /// The absolute value, roughly: for judging sizes, not for results.
-    fn size(&self) -> f64;
-    /// Share of two products below which their difference is rounding; 0 where numbers are exact.
-    fn rounding() -> f64 {
-        0.0
-    }
-}
-
-impl Number for f64 {
-    fn zero() -> f64 {
-        0.0
-    }
-    fn one() -> f64 {
-        1.0
-    }
-    fn is_zero(&self) -> bool {
-        *self == 0.0
-    }
-    fn minus(&self, other: &f64) -> f64 {
-        self - other
-    }
-    fn negated(&self) -> f64 {
-        -self
-    }
-    fn halved(&self) -> f64 {
-        self * 0.5
-    }
-    fn size(&self) -> f64 {
-        self.abs()
-    }
-    // Some thousand units in the last place: coefficients of a contact come from a solved system.
-    fn rounding() -> f64 {
-        1e-12
-    }
-}
-
-impl Number for Rational {
-    fn zero() -> Rational {
-        Zero::zero()
-    }
-    fn one() -> Rational {
-        One::one()
-    }
-    fn is_zero(&self) -> bool {
-        Zero::is_zero(self)
-    }
-    fn minus(&self, other: &Rational) -> Rational {
-        sum(self, other, true)
-    }
-    fn negated(&self) -> Rational {
-        -self
-    }
-    fn halved(&self) -> Rational {
-        // Where the numerator is even, the denominator is odd: lowest terms either way.
-        let two = Int::from(2);
-        match self.numer().is_even() {
-            true => Rational::new_raw(self.numer() / &two, self.denom().clone()),
-            false => Rational::new_raw(self.numer().clone(), self.denom() * &two),
-        }
-    }
-    fn size(&self) -> f64 {
-        let rough = self.numer().to_f64().zip(self.denom().to_f64());
-        let rough = rough.map_or(f64::NAN, |(n, d)| (n / d).abs());
-        match rough.is_finite() {
-            true => rough,
-            false => crate::expr::number::to_f64(self).abs(),
-        }
-    }
-}
 
 /// An enclosure of `BITS` bits; what it cannot decide, a reciprocal around zero say, stays unknown to the end.
 impl<const BITS: u32> Number for Outcome<Big<BITS>> {
@@ -130,37 +43,4 @@ fn each<const BITS: u32>(
         Outcome::Value(v) => Outcome::Value(Big(f(&v.0))),
         other => other.clone(),
     }
-}
-
-/// The difference a − b of two vectors.
-pub fn difference<T: Number>(a: &[T; 2], b: &[T; 2]) -> [T; 2] {
-    [a[0].minus(&b[0]), a[1].minus(&b[1])]
-}
-
-/// The sum a + b of two vectors.
-pub fn total<T: Number>(a: &[T; 2], b: &[T; 2]) -> [T; 2] {
-    [a[0].plus(&b[0]), a[1].plus(&b[1])]
-}
-
-/// Scalar product a · b.
-pub fn dot<T: Number>(a: &[T; 2], b: &[T; 2]) -> T {
-    a[0].times(&b[0]).plus(&a[1].times(&b[1]))
-}
-
-/// z-component of the cross product a × b.
-pub fn cross<T: Number>(a: &[T; 2], b: &[T; 2]) -> T {
-    a[0].times(&b[1]).minus(&a[1].times(&b[0]))
-}
-
-/// The vector a times the number k.
-pub fn stretched<T: Number>(a: &[T; 2], k: &T) -> [T; 2] {
-    [a[0].times(k), a[1].times(k)]
-}
-
-/// Velocity at a point whose position relative to the reference point is `arm`: v + ω × r.
-pub fn velocity_at<T: Number>(velocity: &[T; 2], spin: &T, arm: &[T; 2]) -> [T; 2] {
-    [
-        velocity[0].minus(&spin.times(&arm[1])),
-        velocity[1].plus(&spin.times(&arm[0])),
-    ]
 }

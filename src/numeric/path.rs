@@ -8,7 +8,7 @@
 
 use std::fmt;
 
-use super::number::Number;
+use crate::expr::arithmetic::Number;
 use crate::scene::{ContactSpace, Friction, Hypothesis};
 
 /// What happens at a corner of the path.

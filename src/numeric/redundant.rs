@@ -8,11 +8,11 @@
 use super::exact::reduced;
 use super::field::eliminate;
 use super::given::given;
-use super::number::Number;
 use super::points::{needed, random_point};
 use super::solution::Solution;
 use super::system::{Law, System, assemble};
 use crate::expr::Rational;
+use crate::expr::arithmetic::Number;
 use crate::scene::Scene;
 
 /// How many random exact points have to agree.

@@ -3,8 +3,8 @@
 use std::fmt;
 
 use super::given::{Given, GivenImpulse, GivenLaw};
-use super::number::{Number, stretched};
 use super::system::{Law, System, Unknown};
+use crate::expr::arithmetic::{Number, stretched};
 
 /// A solution of a consistent system.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -5,7 +5,7 @@
 //! collision and finite forces have no impulse. Signs: counterclockwise positive, impulses are those on the second body.
 
 use super::given::{Freedom, Given, GivenImpulse, GivenLaw, Joint};
-use super::number::{Number, cross, dot};
+use crate::expr::arithmetic::{Number, cross, dot};
 
 /// A component that the equations determine, or fail to. The indices are those of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -6,88 +6,19 @@ use super::super::belief::{Change, Slip};
 use super::{POINTS, Written, outcome};
 use crate::algebra::{self, Field, Row, solve};
 use crate::domain::Domains;
-use crate::expr::{Expr, Function, Point, Rational, Scalar};
-use crate::numeric::{self, Number, Solution, System};
+use crate::expr::{Expr, Point};
+use crate::numeric::{self, Solution, System};
 
 /// Largest closed form; what is longer nobody writes.
 const LARGEST: usize = 400;
 
-/// An expression as a number.
-#[derive(Clone)]
-struct Symbolic(Expr);
-
-impl Scalar for Symbolic {
-    fn from_rational(value: &Rational) -> Symbolic {
-        Symbolic(Expr::from(value.clone()))
-    }
-
-    fn pi() -> Option<Symbolic> {
-        Some(Symbolic(Expr::symbol("pi")))
-    }
-
-    fn plus(&self, other: &Symbolic) -> Symbolic {
-        Symbolic(&self.0 + &other.0)
-    }
-
-    fn times(&self, other: &Symbolic) -> Symbolic {
-        Symbolic(&self.0 * &other.0)
-    }
-
-    fn recip(&self) -> Option<Symbolic> {
-        (!self.0.is_zero()).then(|| Symbolic(self.0.powi(-1)))
-    }
-
-    fn sqrt(&self) -> Option<Symbolic> {
-        Some(Symbolic(self.0.sqrt()))
-    }
-
-    fn pow(&self, exponent: &Symbolic) -> Option<Symbolic> {
-        Some(Symbolic(self.0.power(exponent.0.clone())))
-    }
-
-    fn call(&self, function: Function) -> Option<Symbolic> {
-        Some(Symbolic(Expr::call(function, self.0.clone())))
-    }
-}
-
-impl Number for Symbolic {
-    fn zero() -> Symbolic {
-        Symbolic(Expr::zero())
-    }
-
-    fn one() -> Symbolic {
-        Symbolic(Expr::one())
-    }
-
-    fn is_zero(&self) -> bool {
-        self.0.is_zero()
-    }
-
-    fn minus(&self, other: &Symbolic) -> Symbolic {
-        Symbolic(&self.0 - &other.0)
-    }
-
-    fn negated(&self) -> Symbolic {
-        Symbolic(-&self.0)
-    }
-
-    fn halved(&self) -> Symbolic {
-        Symbolic(&self.0 * &Expr::from(2).powi(-1))
-    }
-
-    fn size(&self) -> f64 {
-        1.0
-    }
-}
-
 /// The closed forms of what is asked under a slip; `None` where there are none, or where they do not meet the doubles.
 pub(in crate::grade) fn formulas(written: &Written, slip: &Slip) -> Option<Vec<Expr>> {
     let domains = &written.scene.domains;
-    let mut point = Point::<Symbolic>::default();
+    let mut point = Point::<Expr>::default();
     for p in &slip.scene.parameters {
-        point
-            .values
-            .insert(p.name.clone(), Symbolic(Expr::symbol(&p.name)));
+        let itself = Expr::symbol(&p.name);
+        point.values.insert(p.name.clone(), itself);
     }
     let values = match slip.change {
         Some(Change::EnergyKept) => {
@@ -95,12 +26,12 @@ pub(in crate::grade) fn formulas(written: &Written, slip: &Slip) -> Option<Vec<E
         }
         _ => outcome::outcome(written, slip, &point, |s| solved(s, domains))?,
     };
-    let tidy = |Symbolic(value): &Symbolic| {
+    let tidy = |value: &Expr| {
         let value = algebra::tidy(value, domains).ok();
         value.filter(|e| e.size() <= LARGEST)
     };
     // What is many times too long as it is solved does not become short, and takes seconds to show it.
-    if values.iter().any(|v| v.0.size() > 4 * LARGEST) {
+    if values.iter().any(|v| v.size() > 4 * LARGEST) {
         return None;
     }
     let values: Vec<Expr> = values.iter().map(tidy).collect::<Option<_>>()?;
@@ -108,20 +39,20 @@ pub(in crate::grade) fn formulas(written: &Written, slip: &Slip) -> Option<Vec<E
 }
 
 /// The solution of a regular system.
-fn solved(system: &System<Symbolic>, domains: &Domains) -> Option<Solution<Symbolic>> {
+fn solved(system: &System<Expr>, domains: &Domains) -> Option<Solution<Expr>> {
     let n = system.unknowns.len();
     let mut field = Field::new(domains);
     let entries = system.matrix.iter().chain(&system.right);
-    field.prepare(entries.map(|e| &e.0));
+    field.prepare(entries);
     let mut rows = Vec::new();
     for (i, right) in system.right.iter().enumerate() {
         let mut coeffs = Vec::new();
         for (j, entry) in system.row(i).iter().enumerate() {
-            if !entry.0.is_zero() {
-                coeffs.push((j, field.element(&entry.0).ok()?));
+            if !entry.is_zero() {
+                coeffs.push((j, field.element(entry).ok()?));
             }
         }
-        let rhs = field.element(&right.0).ok()?;
+        let rhs = field.element(right).ok()?;
         rows.push(Row { coeffs, rhs });
     }
     let found = solve(&field, &rows, n).ok()?;
@@ -131,7 +62,7 @@ fn solved(system: &System<Symbolic>, domains: &Domains) -> Option<Solution<Symbo
     let unique: Vec<bool> = found.values.iter().map(Option::is_some).collect();
     let value = |v: &Option<_>| v.as_ref().map_or_else(Expr::zero, |v| field.stored(v));
     Some(Solution {
-        values: found.values.iter().map(|v| Symbolic(value(v))).collect(),
+        values: found.values.iter().map(value).collect(),
         unique,
         rank: found.rank,
     })

@@ -4,6 +4,7 @@
 
 use super::super::belief::{Change, Slip};
 use super::Written;
+use crate::expr::arithmetic::dot;
 use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::numeric::given::{Freedom, GivenLaw};
 use crate::numeric::{self, Answer, Given, Law, Motion, Number, Solution, System, Unknown};
@@ -236,7 +237,7 @@ fn centers_bounce<T: Number>(
         .zip(touch.joint.bodies)
     {
         let body = &given.bodies[b];
-        let before = numeric::number::dot(&body.velocity, &normal).times(&sign);
+        let before = dot(&body.velocity, &normal).times(&sign);
         right = right.minus(&e.times(&before));
         if body.freedom == Freedom::Fixed {
             right = right.minus(&before);
@@ -264,7 +265,7 @@ fn whole_bounce<T: Number>(
     let before = &given.bodies[body].velocity;
     let [x, y] = before.clone().map(|v| v.times(e).negated());
     let change = [x.minus(&before[0]), y.minus(&before[1])];
-    let gained = (given.bodies[body].mass).times(&numeric::number::dot(&change, &normal));
+    let gained = (given.bodies[body].mass).times(&dot(&change, &normal));
     let impulse = match touch.joint.bodies[0] == body {
         true => gained.negated(),
         false => gained,

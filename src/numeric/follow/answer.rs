@@ -10,10 +10,10 @@ use super::{
     BodyState, Component, Course, Driven, Followed, Impact, Impulse, Lost, Moved, Open, Passed,
     Solid, State, What, kinetic, turns,
 };
+use crate::expr::arithmetic::{cross, dot};
 use crate::expr::{Point, Symbol, Vector};
 use crate::numeric::Answer;
 use crate::numeric::given::{Freedom, Undefined, vector};
-use crate::numeric::number::{cross, dot};
 use crate::scene::{Ask, EnergyWhen, ImpulseAt, Question, Scene, Stage, StageKind};
 
 /// Why a question has no number.

@@ -9,6 +9,7 @@ use std::iter::successors;
 use super::{
     Component, Followed, Moved, Passed, Solid, State, What, at_places, finite, finite_pair,
 };
+use crate::expr::arithmetic::dot;
 use crate::expr::{Expr, Point, Vector};
 use crate::numeric::given::Undefined;
 use crate::scene::{Body, ContactLaw, OneSided, Scene, Shape, Stage, StageKind};
@@ -315,10 +316,6 @@ fn outside(box_: &Placed<'_>, place: &[f64; 2]) -> f64 {
         inside if inside <= 0.0 => inside,
         _ => beyond[0].max(0.0).hypot(beyond[1].max(0.0)),
     }
-}
-
-fn dot(a: &[f64; 2], b: &[f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
 }
 
 impl Piece {

@@ -5,9 +5,9 @@
 //! poles of finite radius; the limit is taken from both (Richardson). Time and number of turns grow beyond bounds.
 
 use super::super::given::Freedom;
-use super::super::number::{cross, dot};
 use super::mechanism::integrated;
 use super::{Course, Lost, Moved, Passed, State, Why};
+use crate::expr::arithmetic::{cross, dot};
 use crate::scene::Wind;
 
 /// Radii of the poles, as shares of the rope.

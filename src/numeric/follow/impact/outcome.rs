@@ -2,8 +2,8 @@
 
 use super::super::{Component, Course, State, Why};
 use super::{Breach, Impact, Impulse, Opening, ROUNDING, SAME, Table, Tried, velocity_at};
+use crate::expr::arithmetic::dot;
 use crate::numeric::given::{Freedom, GivenImpulse, GivenLaw};
-use crate::numeric::number::dot;
 use crate::numeric::system::Unknown;
 
 impl Table<'_> {

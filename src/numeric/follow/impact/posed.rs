@@ -2,8 +2,8 @@
 
 use super::super::{BodyState, Course, Lost, State};
 use super::{ROUNDING, Support, Table, norm};
+use crate::expr::arithmetic::difference;
 use crate::numeric::given::{Freedom, GivenBody, around};
-use crate::numeric::number::difference;
 use crate::scene::{OneSided, Scene};
 
 impl<'a> Table<'a> {

@@ -4,11 +4,11 @@ use nalgebra::{DMatrix, DVector};
 
 use super::super::{Course, Lost};
 use super::{ROUNDING, Support, Table};
+use crate::expr::arithmetic::{cross, dot};
 use crate::numeric::float::solve_f64;
 use crate::numeric::friction::{at_corner, happened, settle};
 use crate::numeric::given::{Freedom, Given, GivenContact, GivenImpulse, GivenLaw, Joint};
 use crate::numeric::least::{Found, NoSolution, solve};
-use crate::numeric::number::{cross, dot};
 use crate::numeric::path::Event;
 use crate::numeric::system::{Law, System, Unknown, assemble, motion_of};
 use crate::scene::Mode;

@@ -7,10 +7,10 @@
 use super::slide::rub;
 use super::strings::{across, fixed};
 use super::{Driven, Moved, Movers, REST, ROUNDING, Units, stopped, unsolved};
+use crate::expr::arithmetic::{cross, dot};
 use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism, Mobile, Run, Stop};
 use crate::numeric::follow::{Course, Lost, Passed, State};
 use crate::numeric::given::Freedom;
-use crate::numeric::number::{cross, dot};
 use crate::scene::{Carrier, Slide, SlideEnd};
 
 const PLAIN: Units = Units {

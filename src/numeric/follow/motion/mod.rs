@@ -19,7 +19,7 @@ pub(super) use turn::turn;
 use super::super::given::Freedom;
 use super::mechanism::{Asked, Constraint, Mechanism, Run, Stop};
 use super::{Component, Course, Lost, Open, Passed, State, Why};
-use crate::numeric::number::difference;
+use crate::expr::arithmetic::difference;
 
 /// Differences below this share of what is at hand are rounding.
 const ROUNDING: f64 = 1e-9;

@@ -6,9 +6,9 @@
 use super::carried::carried;
 use super::strings::{Ropes, across, fixed};
 use super::{Driven, Moved, Movers, REST, ROUNDING, Units, all_open, stopped, unsolved};
+use crate::expr::arithmetic::{cross, dot};
 use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism, Mobile, Run, Sprung};
 use crate::numeric::follow::{Course, Lost, Passed, State, Why};
-use crate::numeric::number::{cross, dot};
 use crate::scene::{Slide, SlideEnd};
 
 /// What acts along the line, in numbers.

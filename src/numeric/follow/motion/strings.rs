@@ -4,9 +4,9 @@
 //! leads away from it. Directions and senses come from where bodies and pulleys are.
 
 use super::{Movers, ROUNDING, Units};
+use crate::expr::arithmetic::{cross, dot};
 use crate::numeric::follow::mechanism::Constraint;
 use crate::numeric::follow::{Course, Lost};
-use crate::numeric::number::{cross, dot};
 use crate::scene::{Slide, Strung};
 
 /// What moves at the other end of a string, in numbers.

@@ -1,10 +1,10 @@
 //! Rotation of bodies welded together about a fixed point; sense, turning back and end come from the motion itself.
 
 use super::{Moved, Movers, NUDGE, REST, ROUNDING, Units, all_open, stopped};
+use crate::expr::arithmetic::{cross, dot};
 use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism, Mobile, Run};
 use crate::numeric::follow::{Course, Lost, Passed, State, Why};
 use crate::numeric::given::Freedom;
-use crate::numeric::number::{cross, dot};
 use crate::scene::{Turn, Until};
 use std::f64::consts::TAU;
 

@@ -1,73 +1,7 @@
-//! The arithmetic an equation needs, and linear forms in the unknowns over it.
+//! Linear forms in the unknowns, over any number.
 
 use super::Unknown;
-use crate::expr::Expr;
-
-/// A number type in which the laws can be written.
-pub trait Quantity: Clone {
-    /// Zero.
-    fn zero() -> Self;
-    /// One.
-    fn one() -> Self;
-    /// Sum.
-    fn add(&self, other: &Self) -> Self;
-    /// Product.
-    fn mul(&self, other: &Self) -> Self;
-    /// The opposite.
-    fn neg(&self) -> Self;
-    /// Difference.
-    fn sub(&self, other: &Self) -> Self {
-        self.add(&other.neg())
-    }
-    /// Whether it is so plainly zero that a term with it need not be kept.
-    fn vanishes(&self) -> bool;
-}
-
-impl Quantity for f64 {
-    fn zero() -> f64 {
-        0.0
-    }
-    fn one() -> f64 {
-        1.0
-    }
-    fn add(&self, other: &f64) -> f64 {
-        self + other
-    }
-    fn mul(&self, other: &f64) -> f64 {
-        self * other
-    }
-    fn neg(&self) -> f64 {
-        -self
-    }
-    fn vanishes(&self) -> bool {
-        *self == 0.0
-    }
-}
-
-impl Quantity for Expr {
-    fn zero() -> Expr {
-        Expr::zero()
-    }
-    fn one() -> Expr {
-        Expr::one()
-    }
-    fn add(&self, other: &Expr) -> Expr {
-        self + other
-    }
-    fn mul(&self, other: &Expr) -> Expr {
-        if self.is_zero() || other.is_zero() {
-            Expr::zero()
-        } else {
-            self * other
-        }
-    }
-    fn neg(&self) -> Expr {
-        -self
-    }
-    fn vanishes(&self) -> bool {
-        self.is_zero()
-    }
-}
+use crate::expr::arithmetic::Number;
 
 /// Σ coefficient × unknown + constant. Invariant: unknowns ascend, none twice, no coefficient that plainly vanishes.
 #[derive(Clone, Debug)]
@@ -78,7 +12,7 @@ pub struct Affine<T> {
     pub constant: T,
 }
 
-impl<T: Quantity> Affine<T> {
+impl<T: Number> Affine<T> {
     /// A known value.
     pub fn constant(value: T) -> Affine<T> {
         Affine {
@@ -97,12 +31,12 @@ impl<T: Quantity> Affine<T> {
 
     /// Sum of two forms.
     pub fn plus(&self, other: &Affine<T>) -> Affine<T> {
-        self.joined(other, T::add, T::clone)
+        self.joined(other, T::plus, T::clone)
     }
 
     /// Difference of two forms.
     pub fn minus(&self, other: &Affine<T>) -> Affine<T> {
-        self.joined(other, T::sub, T::neg)
+        self.joined(other, T::minus, T::negated)
     }
 
     /// Two forms joined: `both` for coefficients that both have, `alone` for those that only the other one has.
@@ -119,7 +53,7 @@ impl<T: Quantity> Affine<T> {
                 terms.push((*before, alone(b)));
             }
             let value = match right.next_if(|(u, _)| u == unknown) {
-                Some((_, b)) => Some(both(a, b)).filter(|sum| !sum.vanishes()),
+                Some((_, b)) => Some(both(a, b)).filter(|sum| !sum.is_zero()),
                 None => Some(a.clone()),
             };
             terms.extend(value.map(|value| (*unknown, value)));
@@ -133,19 +67,19 @@ impl<T: Quantity> Affine<T> {
 
     /// Adds another form times a known factor, in place.
     pub fn add_times(&mut self, other: &Affine<T>, factor: &T) {
-        if factor.vanishes() {
+        if factor.is_zero() {
             return;
         }
         let mut at = 0;
         for (unknown, k) in &other.terms {
-            let k = k.mul(factor);
+            let k = k.times(factor);
             while self.terms.get(at).is_some_and(|(u, _)| u < unknown) {
                 at += 1;
             }
             match self.terms.get_mut(at) {
                 Some((u, sum)) if u == unknown => {
-                    *sum = sum.add(&k);
-                    if sum.vanishes() {
+                    *sum = sum.plus(&k);
+                    if sum.is_zero() {
                         self.terms.remove(at);
                     }
                 }
@@ -157,31 +91,31 @@ impl<T: Quantity> Affine<T> {
 
     /// Adds a known value times a known factor, in place.
     pub fn add_known(&mut self, value: &T, factor: &T) {
-        if !value.vanishes() && !factor.vanishes() {
-            self.constant = self.constant.add(&value.mul(factor));
+        if !value.is_zero() && !factor.is_zero() {
+            self.constant = self.constant.plus(&value.times(factor));
         }
     }
 
     /// The opposite form.
     pub fn negated(&self) -> Affine<T> {
         Affine {
-            terms: self.terms.iter().map(|(u, c)| (*u, c.neg())).collect(),
-            constant: self.constant.neg(),
+            terms: self.terms.iter().map(|(u, c)| (*u, c.negated())).collect(),
+            constant: self.constant.negated(),
         }
     }
 
     /// The form times a known factor.
     pub fn times(&self, factor: &T) -> Affine<T> {
-        if factor.vanishes() {
+        if factor.is_zero() {
             return Affine::constant(T::zero());
         }
         Affine {
             terms: self
                 .terms
                 .iter()
-                .map(|(u, c)| (*u, c.mul(factor)))
+                .map(|(u, c)| (*u, c.times(factor)))
                 .collect(),
-            constant: self.constant.mul(factor),
+            constant: self.constant.times(factor),
         }
     }
 
@@ -189,7 +123,7 @@ impl<T: Quantity> Affine<T> {
     pub fn equals_zero(self) -> Linear<T> {
         Linear {
             terms: self.terms,
-            known: self.constant.neg(),
+            known: self.constant.negated(),
         }
     }
 }
