@@ -101,13 +101,9 @@ impl Field {
 
     /// What is a product of numbers and whole powers of generators, read at once; `None` where it is anything else.
     fn term(&self, e: &Expr) -> Option<Term> {
-        let factors = match e.node() {
-            Node::Product(factors) => &factors[..],
-            _ => std::slice::from_ref(e),
-        };
         let mut coeff = Rational::one();
         let mut powers: SmallVec<[(usize, i64); 8]> = SmallVec::new();
-        for factor in factors {
+        for factor in e.factors() {
             let (base, k) = match factor.node() {
                 Node::Number(value) => {
                     coeff = product(&coeff, value);

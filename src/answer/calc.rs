@@ -5,7 +5,7 @@
 
 use super::Check;
 pub use crate::algebra::tidy;
-use crate::algebra::{Field, Sign};
+use crate::algebra::{self, Field, Sign};
 use crate::domain::{Domains, roles, samples, samples_until};
 use crate::expr::{Expr, Node, Point, Symbol};
 use crate::formula::Sentence;
@@ -78,9 +78,7 @@ pub fn shorter(e: &Expr, domains: &Domains) -> Expr {
 /// Whether the expression is zero on the whole domain: yes by its normal form, no by a point at which it is not; `None`
 /// where neither was found.
 pub fn is_zero(e: &Expr, domains: &Domains) -> Option<bool> {
-    let mut field = Field::new(domains);
-    field.prepare([e]);
-    if field.element(e).is_ok_and(|x| field.is_zero(&x)) {
+    if Field::of(domains, e).is_ok_and(|(field, x)| field.is_zero(&x)) {
         return Some(true);
     }
     let roles = roles(&[e]);
@@ -102,15 +100,7 @@ pub fn sign(e: &Expr, domains: &Domains) -> Seen {
     if soon_has_both_signs(e, domains) {
         return Seen::Mixed;
     }
-    let mut field = Field::new(domains);
-    field.prepare([e]);
-    if let Ok(x) = field.element(e)
-        && field.assumptions().is_empty()
-        && let Some(sign) = field.sign(&x)
-    {
-        return Seen::Proved(sign);
-    }
-    if let Some(sign) = constant(e) {
+    if let Some(sign) = algebra::sign(e, domains).or_else(|| constant(e)) {
         return Seen::Proved(sign);
     }
     // A factor such as cos(π/36) − sin(π/18) has its sign by itself.
@@ -215,11 +205,7 @@ fn without_denominators(e: Expr, domains: &Domains) -> Expr {
     };
     let mut below: Vec<Expr> = Vec::new();
     for term in terms {
-        let factors = match term.node() {
-            Node::Product(factors) => factors.as_slice(),
-            _ => std::slice::from_ref(term),
-        };
-        for factor in factors {
+        for factor in term.factors() {
             let Node::Power(base, k) = factor.node() else {
                 continue;
             };
@@ -242,22 +228,18 @@ fn without_denominators(e: Expr, domains: &Domains) -> Expr {
 pub fn essential(e: &Expr, domains: &Domains) -> Expr {
     let tidied = tidy(e, domains).unwrap_or_else(|_| e.clone());
     let tidied = without_denominators(tidied, domains);
-    let factors: Vec<Expr> = match tidied.node() {
-        Node::Product(factors) => factors.clone(),
-        _ => vec![tidied.clone()],
-    };
     let mut minus = false;
     let mut rest = Vec::new();
-    for f in factors {
+    for f in tidied.factors() {
         // One over a quantity has its sign.
         let f = match f.node() {
-            Node::Power(base, k) if *k == Expr::from(-1) => base.clone(),
+            Node::Power(base, k) if *k == Expr::from(-1) => base,
             _ => f,
         };
-        match sign(&f, domains) {
+        match sign(f, domains) {
             Seen::Proved(Sign::Positive) => {}
             Seen::Proved(Sign::Negative) => minus = !minus,
-            _ => rest.push(f),
+            _ => rest.push(f.clone()),
         }
     }
     let product = Expr::product(rest);
@@ -291,16 +273,10 @@ fn squared(e: &Expr, domains: &Domains) -> Option<Expr> {
     let Node::Sum(terms) = e.node() else {
         return None;
     };
-    fn under_root(part: &Expr) -> Option<&Expr> {
-        match part.node() {
-            Node::Power(inside, k) if *k == Expr::ratio(1, 2) => Some(inside),
-            _ => None,
-        }
-    }
     let is_sum = |e: &Expr| matches!(e.node(), Node::Sum(_));
-    let has_root = |e: &&Expr| e.parts().any(|part| under_root(part).is_some());
+    let has_root = |e: &&Expr| e.parts().any(|part| part.under_root().is_some());
     let has_sum = |e: &Expr| {
-        let mut inside = e.parts().filter_map(under_root);
+        let mut inside = e.parts().filter_map(Expr::under_root);
         inside.any(|inside| inside.parts().any(is_sum))
     };
     let (rooted, plain): (Vec<&Expr>, Vec<&Expr>) = terms.iter().partition(has_root);

@@ -433,17 +433,13 @@ fn by_taylor(of: &Expr, p: &Symbol, to: &Expr, domains: &Domains) -> Option<Foun
 /// Numerator and denominator.
 pub(super) fn common(of: &Expr, domains: &Domains) -> Option<(Expr, Expr)> {
     let over = |e: &Expr| -> (Expr, Expr) {
-        let factors = match e.node() {
-            Node::Product(factors) => factors.clone(),
-            _ => vec![e.clone()],
-        };
         let (mut up, mut down) = (Vec::new(), Vec::new());
-        for f in factors {
+        for f in e.factors() {
             match f.node() {
                 Node::Power(base, k) if k.as_number().is_some_and(Signed::is_negative) => {
                     down.push(base.power(-k));
                 }
-                _ => up.push(f),
+                _ => up.push(f.clone()),
             }
         }
         (Expr::product(up), Expr::product(down))

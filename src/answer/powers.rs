@@ -143,9 +143,7 @@ fn lead(e: &Expr, domains: &Domains) -> Option<Lead> {
 
 /// The lowest power of x in a fraction of polynomials.
 fn fraction(e: &Expr, domains: &Domains) -> Option<Lead> {
-    let mut field = Field::new(domains);
-    field.prepare([e]);
-    let element = field.element(e).ok()?;
+    let (mut field, element) = Field::of(domains, e).ok()?;
     if field.is_zero(&element) {
         return Some(Lead {
             coefficient: Expr::zero(),

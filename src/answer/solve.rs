@@ -111,9 +111,7 @@ fn stated(relation: &Relation) -> Sentence {
 }
 
 fn within_interval(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unsolved> {
-    let mut field = Field::new(domains);
-    field.prepare([e]);
-    let x = field.element(e)?;
+    let (mut field, x) = Field::of(domains, e)?;
     let Some(Powers {
         factors,
         has_zero,
@@ -329,17 +327,13 @@ fn take(
     out: &mut Roots,
 ) {
     let put_in = e.put(symbol, &value);
-    let mut there = Field::new(domains);
-    there.prepare([&put_in]);
-    if matches!(there.element(&put_in), Err(Stop::DivisionByZero)) {
+    if matches!(Field::of(domains, &put_in), Err(Stop::DivisionByZero)) {
         // A pole, of which multiplying by the denominator made a zero.
         return;
     }
     let words = sentence!("{} = {}", symbol, &value);
     let mut given: Vec<Sentence> = Vec::new();
-    let mut probe = Field::new(domains);
-    probe.prepare([&value]);
-    if matches!(probe.element(&value), Err(Stop::NotReal)) {
+    if matches!(Field::of(domains, &value), Err(Stop::NotReal)) {
         out.discarded
             .push(sentence!("{}, which is not real", words));
         return;

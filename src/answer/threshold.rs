@@ -112,21 +112,14 @@ pub(super) fn fill(
 /// where that is not negative. Factors that may vanish whatever the parameter is stay beside it.
 fn radicand(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Expr> {
     let core = essential(gap, domains);
-    let factors = match core.node() {
-        Node::Product(factors) => factors.as_slice(),
-        _ => std::slice::from_ref(&core),
-    };
+    let factors = core.factors();
     let is_idle = |f: &&Expr| !f.mentions(parameter) && sign(f, domains).side() == Some(true);
     let (idle, rest): (Vec<&Expr>, Vec<&Expr>) = factors.iter().partition(is_idle);
     let [root] = rest.as_slice() else {
         return None;
     };
-    match root.node() {
-        Node::Power(base, half) if *half == Expr::ratio(1, 2) => {
-            Some(Expr::product(idle.into_iter().chain([base]).cloned()))
-        }
-        _ => None,
-    }
+    let base = root.under_root()?;
+    Some(Expr::product(idle.into_iter().chain([base]).cloned()))
 }
 
 /// That both sides are the same at the values that were found.

@@ -48,10 +48,7 @@ pub(super) fn of(e: &Expr, domains: &Domains) -> Vec<Sentence> {
 
 /// What can make a product vanish: its factors above the line, without their powers.
 fn bases(e: &Expr) -> Vec<Expr> {
-    let factors = match e.node() {
-        Node::Product(factors) => factors.as_slice(),
-        _ => std::slice::from_ref(e),
-    };
+    let factors = e.factors();
     let base = |factor: &Expr| match factor.node() {
         Node::Power(_, k) if k.as_number().is_some_and(num_traits::Signed::is_negative) => None,
         Node::Power(base, k) if k.as_number().is_some() => Some(base.clone()),

@@ -212,19 +212,8 @@ fn exact_point(scene: &Scene, number: usize) -> Option<Point<Rational>> {
     let sample = samples(&roles, &domains, number + 2)
         .into_iter()
         .nth(number + 1)?;
-    let mut point = Point::default();
-    for (name, coordinate) in sample.coordinates {
-        match coordinate {
-            Coordinate::Number(value) => {
-                point.values.insert(name, value);
-            }
-            Coordinate::Direction { divisor, unit, .. } => {
-                point.directions.insert(name, (divisor, unit));
-            }
-            Coordinate::Pi(_) => return None,
-        }
-    }
-    Some(point)
+    let is_round = |at: &Coordinate| matches!(at, Coordinate::Pi(_));
+    (!sample.coordinates.values().any(is_round)).then(|| sample.fractions())
 }
 
 /// Coefficients, right side, and `memory` columns that remember which equations were combined.

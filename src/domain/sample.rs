@@ -309,6 +309,23 @@ impl Sample {
         point
     }
 
+    /// The point in fractions alone: what is a multiple of π has no value there.
+    pub fn fractions(&self) -> Point<Rational> {
+        let mut point = Point::default();
+        for (name, coordinate) in &self.coordinates {
+            match coordinate.clone() {
+                Coordinate::Number(value) => {
+                    point.values.insert(name.clone(), value);
+                }
+                Coordinate::Direction { divisor, unit, .. } => {
+                    point.directions.insert(name.clone(), (divisor, unit));
+                }
+                Coordinate::Pi(_) => {}
+            }
+        }
+        point
+    }
+
     /// The point for evaluation in a certified number type. With `radians`, angles known by direction also get their value.
     pub fn point<T: Certified>(&self, radians: bool) -> Point<Outcome<T>> {
         let mut point = Point::default();

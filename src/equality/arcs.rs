@@ -106,11 +106,7 @@ fn has_arc(e: &Expr) -> bool {
 
 /// Whether a difference is zero because it is a whole number of turns and less than one.
 fn whole_turns(difference: &Expr, domains: &Domains) -> Option<Proof> {
-    let terms = match difference.node() {
-        Node::Sum(terms) => terms.as_slice(),
-        _ => std::slice::from_ref(difference),
-    };
-    let parts: Option<Vec<(Rational, Expr)>> = terms.iter().map(coefficient).collect();
+    let parts: Option<Vec<(Rational, Expr)>> = difference.terms().iter().map(coefficient).collect();
     let parts = parts?;
     let common = Rational::from(common_denominator(&parts));
     let (mut low, mut high) = (0.0, 0.0);

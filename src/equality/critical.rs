@@ -73,10 +73,7 @@ pub(super) fn arguments(formulas: &[&Expr]) -> Vec<(Expr, bool)> {
 
 /// What stands to an even power in a product.
 fn squared(e: &Expr) -> impl Iterator<Item = Expr> {
-    let factors = match e.node() {
-        Node::Product(factors) => factors.as_slice(),
-        _ => std::slice::from_ref(e),
-    };
+    let factors = e.factors();
     let even = |k: &Rational| k.is_integer() && k.numer().as_i64().is_some_and(|k| k % 2 == 0);
     let squared = move |factor: &Expr| match factor.node() {
         Node::Power(base, k) => k.as_number().is_some_and(even).then(|| base.clone()),

@@ -22,11 +22,7 @@ pub fn angle(e: &Expr) -> Option<Angle> {
         symbols: BTreeMap::new(),
         pi: Rational::zero(),
     };
-    let terms = match e.node() {
-        Node::Sum(terms) => terms.as_slice(),
-        _ => std::slice::from_ref(e),
-    };
-    for term in terms {
+    for term in e.terms() {
         add_term(term, ratio(1, 1), &mut out)?;
     }
     out.symbols.retain(|_, k| !k.is_zero());

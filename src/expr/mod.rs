@@ -117,6 +117,32 @@ impl Expr {
         }
     }
 
+    /// The terms of a sum; anything else is one term.
+    pub fn terms(&self) -> &[Expr] {
+        match self.node() {
+            Node::Sum(terms) => terms,
+            _ => std::slice::from_ref(self),
+        }
+    }
+
+    /// The factors of a product; anything else is one factor.
+    pub fn factors(&self) -> &[Expr] {
+        match self.node() {
+            Node::Product(factors) => factors,
+            _ => std::slice::from_ref(self),
+        }
+    }
+
+    /// What stands under the square root that the expression is.
+    pub fn under_root(&self) -> Option<&Expr> {
+        match self.node() {
+            Node::Power(base, k) if k.as_number().is_some_and(|k| number::is(k, 1, 2)) => {
+                Some(base)
+            }
+            _ => None,
+        }
+    }
+
     /// Whether the expression is literally the number 0. An expression that merely equals 0 is `algebra`'s affair.
     pub fn is_zero(&self) -> bool {
         self.as_number().is_some_and(Zero::is_zero)

@@ -15,7 +15,7 @@ use super::sheet::{Ink, Line, SIZE, Sheet, arc};
 use super::stage::Stage;
 use super::values::Values;
 use crate::dimension::Dimension;
-use crate::expr::{self, Expr, Node, Rational, Symbol, Vector};
+use crate::expr::{self, Expr, Rational, Symbol, Vector};
 use crate::scene::{BlowImpulse, KnownQuantity, Shape};
 
 /// Draws the lengths and angles of a scene that its symbols name.
@@ -265,11 +265,7 @@ fn distances(stage: &Stage, sheet: &mut Sheet, shown: &[Expr]) {
 /// The terms of a sum by what they multiply.
 fn collected(e: &Expr) -> BTreeMap<Expr, Rational> {
     let mut terms = BTreeMap::new();
-    let parts = match e.node() {
-        Node::Sum(parts) => parts.clone(),
-        _ => vec![e.clone()],
-    };
-    for part in parts {
+    for part in e.terms() {
         let (factor, rest) = part.split_number();
         *terms.entry(rest).or_insert_with(Rational::zero) += factor;
     }

@@ -362,11 +362,7 @@ fn leading_bits(e: &Expr) -> u64 {
 }
 
 fn bounded(e: &Expr, w: &Written) -> Faulty<()> {
-    let terms = match e.node() {
-        crate::expr::Node::Sum(terms) => terms.as_slice(),
-        _ => std::slice::from_ref(e),
-    };
-    match terms.iter().any(|t| leading_bits(t) > MAX_BITS) {
+    match e.terms().iter().any(|t| leading_bits(t) > MAX_BITS) {
         true => Err(w.fault("the numbers in this sum are too large")),
         false => Ok(()),
     }

@@ -19,10 +19,7 @@ impl Quotient {
     /// Of an expression that is no sum.
     pub fn of(e: &Expr) -> Quotient {
         let mut q = Quotient::default();
-        q.take(match e.node() {
-            Node::Product(factors) => factors,
-            _ => std::slice::from_ref(e),
-        });
+        q.take(e.factors());
         q.above.sort_by_key(class);
         q.below.sort_by_key(class);
         q

@@ -186,14 +186,12 @@ fn gathered(side: &Expr) -> Expr {
     let Node::Sum(terms) = side.node() else {
         return side.clone();
     };
-    let factors = |term: &Expr| match term.node() {
-        Node::Product(factors) => factors.clone(),
-        _ => vec![term.clone()],
+    let mut common = terms[0].factors().to_vec();
+    common.retain(|f| f.as_symbol().is_some() && terms.iter().all(|t| t.factors().contains(f)));
+    let rest = |term: &Expr| {
+        let own = term.factors().iter().filter(|f| !common.contains(f));
+        Expr::product(own.cloned())
     };
-    let mut common = factors(&terms[0]);
-    common.retain(|f| f.as_symbol().is_some() && terms.iter().all(|t| factors(t).contains(f)));
-    let rest =
-        |term: &Expr| Expr::product(factors(term).into_iter().filter(|f| !common.contains(f)));
     let rest = Expr::sum(terms.iter().map(rest));
     Expr::product(common.iter().cloned().chain([rest]))
 }

@@ -54,11 +54,7 @@ fn write(e: &Expr, style: Style, names: Names) -> String {
 
 impl Writer<'_> {
     fn sum(&mut self, e: &Expr) {
-        let terms = match e.node() {
-            Node::Sum(terms) => terms.as_slice(),
-            _ => std::slice::from_ref(e),
-        };
-        for (i, term) in terms.iter().enumerate() {
+        for (i, term) in e.terms().iter().enumerate() {
             let q = Quotient::of(term);
             match (i, q.negative) {
                 (0, true) => self.out.push_str(if self.style == Style::Unicode {
@@ -318,11 +314,7 @@ impl Writer<'_> {
 /// The factor a written product would start with.
 fn leading(e: &Expr) -> &Expr {
     match e.node() {
-        Node::Power(base, exponent)
-            if exponent.as_number().is_none_or(|k| !number::is(k, 1, 2)) =>
-        {
-            leading(base)
-        }
+        Node::Power(base, _) if e.under_root().is_none() => leading(base),
         _ => e,
     }
 }

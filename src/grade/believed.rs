@@ -8,12 +8,10 @@ mod others;
 mod outcome;
 mod story;
 
-use std::collections::BTreeMap;
-
 use super::Diagnosis;
 use super::belief::{BELIEFS, Belief, Slip};
 use crate::equality::identical;
-use crate::expr::{Expr, Point, Rational, Symbol, effort};
+use crate::expr::{Expr, Point, Rational, effort};
 use crate::numeric;
 use crate::scene::{Ask, Scene};
 use others::other_quantities;
@@ -273,7 +271,7 @@ fn trials(written: &Written) -> Option<Trials> {
     let mut needed = numeric::needed(written.scene);
     written.values.iter().for_each(|e| needed.add(e));
     let (points, exact) = match written.rounding {
-        Some(_) => (vec![given_values(written.scene)?], Vec::new()),
+        Some(_) => (vec![written.scene.all_given()?], Vec::new()),
         None => {
             // Where the right answer has no value nothing is told by others.
             let truth = Slip::none(written.scene);
@@ -300,16 +298,6 @@ fn trials(written: &Written) -> Option<Trials> {
     }
     let enough = if written.rounding.is_some() { 1 } else { 2 };
     (trials.points.len() >= enough).then_some(trials)
-}
-
-/// The scene's own values in doubles.
-pub fn given_values(scene: &Scene) -> Option<Point<f64>> {
-    let mut point = Point::default();
-    for p in &scene.parameters {
-        let value: f64 = p.value.as_ref()?.evaluate(&Point::<f64>::default())?;
-        point.values.insert(p.name.clone(), value);
-    }
-    Some(point)
 }
 
 impl Trials {
@@ -433,13 +421,4 @@ fn in_decade(size: f64, values: impl Iterator<Item = f64>, room: f64) -> f64 {
 /// A value in fractions, where no power is so high that it would be long.
 fn bounded(e: &Expr, point: &Point<Rational>) -> Option<Rational> {
     (!e.has_high_power()).then(|| e.evaluate(point)).flatten()
-}
-
-/// Values of the parameters as expressions, for answers in numbers.
-pub fn values(scene: &Scene) -> BTreeMap<Symbol, Expr> {
-    scene
-        .parameters
-        .iter()
-        .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
-        .collect()
 }

@@ -134,12 +134,8 @@ fn words(index: &str) -> String {
 
 /// An expression.
 pub fn expr(solution: &Solution, e: &Expr) -> String {
-    let terms = match e.node() {
-        Node::Sum(terms) => terms.as_slice(),
-        _ => std::slice::from_ref(e),
-    };
     let mut out = String::from("<mrow>");
-    for (i, term) in terms.iter().enumerate() {
+    for (i, term) in e.terms().iter().enumerate() {
         let q = Quotient::of(term);
         match (i, q.negative) {
             (_, true) => out.push_str("<mo>−</mo>"),

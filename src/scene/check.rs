@@ -5,10 +5,10 @@
 
 use super::fault::{Fault, Span};
 use super::parameters::number_words;
-use super::proof::{Given, Zero, given, middle, sign, violation, zero};
+use super::proof::{Given, Zero, middle, violation, zero};
 use super::touch::Placed;
 use super::{ALONE, Ask, Contact, Hinge, Scene, beside_friction, touch};
-use crate::algebra::Sign;
+use crate::algebra::{Sign, sign};
 use crate::expr::{Expr, Function, Node, Symbol, Vector, dot, minus};
 use crate::interval::{Interval, Outcome, evaluate};
 
@@ -57,7 +57,7 @@ pub(super) struct Claimed {
 /// Tries every claim; what cannot be decided becomes a remark of the scene.
 pub(super) fn check(scene: &mut Scene, claims: &[Claimed]) -> Vec<Fault> {
     let mut faults = Vec::new();
-    let given = given(scene);
+    let given = scene.given();
     for claimed in claims {
         // Where a size or a place is wrong, so is the outline.
         if matches!(claimed.claim, Claim::Placed(_)) && !faults.is_empty() {
@@ -86,7 +86,7 @@ pub(super) fn at_values(scene: &Scene, span: Span) -> Option<Fault> {
     let hinges = (0..scene.hinges.len()).map(Placed::Hinge);
     let places = blows.chain(hinges).map(Claim::Placed);
     let approaches = contacts.chain(places).map(|claim| Claimed { span, claim });
-    let given = given(scene);
+    let given = scene.given();
     let turns = scene.questions.iter().filter_map(|q| match &q.ask {
         Ask::Turn { number, .. } => Some(Claim::Whole(number.clone())),
         _ => None,

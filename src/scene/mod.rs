@@ -41,7 +41,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::dimension::{self, Dimension};
 use crate::domain::{Domains, generic_point};
-use crate::expr::{Expr, Point, Symbol, Vector, minus};
+use crate::expr::{Expr, Point, Scalar, Symbol, Vector, minus};
 use crate::formula::Symbols;
 use crate::formula::near::nearest;
 
@@ -343,6 +343,27 @@ impl Scene {
         let each = self.parameters.iter();
         let given = each.filter_map(|p| Some((p.name.clone(), p.value.clone()?)));
         given.collect()
+    }
+
+    /// The values that are given as numbers, of those that this type can represent.
+    pub fn given<T: Scalar>(&self) -> Point<T> {
+        let nowhere = Point::default();
+        let value = |p: &Parameter| {
+            let value = p.value.as_ref()?.evaluate(&nowhere)?;
+            Some((p.name.clone(), value))
+        };
+        Point {
+            values: self.parameters.iter().filter_map(value).collect(),
+            ..Point::default()
+        }
+    }
+
+    /// The same in doubles, where every parameter has one.
+    pub fn all_given(&self) -> Option<Point<f64>> {
+        let point = self.given();
+        let mut names = self.parameters.iter().map(|p| &p.name);
+        let all = names.all(|name| point.values.contains_key(name));
+        all.then_some(point)
     }
 
     /// The questions about answers: values, zeros, limits, forms for a small parameter, identities.

@@ -4,7 +4,6 @@
 //! only as enclosures, and what cannot be told is said to be unknown.
 
 use super::Scene;
-use crate::algebra::{Field, Sign};
 use crate::domain::{Domains, roles, samples};
 use crate::equality::{self, Equality, How};
 use crate::expr::{Expr, Point};
@@ -40,18 +39,6 @@ pub(super) fn zero(e: &Expr, domains: &Domains) -> Zero {
     }
 }
 
-/// The sign of an expression, where it is proved for the whole domain.
-pub(super) fn sign(e: &Expr, domains: &Domains) -> Option<Sign> {
-    let mut field = Field::new(domains);
-    field.prepare([e]);
-    let element = field.element(e).ok()?;
-    if field.assumptions().is_empty() {
-        field.sign(&element)
-    } else {
-        None
-    }
-}
-
 /// How many points of the domain are tried.
 const POINTS: usize = 24;
 
@@ -78,19 +65,6 @@ pub(super) fn violation(
 
 /// Enclosures of the values of parameters.
 pub(super) type Given = Point<Outcome<Interval>>;
-
-/// The given values, as far as there are any.
-pub(super) fn given(scene: &Scene) -> Given {
-    let value = |e: &Expr| evaluate::<Interval>(e, &Point::default());
-    let known = scene
-        .parameters
-        .iter()
-        .filter_map(|p| Some((p.name.clone(), value(p.value.as_ref()?))));
-    Point {
-        values: known.collect(),
-        ..Point::default()
-    }
-}
 
 /// A double to show for an enclosure.
 pub(super) fn middle(value: &Interval) -> f64 {

@@ -5,10 +5,10 @@
 
 use super::fault::{Fault, Span};
 use super::formulas::Symbols;
-use super::proof::{given, middle, sign};
+use super::proof::middle;
 use super::record::Text;
 use super::{Scene, parameters};
-use crate::algebra::Sign;
+use crate::algebra::{Sign, sign};
 use crate::domain::{Domain, Domains, Relation, roles, samples};
 use crate::expr::{Expr, Function, Node, ratio};
 use crate::formula;
@@ -99,7 +99,7 @@ pub(super) fn add(
 
 /// The fault where the values now given break a relation for certain.
 pub(super) fn broken(scene: &Scene, span: Span) -> Option<Fault> {
-    let given = given(scene);
+    let given = scene.given();
     scene.domains.relations.iter().find_map(|relation| {
         let Outcome::Value(v) = evaluate::<Interval>(&relation.excess, &given) else {
             return None;

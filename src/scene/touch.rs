@@ -10,9 +10,8 @@ use std::collections::BTreeMap;
 
 use super::outline::{Need, Piece, Spot, distance, pieces};
 use super::parameters::number_words;
-use super::proof::sign;
 use super::{Body, Contact, ContactLaw, Scene, Shape};
-use crate::algebra::Sign;
+use crate::algebra::{Sign, sign};
 use crate::domain::{Domains, roles, samples};
 use crate::expr::{Expr, Point, Symbol, Vector, minus};
 
@@ -131,7 +130,7 @@ fn off(scene: &Scene, (at, inside): (&Vector, bool), body: &Body) -> Option<Stri
     if body.is_particle() {
         return None;
     }
-    if let Some(distance) = distance(body, at, inside, &values(scene)) {
+    if let Some(distance) = distance(body, at, inside, &scene.given()) {
         return (distance > 0.0).then(|| away(distance, &body.name));
     }
     let spots: Vec<Spot> = spots(body, at, inside);
@@ -182,7 +181,7 @@ fn away(distance: f64, body: &str) -> String {
 /// Whether a spot fits at one point of the domain, as far as doubles tell: then it is not off whatever the parameters are.
 fn is_met(spot: &Spot, scene: &Scene) -> bool {
     let mut point = scene.generic_point();
-    point.values.extend(values(scene).values);
+    point.values.extend(scene.given().values);
     let value = |e: &Expr| e.evaluate(&point).unwrap_or(f64::NAN);
     let mut relations = scene.domains.relations.iter();
     let is_inside = relations.all(|r| value(&r.excess) > 0.0);
@@ -233,17 +232,6 @@ fn example(
         told.coordinates.retain(|name, _| !given.contains_key(name));
         Some((look(&doubles)?, told.words()))
     })
-}
-
-/// The values that the scene gives, in doubles.
-fn values(scene: &Scene) -> Point<f64> {
-    let mut point = Point::default();
-    for (name, value) in scene.values() {
-        if let Some(value) = value.evaluate(&Point::<f64>::default()) {
-            point.values.insert(name, value);
-        }
-    }
-    point
 }
 
 fn hint(body: &Body) -> String {

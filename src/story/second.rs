@@ -77,13 +77,7 @@ pub(super) fn look<'a>(scene: &'a Scene, worlds: &[World], stages: &[StageTold])
     wanted.extend(outcomes.map(|at| super::line(stages, at).collect::<Way>()));
     let names = names(scene);
     // The values of the scene show a case that few points of its domain have.
-    let mut own = Point::default();
-    for parameter in &scene.parameters {
-        let value = parameter.value.as_ref();
-        let value = value.and_then(|v| v.evaluate(&Point::<f64>::default()));
-        own.values
-            .extend(value.map(|v| (parameter.name.clone(), v)));
-    }
+    let own = scene.given();
     let is_whole = names.iter().all(|name| own.values.contains_key(name));
     let own = is_whole.then_some(own);
     let random = points_of(names, &scene.domains, PROMISING[0]);

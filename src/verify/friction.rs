@@ -265,9 +265,7 @@ impl Signs<'_> {
                 return Some(std::cmp::Ordering::Less);
             }
         }
-        let mut field = Field::new(&Domains::default());
-        field.prepare([&e]);
-        let element = field.element(&e).ok()?;
+        let (field, element) = Field::of(&Domains::default(), &e).ok()?;
         match field.sign(&element)? {
             Sign::Positive => Some(std::cmp::Ordering::Greater),
             Sign::Zero => Some(std::cmp::Ordering::Equal),

@@ -195,9 +195,7 @@ impl<'a> Identities<'a> {
         if expanded == *closed {
             return Ok(true);
         }
-        let mut field = Field::new(&self.scene.domains);
-        field.prepare([closed, &expanded]);
-        let (a, b) = (field.element(closed)?, field.element(&expanded)?);
+        let (field, a, b) = Field::pair(&self.scene.domains, closed, &expanded)?;
         Ok(field.is_zero(&field.sub(&a, &b)?))
     }
 

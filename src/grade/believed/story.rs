@@ -149,7 +149,7 @@ impl Story {
 
     /// The value of a formula with the values that the scene gives.
     fn number(&self, e: &Expr) -> Option<f64> {
-        e.substitute(&super::values(&self.scene))
+        e.substitute(&self.scene.values())
             .evaluate(&Point::default())
     }
 

@@ -4,7 +4,7 @@ use super::super::compare::WRITTEN;
 use super::{Normal, equation, same_sign};
 use crate::algebra::{Element, Field, Sign};
 use crate::domain::Domains;
-use crate::expr::{Expr, Node, ratio};
+use crate::expr::{Expr, Node};
 use crate::formula::Relation;
 
 /// The one term of the answer whose sign has to be turned to make the equations the same.
@@ -62,12 +62,8 @@ pub(super) fn factor(f: &Expr, g: &Expr, domains: &Domains) -> Option<Factor> {
 /// sign on the domain, as v + √a has in (v − √a)(v + √a) > 0. What stands under the root must not be negative where the
 /// other relation holds: it is not on the domain, or it is a square where the equation holds.
 pub(super) fn unrooted(n: &Normal, domains: &Domains) -> Option<Normal> {
-    let is_root = |e: &Expr| match e.node() {
-        Node::Power(base, k) if k.as_number() == Some(&ratio(1, 2)) => Some(base.clone()),
-        _ => None,
-    };
     let mut parts = n.difference.parts();
-    let (root, inside) = parts.find_map(|part| Some((part, is_root(part)?)))?;
+    let (root, inside) = parts.find_map(|part| Some((part, part.under_root()?)))?;
     let other = n.difference.replace(root, &-root);
     let domains = domains.of(&[&other]);
     let mut field = Field::new(&domains);
@@ -86,7 +82,7 @@ pub(super) fn unrooted(n: &Normal, domains: &Domains) -> Option<Normal> {
         (Relation::Equal, Node::Sum(terms)) => terms.iter().any(is_term),
         _ => false,
     };
-    let sure = square || sign(&mut field, &inside).is_some_and(|sign| sign.is_not_negative());
+    let sure = square || sign(&mut field, inside).is_some_and(|sign| sign.is_not_negative());
     let other = match sign(&mut field, &other).filter(|_| sure)? {
         Sign::Positive => other,
         Sign::Negative => -other,

@@ -6,7 +6,7 @@ use super::solved::{angles, lies_in, solve_for};
 use super::{Normal, cells, same_solutions};
 use crate::domain::Domains;
 use crate::equality::{self, Equality};
-use crate::expr::{Expr, Node, Symbol};
+use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Relation, write_plain};
 use crate::interval::{Big, Enclosure, Outcome, evaluate};
 
@@ -111,11 +111,11 @@ pub(super) fn values(expected: &Normal, answer: &Normal, domains: &Domains) -> O
 /// The symbol and the values of an equation such as `x = a` or `(x − a)(x − b) = 0`.
 fn listed(n: &Normal, domains: &Domains) -> Option<(Symbol, Vec<Expr>)> {
     let name = n.difference.symbols().into_iter().next()?;
-    let parts = match n.difference.node() {
-        Node::Product(parts) => parts.as_slice(),
-        _ => std::slice::from_ref(&n.difference),
-    };
-    let linear = parts.iter().filter(|part| part.as_number().is_none());
+    let linear = n
+        .difference
+        .factors()
+        .iter()
+        .filter(|part| part.as_number().is_none());
     let values: Option<Vec<Expr>> = linear.map(|part| solve_for(part, &name, domains)).collect();
     let values = values?;
     let constant = values.iter().all(|value| value.symbols().is_empty());

@@ -6,7 +6,7 @@ use super::cells::{Cases, holds};
 use super::solved::{solve_for, unknowns};
 use super::{Normal, differences, system};
 use crate::domain::{Coordinate, Domains, Sample, roles, samples};
-use crate::expr::{Expr, Point, Rational, Symbol, ratio};
+use crate::expr::{Expr, Symbol, ratio};
 use crate::grade::compare::{Context, Finding};
 use crate::grade::{Apart, Diagnosis};
 use crate::interval::{Interval, Outcome, evaluate};
@@ -22,7 +22,7 @@ const NEAR: usize = 6;
 /// The point with one symbol moved to where the two sides of a relation are equal: there `<` and `≤` part.
 fn on_boundaries(sample: &Sample, differences: &[&Expr], domains: &Domains) -> Vec<Sample> {
     let moved = |f: &Expr, name: &Symbol| {
-        let root = solve_for(f, name, domains)?.evaluate(&fractions(sample))?;
+        let root = solve_for(f, name, domains)?.evaluate(&sample.fractions())?;
         let domain = domains.symbols.get(name)?;
         let mut moved = sample.clone();
         let number = Coordinate::Number(root.clone());
@@ -36,23 +36,6 @@ fn on_boundaries(sample: &Sample, differences: &[&Expr], domains: &Domains) -> V
     all.into_iter()
         .filter(|moved| domains.admits(moved))
         .collect()
-}
-
-/// A point in fractions alone.
-fn fractions(sample: &Sample) -> Point<Rational> {
-    let mut point = Point::default();
-    for (name, coordinate) in &sample.coordinates {
-        match coordinate.clone() {
-            Coordinate::Number(value) => {
-                point.values.insert(name.clone(), value);
-            }
-            Coordinate::Direction { divisor, unit, .. } => {
-                point.directions.insert(name.clone(), (divisor, unit));
-            }
-            Coordinate::Pi(_) => {}
-        }
-    }
-    point
 }
 
 /// A point at which one system of relations holds and the other does not.
@@ -84,7 +67,7 @@ pub(super) fn apart_in_cases(ctx: &Context, expected: &Cases, answer: &Cases) ->
                     Outcome::Undefined => None,
                     _ => Some(
                         link.difference
-                            .evaluate(&fractions(&sample))?
+                            .evaluate(&sample.fractions())?
                             .cmp(&ratio(0, 1)),
                     ),
                 };

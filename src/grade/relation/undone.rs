@@ -49,23 +49,9 @@ fn is_not_negative(e: &Expr, domains: &Domains) -> bool {
     sign_of(e, domains).is_some_and(Sign::is_not_negative)
 }
 
-fn terms(e: &Expr) -> &[Expr] {
-    match e.node() {
-        Node::Sum(terms) => terms,
-        _ => std::slice::from_ref(e),
-    }
-}
-
-fn factors(e: &Expr) -> &[Expr] {
-    match e.node() {
-        Node::Product(factors) => factors,
-        _ => std::slice::from_ref(e),
-    }
-}
-
 /// The two sides of `T₁ + T₂ rel 0` with two terms, turned so that neither is negative where `T₁` has a sign.
 fn two_sides(n: &Normal, domains: &Domains) -> Option<[Expr; 2]> {
-    let [one, two] = terms(&n.difference) else {
+    let [one, two] = n.difference.terms() else {
         return None;
     };
     let first = sign_of(one, domains).or_else(|| sign_of(two, domains).map(Sign::flip));
@@ -89,13 +75,13 @@ fn without_base(terms: &[Expr]) -> Vec<Expr> {
         },
         _ => None,
     };
-    let Some(ln) = terms.iter().flat_map(factors).find_map(base) else {
+    let Some(ln) = terms.iter().flat_map(Expr::factors).find_map(base) else {
         return terms.to_vec();
     };
     let times = |term: &Expr| {
         let left = |f: &&Expr| base(f).as_ref() != Some(&ln);
-        let rest: Vec<Expr> = factors(term).iter().filter(left).cloned().collect();
-        match rest.len() < factors(term).len() {
+        let rest: Vec<Expr> = term.factors().iter().filter(left).cloned().collect();
+        match rest.len() < term.factors().len() {
             true => Expr::product(rest),
             false => term * &ln,
         }
@@ -106,7 +92,7 @@ fn without_base(terms: &[Expr]) -> Vec<Expr> {
 /// `Σ k ln u + W` has the sign of `Π u^k − exp(−W)` with whole k, where every u is positive.
 fn logarithms(n: &Normal, domains: &Domains) -> Option<Undone> {
     let (mut logs, mut rest) = (Vec::new(), Vec::new());
-    for term in without_base(terms(&n.difference)) {
+    for term in without_base(n.difference.terms()) {
         let (k, plain) = term.split_number();
         match plain.node() {
             Node::Call(Function::Ln, inside) => logs.push((k, inside.clone())),
@@ -285,7 +271,7 @@ pub(super) fn powers(n: &Normal, domains: &Domains) -> Option<Undone> {
         _ => Some(Rational::one()),
     };
     let mut common = Rational::zero();
-    for factor in sides.iter().flat_map(factors) {
+    for factor in sides.iter().flat_map(Expr::factors) {
         let k = exponent(factor)?;
         common = Rational::new(
             (common.numer() * k.denom()).gcd(&(k.numer() * common.denom())),
@@ -294,7 +280,7 @@ pub(super) fn powers(n: &Normal, domains: &Domains) -> Option<Undone> {
     }
     let root_of = |side: &Expr, power: &Rational| {
         let back = Expr::from(power.recip());
-        Expr::product(factors(side).iter().map(|f| match f.node() {
+        Expr::product(side.factors().iter().map(|f| match f.node() {
             Node::Power(base, k) => base.power(k * &back),
             Node::Number(k) if k.is_negative() => -Expr::from(-k).power(back.clone()),
             _ => f.power(back.clone()),
@@ -304,7 +290,7 @@ pub(super) fn powers(n: &Normal, domains: &Domains) -> Option<Undone> {
     let below_zero = |f: &Expr| f.as_number().is_some_and(Signed::is_negative);
     while common.numer().is_even()
         && !common.is_zero()
-        && sides.iter().flat_map(factors).any(below_zero)
+        && sides.iter().flat_map(Expr::factors).any(below_zero)
     {
         common *= ratio(1, 2);
     }
@@ -320,13 +306,13 @@ pub(super) fn powers(n: &Normal, domains: &Domains) -> Option<Undone> {
     // A square root is never negative.
     let whole = |f: &Expr| exponent(f).is_some_and(|k| k.is_integer());
     let beside = |side: &Expr| {
-        let parts = factors(side).iter().filter(|f| whole(f)).cloned();
+        let parts = side.factors().iter().filter(|f| whole(f)).cloned();
         not_negative(&Expr::product(parts))
     };
     if common.denom().is_even() && !sides.iter().all(beside) {
         return None;
     }
-    let roots = sides.iter().flat_map(factors).filter(|f| !whole(f));
+    let roots = sides.iter().flat_map(Expr::factors).filter(|f| !whole(f));
     let open: Vec<(&Expr, Rational)> = roots
         .filter_map(|f| match f.node() {
             Node::Power(base, k) => Some((base, k.as_number()? / &common)),

@@ -293,7 +293,7 @@ impl Sheet {
         answer: &str,
         options: &Options,
     ) -> Option<(Grade, Option<f64>)> {
-        let values = believed::values(&self.scene);
+        let values = self.scene.values();
         let all = values.len() == self.scene.parameters.len();
         let valued = |e: &Expr| match e.symbols() {
             symbols if symbols.is_empty() => all,

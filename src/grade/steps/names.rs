@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::relation::solve_for;
 use super::super::sheet::Sheet;
-use super::super::{Tolerance, believed, number};
+use super::super::{Tolerance, number};
 use super::cause::size_in;
 use super::link::Weighed;
 use super::{Desk, Diagnosis, Options, Status};
@@ -328,7 +328,7 @@ impl Desk<'_> {
         let value = self.with_own(value);
         if value.is_constant() {
             // In numbers it may be rounded, and needs the values of the scene.
-            let values = believed::values(scene);
+            let values = scene.values();
             let room = Tolerance::Relative(ratio(1, 100));
             let is = |e: &Expr| number::within(&value, &e.substitute(&values), &room);
             let none = each.iter().all(|e| is(e) == Some(false));

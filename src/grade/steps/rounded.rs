@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use num_traits::Signed;
 
-use super::super::{Tolerance, believed, fraction, number};
+use super::super::{Tolerance, fraction, number};
 use super::Desk;
 use super::link::Link;
 use crate::algebra::quotient;
@@ -20,7 +20,7 @@ impl Desk<'_> {
         link: &Link,
         instead: &BTreeMap<Symbol, Expr>,
     ) -> bool {
-        let values = believed::values(&self.sheet.scene);
+        let values = self.sheet.scene.values();
         let exact = |e: &Expr| self.put_in(e, instead).substitute(&values);
         let sides = match (self.vector(&link.sides[0]), self.vector(&link.sides[1])) {
             (Some(a), Some(b)) => a.into_iter().zip(b).collect(),

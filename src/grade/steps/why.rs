@@ -9,7 +9,7 @@ use super::super::{Diagnosis, Options};
 use super::cause::size_in;
 use super::{Desk, MOST_TERMS};
 use crate::algebra::{Sign, sign};
-use crate::expr::{Expr, Node, Symbol};
+use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Content, Reading};
 use crate::laws;
 use crate::scene::{Ask, Scene};
@@ -197,19 +197,15 @@ impl Desk<'_> {
 
     /// The term with whose other sign an equation holds.
     pub(super) fn turned(&self, left: &Expr, right: &Expr) -> Option<Diagnosis> {
-        let terms = |e: &Expr| match e.node() {
-            Node::Sum(terms) => terms.to_vec(),
-            _ => vec![e.clone()],
-        };
         let gap = left - right;
         // On the left a term stands in the gap as it is, on the right with the other sign.
         let all = [(left, -2), (right, 2)].into_iter();
-        let all = all.flat_map(|(side, k)| terms(side).into_iter().map(move |term| (term, k)));
+        let all = all.flat_map(|(side, k)| side.terms().iter().map(move |term| (term, k)));
         let mut single = all.take(MOST_TERMS).filter(|(term, k)| {
-            let turned = &gap + &(term * &Expr::from(*k));
+            let turned = &gap + &(*term * &Expr::from(*k));
             self.all_zero(&[turned], &BTreeMap::new()) == Some(true)
         });
-        let term = formula::write_plain(&single.next()?.0);
+        let term = formula::write_plain(single.next()?.0);
         Some(Diagnosis::new(
             "TERM_SIGN",
             format!(

@@ -262,13 +262,7 @@ pub fn random_point(scene: &Scene, seed: u64) -> Point<f64> {
 
 /// The point that the values of the scene's own parameters make, or the names of what has no value though it has to.
 pub fn values(scene: &Scene) -> Result<Point<f64>, Vec<Symbol>> {
-    let mut point = Point::default();
-    for parameter in &scene.parameters {
-        let value = parameter.value.as_ref();
-        if let Some(value) = value.and_then(|e| e.evaluate(&Point::<f64>::default())) {
-            point.values.insert(parameter.name.clone(), value);
-        }
-    }
+    let point = scene.given();
     let missing = symbols(scene).into_iter();
     let missing: Vec<Symbol> = missing
         .filter(|name| !point.values.contains_key(name))

@@ -436,12 +436,8 @@ fn mark(step: &Step) -> &'static str {
 /// M/4 + m for (M + 4 m)/4: each force and each mass in its place.
 fn spread(e: &Expr) -> Expr {
     let (number, rest) = e.split_number();
-    let factors = match rest.node() {
-        Node::Product(factors) => factors.as_slice(),
-        _ => std::slice::from_ref(&rest),
-    };
     let is_sum = |f: &&Expr| matches!(f.node(), Node::Sum(_));
-    let (sums, others): (Vec<&Expr>, Vec<&Expr>) = factors.iter().partition(is_sum);
+    let (sums, others): (Vec<&Expr>, Vec<&Expr>) = rest.factors().iter().partition(is_sum);
     match sums.as_slice() {
         [sum] if !number.is_integer() => {
             let others = Expr::from(number) * Expr::product(others.into_iter().cloned());

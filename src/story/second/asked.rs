@@ -11,7 +11,7 @@ use super::super::worlds::without_case;
 use super::values::moved;
 use super::{CLOSE, Compared, Second, Seen, World, points_of, shaken};
 use crate::answer::{Answer, Check};
-use crate::expr::{Expr, Node, Symbol};
+use crate::expr::{Expr, Symbol};
 use crate::formula::Relation;
 use crate::numeric::Answer as Found;
 use crate::numeric::follow::{self, What};
@@ -169,10 +169,7 @@ impl Asked<'_> {
             let names = ["", "_x", "_y"].map(|axis| format!("{}{axis}", question.name).into());
             sizes.values.extend(names.map(|name| (name, size)));
         }
-        let terms = sides.into_iter().flat_map(|side| match side.node() {
-            Node::Sum(terms) => terms.iter(),
-            _ => std::slice::from_ref(side).iter(),
-        });
+        let terms = sides.into_iter().flat_map(Expr::terms);
         let terms = terms.filter_map(|term| term.evaluate(&sizes));
         let size = terms.fold(0.0f64, |size, term| size.max(term.abs()));
         let noise = CLOSE * size.max(left.abs()).max(right.abs());

@@ -6,11 +6,11 @@
 use num_traits::Signed;
 
 use super::{Condition, Verdict};
-use crate::algebra::{Field, Sign};
+use crate::algebra::{self, Field, Sign};
 use crate::answer::calc::{constant, has_both_signs, soon_has_both_signs};
 use crate::derive::Derivation;
 use crate::domain::{Domains, roles, samples_until};
-use crate::expr::{Expr, Node, Point, Rational, Scalar, Symbol};
+use crate::expr::{Expr, Point, Rational, Scalar, Symbol};
 use crate::interval::{Interval, Outcome, evaluate};
 use crate::laws::{self, Unknown};
 use crate::numeric::{self, Motion};
@@ -57,12 +57,7 @@ pub(super) fn sign(e: &Expr, domains: &Domains) -> Option<Sign> {
 }
 
 fn proved(e: &Expr, domains: &Domains) -> Option<Sign> {
-    let mut field = Field::new(domains);
-    field.prepare([e]);
-    let element = field.element(e).ok()?;
-    let proved = field.assumptions().is_empty();
-    let found = proved.then(|| field.sign(&element)).flatten();
-    found.or_else(|| constant(e))
+    algebra::sign(e, domains).or_else(|| constant(e))
 }
 
 /// Where an expression is not negative.
@@ -138,31 +133,21 @@ fn signs_agree(a: &Expr, b: &Expr, domains: &Domains) -> bool {
 /// The expression without factors known to be positive, which do not change where it is not negative; what is negative
 /// turns the rest round.
 fn essential(e: &Expr, domains: &Domains) -> Expr {
-    let mut field = Field::new(domains);
-    field.prepare([e]);
-    let Ok(element) = field.element(e) else {
-        return e.clone();
-    };
-    let tidy = field.expr(&element);
-    let list: Vec<Expr> = match tidy.node() {
-        Node::Product(factors) => factors.clone(),
-        _ => vec![tidy.clone()],
+    let normal = |e: &Expr| {
+        let read = Field::of(domains, e).ok();
+        read.map_or_else(|| e.clone(), |(field, x)| field.expr(&x))
     };
     let mut minus = false;
     let mut rest = Vec::new();
-    for factor in list {
-        match sign(&factor, domains) {
+    for factor in normal(e).factors() {
+        match sign(factor, domains) {
             Some(Sign::Positive) => {}
             Some(Sign::Negative) => minus = !minus,
-            _ => rest.push(factor),
+            _ => rest.push(factor.clone()),
         }
     }
     let rest = Expr::product(rest);
-    let turned = if minus { -&rest } else { rest };
-    let mut field = Field::new(domains);
-    field.prepare([&turned]);
-    let tidied = field.element(&turned).map(|x| field.expr(&x));
-    tidied.unwrap_or(turned)
+    normal(&if minus { -&rest } else { rest })
 }
 
 /// Lets a condition that follows from a shorter one be that one: v² − u² ≥ 0 and e (v − u) ≥ 0 follow from v − u ≥ 0.
@@ -219,7 +204,7 @@ impl Values {
             Some(with_motion(
                 scene,
                 derivation,
-                enclosed(scene),
+                scene.given(),
                 &motion,
                 around,
             ))
@@ -247,18 +232,6 @@ impl Values {
             _ => None,
         }
     }
-}
-
-/// The values of the parameters, enclosed.
-fn enclosed(scene: &Scene) -> Point<Outcome<Interval>> {
-    let mut point = Point::default();
-    for p in &scene.parameters {
-        if let Some(value) = &p.value {
-            let value = evaluate::<Interval>(value, &Point::default());
-            point.values.insert(p.name.clone(), value);
-        }
-    }
-    point
 }
 
 /// The largest speed [m/s] and impulse [N s]. An impulse of rounding only, beside the momentum of the bodies, is none.

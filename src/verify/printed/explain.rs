@@ -266,11 +266,7 @@ impl Desk<'_> {
             formulas.extend(component);
         }
         formulas.extend(self.closed.get(name).cloned());
-        let mut values = Point::<f64>::default();
-        for p in &self.scene.parameters {
-            let value = p.value.as_ref()?.evaluate(&Point::default())?;
-            values.values.insert(p.name.clone(), value);
-        }
+        let values = self.scene.all_given()?;
         let kin = |a: &Symbol, b: &Symbol| self.kin(a, b);
         let printed = formulas.iter().zip(&places).find(|(e, _)| {
             let value = e.evaluate(&values);

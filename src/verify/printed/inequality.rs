@@ -2,6 +2,7 @@
 
 use super::Finding;
 use super::desk::Desk;
+use crate::algebra::{Field, Sign};
 use crate::domain::{roles, samples};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Relation};
@@ -78,11 +79,7 @@ impl Desk<'_> {
         sign: Relation,
         finding: &mut Finding,
     ) -> Option<bool> {
-        use crate::algebra::Sign;
-        let mut field = crate::algebra::Field::new(&self.scene.domains);
-        let difference = b - a;
-        field.prepare([&difference]);
-        let element = field.element(&difference).ok()?;
+        let (field, element) = Field::of(&self.scene.domains, &(b - a)).ok()?;
         let known = field.sign(&element)?;
         let known = if matches!(sign, Relation::Greater | Relation::GreaterEqual) {
             known.flip()

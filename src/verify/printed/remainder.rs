@@ -44,9 +44,7 @@ impl Desk<'_> {
         let [(right, printed)] = pairs else {
             return None;
         };
-        let mut field = Field::new(&self.scene.domains);
-        field.prepare([right, printed]);
-        let (a, b) = (field.element(right).ok()?, field.element(printed).ok()?);
+        let (field, a, b) = Field::pair(&self.scene.domains, right, printed).ok()?;
         if field.is_zero(&a) || field.is_zero(&b) {
             return None;
         }
@@ -103,9 +101,7 @@ impl Desk<'_> {
         };
         let put_in = |side: &Content| self.put_in(side.expr()?, &open).ok();
         let difference = put_in(left)? - put_in(right)?;
-        let mut field = Field::new(&self.scene.domains);
-        field.prepare([&difference]);
-        let element = field.element(&difference).ok()?;
+        let (mut field, element) = Field::of(&self.scene.domains, &difference).ok()?;
         let powers = field.powers(&element, name).ok()??;
         let [root] = powers.factors.as_slice() else {
             return None;
