@@ -25,9 +25,7 @@ pub fn full_matrix(scene: &Scene, names: &Names) -> Result<Matrix, Stop> {
         rhs: Vec::new(),
     };
     for law in laws::of(scene) {
-        let Ok(linear) = laws::equation(scene, &work.g, &full, &law, |v: &Vector| {
-            Ok::<_, std::convert::Infallible>(v.clone())
-        });
+        let linear = laws::symbolic(scene, &work.g, &full, &law);
         let mut row = vec![Expr::zero(); unknowns.len()];
         for (unknown, k) in &linear.terms {
             if let Some(i) = unknowns.iter().position(|u| u == unknown) {
@@ -324,8 +322,7 @@ impl Work<'_> {
         law: &Law,
     ) -> Result<(Vec<(String, Expr)>, Expr), Stop> {
         let full = Kinematics::full(self.scene, &self.g);
-        let direction = |v: &Vector| Ok::<_, std::convert::Infallible>(v.clone());
-        let Ok(linear) = laws::equation(self.scene, &self.g, &full, law, direction);
+        let linear = laws::symbolic(self.scene, &self.g, &full, law);
         // left − right = Σ k·v − known, with every velocity replaced by its components
         let known = self.field.element(&linear.known)?;
         let mut total = self.field.neg(&known);

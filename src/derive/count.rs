@@ -3,8 +3,6 @@
 //! Where the scene has rational points, the rank is that of the exact matrix at one rational point of the domain. A point can only lower the rank, so "of full
 //! rank" and "determined" are proved by it; where the rank falls short, further points are tried, and the largest stands.
 
-use std::convert::Infallible;
-
 use num_traits::Zero;
 
 use super::{Stop, Work};
@@ -109,9 +107,7 @@ fn count_symbolically(scene: &Scene, laws: &[Law], unknowns: &[Unknown]) -> Resu
     let full = Kinematics::full(scene, &work.g);
     let mut rows = Vec::new();
     for law in laws {
-        let Ok(linear) = laws::equation(scene, &work.g, &full, law, |v: &Vector| {
-            Ok::<_, Infallible>(v.clone())
-        });
+        let linear = laws::symbolic(scene, &work.g, &full, law);
         let mut coeffs = Vec::new();
         for (unknown, k) in &linear.terms {
             if let Some(i) = unknowns.iter().position(|u| u == unknown) {

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::Work;
 use super::count::Counting;
 use crate::expr::{Expr, Symbol};
-use crate::laws::{self, Law, Unknown};
+use crate::laws::{self, Law, Place, Unknown};
 use crate::scene::{Ask, Contact, ContactLaw, ImpulseAt, Scene};
 
 /// Something that was neither built nor printed.
@@ -151,26 +151,13 @@ fn is_pin(scene: &Scene, contact: &Contact) -> bool {
 
 /// The unknown impulses by the place that transmits them.
 fn impulses(scene: &Scene) -> Vec<(String, Vec<Unknown>)> {
-    let mut all = Vec::new();
-    for (c, contact) in scene.contacts.iter().enumerate() {
-        let unknowns = match contact.law {
-            ContactLaw::Frictionless { .. } => vec![Unknown::Normal(c)],
-            ContactLaw::Sticking
-            | ContactLaw::None
-            | ContactLaw::Friction(_)
-            | ContactLaw::Decided(_) => {
-                vec![Unknown::Contact(c, 0), Unknown::Contact(c, 1)]
-            }
-        };
-        all.push((contact.name.clone(), unknowns));
-    }
-    for (h, hinge) in scene.hinges.iter().enumerate() {
-        all.push((
-            hinge.name.clone(),
-            vec![Unknown::Hinge(h, 0), Unknown::Hinge(h, 1)],
-        ));
-    }
-    all
+    let contacts = (0..scene.contacts.len()).map(Place::Contact);
+    let hinges = (0..scene.hinges.len()).map(Place::Hinge);
+    let at = |place| {
+        let name = laws::place_name(scene, place);
+        (name, laws::impulses_at(scene, place))
+    };
+    contacts.chain(hinges).map(at).collect()
 }
 
 /// The symbols in the formulas of the impact, in the conditions of a mode of friction and in unit vectors.

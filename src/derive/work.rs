@@ -14,7 +14,7 @@ use super::{
     Solved, Stop, TRIED, WORK,
 };
 use crate::algebra::{self, Element, Field, Row};
-use crate::expr::{Expr, Vector};
+use crate::expr::Expr;
 use crate::laws::{self, Affine, Geometry, Kinematics, Law, Unknown};
 use crate::scene::Scene;
 
@@ -332,8 +332,7 @@ impl<'a> Work<'a> {
         law: &Law,
         unknowns: &[Unknown],
     ) -> Result<Option<(Row, (Vec<(Unknown, Element)>, Element))>, Stop> {
-        let direction = |v: &Vector| Ok::<_, std::convert::Infallible>(v.clone());
-        let Ok(linear) = laws::equation(self.scene, &self.g, &self.reduced, law, direction);
+        let linear = laws::symbolic(self.scene, &self.g, &self.reduced, law);
         let mut rhs = self.field.element(&linear.known)?;
         let known = rhs.clone();
         let mut coeffs = Vec::with_capacity(linear.terms.len());

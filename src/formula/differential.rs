@@ -265,10 +265,7 @@ impl Lexer<'_> {
             return Some((parts, end));
         }
         let greek = (2..=run.min(10)).rev().find(|n| is_greek(&rest[..*n]));
-        let length = greek.unwrap_or(1);
-        let mut parts = Parts::of(rest[..length].to_string());
-        let from = name::combining(self.text, at + length, &mut parts);
-        let end = name::tail(self.text, from, &mut parts, self.symbols, false, &mut false);
+        let (parts, end) = self.beginning(at, greek.unwrap_or(1));
         // `dtheta` ends here; `dxy` is no differential of one name.
         let goes_on = self.text[end..].starts_with(|c: char| c.is_ascii_alphabetic());
         (!goes_on).then_some((parts, end))
@@ -335,10 +332,15 @@ impl Lexer<'_> {
         }
         let known = |n: &usize| is_greek(&rest[..*n]) || self.symbols.has_base(&rest[..*n]);
         let length = (2..=run.min(40)).rev().find(known).unwrap_or(1);
-        let mut parts = Parts::of(rest[..length].to_string());
+        Some(self.beginning(at, length))
+    }
+
+    /// The name that begins with so many letters.
+    fn beginning(&self, at: usize, length: usize) -> (Parts, usize) {
+        let mut parts = Parts::of(self.text[at..at + length].to_string());
         let from = name::combining(self.text, at + length, &mut parts);
         let end = name::tail(self.text, from, &mut parts, self.symbols, false, &mut false);
-        Some((parts, end))
+        (parts, end)
     }
 
     /// Differentials on both sides of an equation, as in `F dt = dp`: each d stands right before a name.

@@ -18,6 +18,8 @@ mod words;
 pub use affine::{Affine, Linear};
 pub use words::{body_list, describe, place as place_name};
 
+use std::convert::Infallible;
+
 use crate::expr::arithmetic::{Number, difference};
 use crate::expr::{Expr, Vector};
 use crate::scene::{BlowImpulse, Condition, ContactLaw, ImpulseAt, KnownQuantity, Scene};
@@ -251,6 +253,14 @@ impl<T: Number> Geometry<T> {
     }
 }
 
+impl Geometry<Expr> {
+    /// The formulas of the scene as they are.
+    pub fn symbolic(scene: &Scene) -> Geometry<Expr> {
+        let Ok(g) = Geometry::of(scene, |e| Ok::<_, Infallible>(e.clone()));
+        g
+    }
+}
+
 /// How every body moves after, as an affine function of the unknowns.
 #[derive(Clone, Debug)]
 pub struct Kinematics<T> {
@@ -328,24 +338,31 @@ pub fn unknowns(scene: &Scene) -> Vec<Unknown> {
             }
         }
     }
-    for (c, contact) in scene.contacts.iter().enumerate() {
-        match contact.law {
-            ContactLaw::Frictionless { .. } => all.push(Unknown::Normal(c)),
+    let contacts = (0..scene.contacts.len()).map(Place::Contact);
+    let hinges = (0..scene.hinges.len()).map(Place::Hinge);
+    let blows = (0..scene.blows.len()).map(Place::Blow);
+    let places = contacts.chain(hinges).chain(blows);
+    all.extend(places.flat_map(|place| impulses_at(scene, place)));
+    all
+}
+
+/// The unknown impulses at a place: along a normal, or both components.
+pub fn impulses_at(scene: &Scene, place: Place) -> Vec<Unknown> {
+    match place {
+        Place::Contact(c) => match scene.contacts[c].law {
+            ContactLaw::Frictionless { .. } => vec![Unknown::Normal(c)],
             ContactLaw::Sticking
             | ContactLaw::None
             | ContactLaw::Friction(_)
-            | ContactLaw::Decided(_) => {
-                all.extend([Unknown::Contact(c, 0), Unknown::Contact(c, 1)])
-            }
-        }
+            | ContactLaw::Decided(_) => vec![Unknown::Contact(c, 0), Unknown::Contact(c, 1)],
+        },
+        Place::Hinge(h) => vec![Unknown::Hinge(h, 0), Unknown::Hinge(h, 1)],
+        Place::Blow(i) => match scene.blows[i].impulse {
+            BlowImpulse::Along(_) => vec![Unknown::Blow(i)],
+            BlowImpulse::Given(_) => Vec::new(),
+        },
+        Place::Center(_) => Vec::new(),
     }
-    all.extend((0..scene.hinges.len()).flat_map(|h| [Unknown::Hinge(h, 0), Unknown::Hinge(h, 1)]));
-    for (i, blow) in scene.blows.iter().enumerate() {
-        if let BlowImpulse::Along(_) = blow.impulse {
-            all.push(Unknown::Blow(i));
-        }
-    }
-    all
 }
 
 /// The full set of laws: two or three balances for every body that can move, then joints, contact laws and givens.
@@ -370,6 +387,18 @@ pub fn of(scene: &Scene) -> Vec<Law> {
     }
     laws.extend((0..scene.after.len()).map(Law::Given));
     laws
+}
+
+/// A law as a linear equation between formulas.
+pub fn symbolic(
+    scene: &Scene,
+    g: &Geometry<Expr>,
+    motion: &Kinematics<Expr>,
+    law: &Law,
+) -> Linear<Expr> {
+    let plain = |v: &Vector| Ok::<_, Infallible>(v.clone());
+    let Ok(linear) = equation(scene, g, motion, law, plain);
+    linear
 }
 
 /// Writes a law as a linear equation. `direction` turns the vector of a named direction into the number type.

@@ -172,45 +172,40 @@ fn answer(scene: &Scene, told: &Told, a: &Answer) -> Value {
     let mut assumptions = scene.domains.conditions();
     assumptions.extend(told.readings.iter().cloned());
     assumptions.extend(a.assumptions.iter().map(ToString::to_string));
-    let mut out = Map::new();
-    out.insert("name".into(), json!(a.name));
-    out.insert("question".into(), json!(a.question));
-    out.insert("words".into(), json!(a.words));
-    out.insert("formula".into(), Value::Null);
-    out.insert("latex".into(), Value::Null);
+    let mut out = json!({
+        "name": a.name,
+        "question": a.question,
+        "words": a.words,
+        "formula": null,
+        "latex": null,
+    });
     match &a.form {
         Form::Value { closed, short } => {
-            out.insert("formula".into(), json!(write_plain(short)));
-            out.insert("latex".into(), json!(latex(scene, short)));
+            out["formula"] = json!(write_plain(short));
+            out["latex"] = json!(latex(scene, short));
             if let Some(derivation) = derivation.filter(|_| short != closed) {
-                out.insert(
-                    "where".into(),
-                    json!(definitions(scene, derivation, Some(short))),
-                );
-                out.insert("closed".into(), json!(write_plain(closed)));
+                out["where"] = json!(definitions(scene, derivation, Some(short)));
+                out["closed"] = json!(write_plain(closed));
             }
             if let Some(value) = super::answer_value(scene, derivation, closed) {
-                out.insert("value".into(), json!(value.approximate));
+                out["value"] = json!(value.approximate);
                 if let Some(exact) = value.exact {
-                    out.insert("value_exact".into(), json!(exact.to_string()));
+                    out["value_exact"] = json!(exact.to_string());
                 }
             }
         }
         Form::Equation { left, right } => {
             let equation = format!("{} = {}", write_plain(left), write_plain(right));
-            out.insert("formula".into(), json!(equation));
-            out.insert("equation".into(), json!(equation));
-            out.insert(
-                "latex".into(),
-                json!(format!("{} = {}", latex(scene, left), latex(scene, right))),
-            );
+            out["formula"] = json!(equation);
+            out["equation"] = json!(equation);
+            out["latex"] = json!(format!("{} = {}", latex(scene, left), latex(scene, right)));
         }
         Form::Matrix(m) => {
-            out.insert("latex".into(), json!(super::latex_matrix(scene, m)));
-            out.insert("matrix".into(), matrix(m));
+            out["latex"] = json!(super::latex_matrix(scene, m));
+            out["matrix"] = matrix(m);
         }
         Form::Open(names) => {
-            out.insert("undetermined".into(), json!(names));
+            out["undetermined"] = json!(names);
         }
         Form::Words => {}
     }
@@ -224,15 +219,15 @@ fn answer(scene: &Scene, told: &Told, a: &Answer) -> Value {
         ("discarded", plain(&a.discarded)),
     ] {
         if !all.is_empty() {
-            out.insert(key.into(), json!(all));
+            out[key] = json!(all);
         }
     }
-    out.insert("symbol".into(), json!(a.latex));
-    out.insert("dimension".into(), json!(a.dimension.plain()));
-    out.insert("unit".into(), json!(a.unit(scene)));
-    out.insert("assumptions".into(), json!(assumptions));
-    out.insert("checks".into(), json!(a.checks));
-    Value::Object(out)
+    out["symbol"] = json!(a.latex);
+    out["dimension"] = json!(a.dimension.plain());
+    out["unit"] = json!(a.unit(scene));
+    out["assumptions"] = json!(assumptions);
+    out["checks"] = json!(a.checks);
+    out
 }
 
 fn equation(scene: &Scene, derivation: &Derivation, equation: &Equation) -> Value {

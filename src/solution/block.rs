@@ -186,17 +186,13 @@ impl Writer<'_> {
                     _ => format!("restitution at {at}"),
                 }
             }
-            Law::Sticking(c, axis) => format!(
-                "sticking at {} along {}",
-                self.scene.contacts[*c].name, AXES[*axis]
-            ),
             Law::Hinged(h, axis) => {
                 format!(
                     "the hinge {} along {}",
                     self.scene.hinges[*h].name, AXES[*axis]
                 )
             }
-            Law::Condition(..) => crate::laws::describe(self.scene, law),
+            Law::Condition(..) | Law::Sticking(..) => crate::laws::describe(self.scene, law),
             Law::Given(k) => {
                 let known = &self.scene.after[*k];
                 let body = words::body(self.scene, known.body);

@@ -3,8 +3,8 @@
 //! In: pieces of text and claims, in order. Out: the [`Solution`] with them at its end.
 
 use super::words::say;
-use super::{Claim, Inline, Line, Math, Part, Section, Solution, Step};
-use crate::expr::Expr;
+use super::{Claim, Inline, Line, Math, Meaning, Part, Section, Solution, Step};
+use crate::expr::{Expr, Symbol};
 
 impl Solution {
     /// Opens a section; what comes next stands in it.
@@ -116,6 +116,26 @@ impl Solution {
     pub(super) fn step(&mut self, before: Vec<Claim>, after: Vec<Claim>, reason: &str) -> String {
         let id = (self.steps.len() + 1).to_string();
         self.record(id.clone(), before, after, reason);
+        id
+    }
+
+    /// Records the step that gives a name to a value, with what it is made of where that is told, and gives its id. What the
+    /// name means is said before.
+    pub(super) fn naming(
+        &mut self,
+        name: &Symbol,
+        made_of: Option<&Expr>,
+        value: &Expr,
+        words: &str,
+    ) -> String {
+        let own = Expr::symbol(name);
+        let sides = [Some(&own), made_of].into_iter().flatten();
+        let claims = sides.map(|side| Claim::new(side.clone(), value.clone()));
+        let id = self.step(Vec::new(), claims.collect(), words);
+        let is_new = self.meanings.get(name) == Some(&Meaning::Defined);
+        if let Some(step) = self.steps.last_mut() {
+            step.defines = is_new.then(|| name.clone());
+        }
         id
     }
 

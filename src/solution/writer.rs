@@ -41,7 +41,7 @@ impl<'a> Writer<'a> {
         proof: &'a Proof,
         detail: Detail,
     ) -> Writer<'a> {
-        let Ok(g) = Geometry::of(scene, |e| Ok::<_, std::convert::Infallible>(e.clone()));
+        let g = Geometry::symbolic(scene);
         let reduction = derive::reduction(scene);
         let reduced = reduction.kinematics(scene, &g);
         let mut names = BTreeMap::new();

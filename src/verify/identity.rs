@@ -11,8 +11,8 @@ use crate::algebra::{Element, Field, Stop};
 use crate::answer::{Answer, Check};
 use crate::derive::Derivation;
 use crate::equality::{self, Equality};
-use crate::expr::{Expr, Symbol, Vector};
-use crate::laws::{self, Geometry, Kinematics, Unknown};
+use crate::expr::{Expr, Symbol};
+use crate::laws::{self, Geometry, Kinematics, Law, Unknown};
 use crate::scene::{Ask, EnergyWhen, Scene};
 
 /// The identities of a derivation.
@@ -82,15 +82,11 @@ impl<'a> Identities<'a> {
     /// The number of equations that hold, and of the others the law and what remains of it.
     fn count(&mut self) -> Result<(usize, Vec<(String, Expr)>), Stop> {
         let scene = self.scene;
-        let Ok(g) = Geometry::of(scene, |e| Ok::<_, std::convert::Infallible>(e.clone()));
+        let g = Geometry::symbolic(scene);
         let full = Kinematics::full(scene, &g);
-        let mut equations = Vec::new();
-        for law in laws::of(scene) {
-            let Ok(linear) = laws::equation(scene, &g, &full, &law, |v: &Vector| {
-                Ok::<_, std::convert::Infallible>(v.clone())
-            });
-            equations.push((law, linear));
-        }
+        let written = |law: &Law| laws::symbolic(scene, &g, &full, law);
+        let laws = laws::of(scene);
+        let equations: Vec<_> = laws.iter().map(|law| (law, written(law))).collect();
         let motion = &self.derivation.motion;
         let mut all: Vec<&Expr> = motion.values().collect();
         for (_, linear) in &equations {
@@ -125,7 +121,7 @@ impl<'a> Identities<'a> {
             if self.field.is_zero(&total) {
                 held += 1;
             } else {
-                failed.push((laws::describe(scene, &law), self.field.expr(&total)));
+                failed.push((laws::describe(scene, law), self.field.expr(&total)));
             }
         }
         Ok((held, failed))

@@ -2,7 +2,6 @@
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
-use std::convert::Infallible;
 
 use rustc_hash::FxHashMap;
 
@@ -14,7 +13,7 @@ use crate::algebra::tidy;
 use crate::dimension::Dimension;
 use crate::domain::Domains;
 use crate::equality::{self};
-use crate::expr::{Expr, Node, Symbol, Vector, effort};
+use crate::expr::{Expr, Node, Symbol, effort};
 use crate::formula::{Content, Reading};
 use crate::laws::{self, Geometry, Kinematics, Law, Unknown};
 use crate::scene::{Ask, EnergyWhen, Question, Scene};
@@ -323,7 +322,7 @@ impl Desk<'_> {
         if laws.len() > MOST_LAWS || !scene.stages.is_empty() {
             return Vec::new();
         }
-        let Ok(g) = Geometry::of(scene, |e| Ok::<_, Infallible>(e.clone()));
+        let g = Geometry::symbolic(scene);
         let motion = Kinematics::full(scene, &g);
         let named = |unknown: Unknown| {
             let symbol = Expr::symbol(names.plain(unknown));
@@ -333,8 +332,7 @@ impl Desk<'_> {
             }
         };
         let equation = |law: &Law| {
-            let plain = |v: &Vector| Ok::<_, Infallible>(v.clone());
-            let Ok(linear) = laws::equation(scene, &g, &motion, law, plain);
+            let linear = laws::symbolic(scene, &g, &motion, law);
             let terms = linear.terms.iter().map(|(u, k)| k * &named(*u));
             Expr::sum(terms) - linear.known
         };

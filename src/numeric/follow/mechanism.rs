@@ -272,6 +272,16 @@ pub(super) trait Mobile {
     /// How often that was asked for.
     fn looks(&self) -> &Cell<u32>;
 
+    /// Moves on until something that keeps growing is no longer negative.
+    fn until_grown(&self, start: &[f64], left: &dyn Fn(&[f64]) -> f64) -> Result<Run, Stop> {
+        let mut goal = Goal {
+            left,
+            rate: &|_| 1.0,
+            never: &mut |_, _| false,
+        };
+        self.until(start, &mut goal)
+    }
+
     /// Moves on until the goal is reached.
     fn until(&self, start: &[f64], goal: &mut Goal<'_>) -> Result<Run, Stop> {
         let mut run = Run::at(start);

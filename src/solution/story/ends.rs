@@ -8,7 +8,7 @@ use crate::solution::known;
 use crate::solution::neat::tidied;
 use crate::solution::opening::NUMBERS;
 use crate::solution::words::{self, say};
-use crate::solution::{Claim, Detail, Inline, Line, Math, Meaning, Part};
+use crate::solution::{Detail, Inline, Line, Math, Meaning, Part};
 use crate::story::{Case, StageTold, Step};
 
 /// Largest ratio of two velocities, in nodes, that needs no reason.
@@ -117,10 +117,9 @@ impl Page<'_> {
         let suffix = axis.map_or("", |axis| ["_x", "_y"][axis]);
         let plain = format!("{}{suffix}", question.name);
         // What belongs to a further case is no question's answer by its name.
-        let is_fresh = answer.name != plain;
-        let meaning = match is_fresh {
-            false => Meaning::Answer(question.name.clone(), axis),
-            true => Meaning::Defined,
+        let meaning = match answer.name == plain {
+            true => Meaning::Answer(question.name.clone(), axis),
+            false => Meaning::Defined,
         };
         let ask = here.placed.asked(question).clone();
         // What it comes from goes by the names that were told before.
@@ -150,17 +149,7 @@ impl Page<'_> {
             end.steps.extend((!known).then_some(line));
         }
         let claimed = flown.as_ref().map(|[_, claimed]| claimed);
-        let sides = [Some(&Expr::symbol(&symbol)), claimed];
-        let claims = sides
-            .into_iter()
-            .flatten()
-            .map(|left| Claim::new(left.clone(), formula.clone()));
-        let id = self
-            .solution
-            .step(Vec::new(), claims.collect(), &answer.words);
-        if let Some(step) = self.solution.steps.last_mut() {
-            step.defines = is_fresh.then(|| symbol.clone());
-        }
+        let id = (self.solution).naming(&symbol, claimed, formula, &answer.words);
         // Within a case the name needs no number.
         let several = here.cases.len() > 1;
         let name = if several { plain.as_str() } else { &symbol };
@@ -351,19 +340,8 @@ impl Page<'_> {
         self.solution
             .meanings
             .insert(symbol.clone(), Meaning::Defined);
-        let sides = [
-            Some(Expr::symbol(&symbol)),
-            by_parts.then(|| formula.clone()),
-        ];
-        let claims = sides
-            .into_iter()
-            .flatten()
-            .map(|left| Claim::new(left, value.clone()));
-        let claims = claims.collect();
-        let id = self.solution.step(Vec::new(), claims, &answer.words);
-        if let Some(step) = self.solution.steps.last_mut() {
-            step.defines = Some(symbol.clone());
-        }
+        let made_of = Some(&formula).filter(|_| by_parts);
+        let id = (self.solution).naming(&symbol, made_of, &value, &answer.words);
         end.steps.extend(energy);
         let mut math = vec![Math::Expr(Expr::symbol(&symbol)), Math::Op("=")];
         if by_parts {

@@ -315,18 +315,11 @@ impl Page<'_> {
             return;
         };
         let symbol = Expr::symbol(&answer.name);
-        let claims = [Some(symbol.clone()), raw.clone()].into_iter().flatten();
-        let claims = claims.map(|left| Claim::new(left, value.clone()));
-        let id = self
-            .solution
-            .step(Vec::new(), claims.collect(), &answer.words);
-        let defined = Symbol::from(answer.name.as_str());
+        let name = Symbol::from(answer.name.as_str());
         self.solution
             .meanings
-            .insert(defined.clone(), Meaning::Defined);
-        if let Some(step) = self.solution.steps.last_mut() {
-            step.defines = Some(defined);
-        }
+            .insert(name.clone(), Meaning::Defined);
+        let id = (self.solution).naming(&name, raw.as_ref(), value, &answer.words);
         let mut math = vec![Math::Expr(symbol.clone()), Math::Op("=")];
         if let Some(raw) = raw.filter(|raw| !alike(raw, value)) {
             math.extend([Math::Expr(raw), Math::Op("=")]);

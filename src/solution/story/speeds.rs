@@ -88,11 +88,7 @@ impl Page<'_> {
         if !body.is_particle() || !gives || self.kinematic(told).is_some() {
             return None;
         }
-        let left = energy(&Expr::symbol(symbol));
-        Some(Line::plain(set(
-            "{} = {}",
-            [left.into(), words::kinetic("", "+")],
-        )))
+        Some(is_kinetic(energy(&Expr::symbol(symbol))))
     }
 
     /// The kinetic energy at the end in terms of the speed or spin that is asked for, ½ I ω² = T⁺, where that gives its value.
@@ -136,10 +132,12 @@ impl Page<'_> {
         if !is_told || tidied(self.scene, &energy(value)) != tidied(self.scene, end) {
             return None;
         }
-        let left = energy(&Expr::symbol(symbol));
-        Some(Line::plain(set(
-            "{} = {}",
-            [left.into(), words::kinetic("", "+")],
-        )))
+        Some(is_kinetic(energy(&Expr::symbol(symbol))))
     }
+}
+
+/// That something is the kinetic energy at the end.
+fn is_kinetic(energy: Expr) -> Line {
+    let energies = [energy.into(), words::kinetic("", "+")];
+    Line::plain(set("{} = {}", energies))
 }

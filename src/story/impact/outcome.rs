@@ -374,8 +374,7 @@ pub(super) fn state_after(stage: &Stage, before: &State, case: &Case) -> Result<
     let mut after = before.clone();
     let mut scene = case.scene.clone();
     scene.questions.clear();
-    let g = crate::laws::Geometry::of(&scene, |e| Ok::<_, std::convert::Infallible>(e.clone()));
-    let Ok(g) = g;
+    let g = crate::laws::Geometry::symbolic(&scene);
     let full = crate::laws::Kinematics::full(&scene, &g);
     let why = format!("the laws of `{}` do not determine it", stage.name);
     for b in 0..scene.bodies.len() {

@@ -194,14 +194,7 @@ impl Pair {
                 };
                 mechanism.until(&start, &mut goal)
             }
-            _ => {
-                let mut goal = Goal {
-                    left: &|y| -slips(y),
-                    rate: &|_| 1.0,
-                    never: &mut |_, _| false,
-                };
-                mechanism.until(&start, &mut goal)
-            }
+            _ => mechanism.until_grown(&start, &|y| -slips(y)),
         })
     }
 }

@@ -275,6 +275,12 @@ impl Flight<'_> {
         run.map_err(|stop| stopped(self.course, stop, NEVER))
     }
 
+    /// Until what keeps growing is no longer negative.
+    fn until_grown(&self, start: &[f64], left: &dyn Fn(&[f64]) -> f64) -> Result<Run, Lost> {
+        let run = self.mechanism.until_grown(start, left);
+        run.map_err(|stop| stopped(self.course, stop, NEVER))
+    }
+
     /// Sideways over a range.
     fn to_range(&self, far: f64, u: f64) -> Result<Run, Lost> {
         let way = if far < 0.0 { -1.0 } else { 1.0 };
@@ -295,12 +301,7 @@ impl Flight<'_> {
         if spin == 0.0 || angle < 0.0 {
             return Err(self.course.never("it does not turn that way"));
         }
-        let goal = Goal {
-            left: &|y| way * y[2] - angle,
-            rate: &|_| 1.0,
-            never: &mut |_, _| false,
-        };
-        self.until(&self.start, goal)
+        self.until_grown(&self.start, &|y| way * y[2] - angle)
     }
 
     /// Up to where it rises no more.
@@ -308,12 +309,7 @@ impl Flight<'_> {
         if v < 0.0 {
             return Err(self.course.never("it begins on its way down"));
         }
-        let goal = Goal {
-            left: &|y| -rising(y),
-            rate: &|_| 1.0,
-            never: &mut |_, _| false,
-        };
-        self.until(&self.start, goal)
+        self.until_grown(&self.start, &|y| -rising(y))
     }
 
     /// Without weight, or with one that pulls upward, down through a height.
@@ -345,21 +341,11 @@ impl Flight<'_> {
 
     /// To a height on the way down: up to the highest place first.
     fn over_the_top(&self, height: f64) -> Result<Run, Lost> {
-        let top = Goal {
-            left: &|y| -rising(y),
-            rate: &|_| 1.0,
-            never: &mut |_, _| false,
-        };
-        let up = self.until(&self.start, top)?;
+        let up = self.until_grown(&self.start, &|y| -rising(y))?;
         if -up.end[1] - height > REST {
             return Err(self.course.never(NEVER));
         }
-        let down = Goal {
-            left: &|y| -y[1] - height,
-            rate: &|_| 1.0,
-            never: &mut |_, _| false,
-        };
-        let mut run = self.until(&up.end, down)?;
+        let mut run = self.until_grown(&up.end, &|y| -y[1] - height)?;
         let later = run.samples.drain(..).map(|(time, y)| (up.time + time, y));
         run.samples = up.samples.into_iter().chain(later.skip(1)).collect();
         run.time += up.time;

@@ -569,13 +569,8 @@ fn to_the_end(
             if acting.spring.is_some() && wanes(&first.end) < 0.0 {
                 return Err(course.never("nothing moves it"));
             }
-            let mut goal = Goal {
-                left: &|y| -wanes(y),
-                rate: &|_| 1.0,
-                never: &mut |_, _| false,
-            };
             let mut run = mechanism
-                .until(&first.end, &mut goal)
+                .until_grown(&first.end, &|y| -wanes(y))
                 .map_err(stopped(never))?;
             if acting.spring.is_some() {
                 // It rests there: what is left of its speed is rounding, and there may be no other speed to measure it by.
