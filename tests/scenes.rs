@@ -266,8 +266,8 @@ fn a_body_that_turns_about_a_point_has_the_velocity_of_that_motion() {
     let text = r#"{"parameters": {"m": {"unit": "kg"}, "l": {"unit": "m"}, "w": {"unit": "rad/s"}},
         "points": {"A": ["0", "0"]},
         "bodies": {"support": {"shape": "fixed"},
-            "rod": {"shape": "rod", "mass": "m", "length": "l", "center": {"from": "A", "by": ["0", "-l/2"]},
-                    "velocity": {"about": "A"}, "spin": "w"}},
+            "rod": {"shape": "rod", "mass": "m", "length": "l", "angle": "-pi/2",
+                    "center": {"from": "A", "by": ["0", "-l/2"]}, "velocity": {"about": "A"}, "spin": "w"}},
         "hinges": {"A": {"bodies": ["support", "rod"], "at": "A"}}}"#;
     let scene = scene::read(text).expect("the hinge does not pull");
     assert!(same(&scene, &scene.bodies[1].velocity[0], "w*l/2"));
