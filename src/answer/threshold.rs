@@ -13,7 +13,7 @@ use super::{Answer, Form, intervals, limit, undo};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, Limit};
 use crate::expr::{Expr, Node, Symbol};
-use crate::formula::{Relation, write_plain};
+use crate::formula::Relation;
 use crate::formula::{Sentence, sentence};
 use crate::interval::enclosure::decimal;
 use crate::scene::Scene;
@@ -369,10 +369,11 @@ fn jumps(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sentence> 
 fn always(gap: &Expr, relation: Relation, domains: &Domains) -> Sentence {
     let s = sign(gap, domains);
     let reason = |what: &str| match gap.is_zero() {
-        true => String::from("both sides are the same"),
-        false => format!(
-            "left side minus right side is {}, which is {what} on the whole domain",
-            write_plain(gap)
+        true => sentence!("both sides are the same"),
+        false => sentence!(
+            "left side minus right side is {}, which is {} on the whole domain",
+            gap,
+            what
         ),
     };
     let sign_words = sign_words(s);

@@ -236,7 +236,9 @@ fn example(
 
 fn hint(body: &Body) -> String {
     let outline = match body.shape {
-        Shape::Rod { .. } => "reaches half its `length` from its `center` to either side, along its `angle` (0 is level, \"pi/2\" upright)",
+        Shape::Rod { .. } => {
+            "reaches half its `length` from its `center` to either side, along its `angle` (0 is level, \"pi/2\" upright)"
+        }
         Shape::Rectangle { .. } => {
             "reaches half its `width` from its `center` along `angle`, and half its `height` across"
         }
