@@ -15,7 +15,7 @@ use outcome::{
 };
 
 use super::{Case, Kept, Refused, StageTold, State};
-use crate::answer::calc::{Seen, is_zero, sign};
+use crate::answer::calc::{Seen, is_zero, sign, tidy};
 use crate::derive;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, sentence};
@@ -208,7 +208,17 @@ fn kept(scene: &Scene, one_sided: &[OneSided], cases: &[Case]) -> Vec<Kept> {
         });
         let is_none = |e: &Expr| is_zero(e, &scene.domains) == Some(true);
         let spared = elastic.filter(|e| is_none(&closed.put(e, &Expr::one())));
-        let seen = sign(closed, &scene.domains);
+        // What is handed on is real, and so is not negative under its root.
+        let domains =
+            case.handed
+                .values()
+                .fold(scene.domains.clone(), |domains, value| {
+                    match tidy(&value.powi(2), &domains) {
+                        Ok(square) => domains.given(&square, true),
+                        Err(_) => domains,
+                    }
+                });
+        let seen = sign(closed, &domains);
         out.push(Kept {
             what: "kinetic energy".into(),
             conserved: closed.is_zero(),
