@@ -292,6 +292,28 @@ fn a_cosine_lies_between_minus_one_and_one_whatever_the_angle() {
 }
 
 #[test]
+fn what_only_adds_to_a_root_is_left_out_of_its_sign() {
+    let (a, b, c) = (s("a"), s("b"), s("c"));
+    let diagonal = (a.powi(2) + b.powi(2)).sqrt();
+    let root = (n(1) + s("phi").cos().powi(2)).sqrt();
+    for (e, sign) in [
+        (
+            n(4) * &diagonal + n(3) * &c - n(4) * &b,
+            Some(Sign::Positive),
+        ),
+        (&b - n(2) * &c - &diagonal, Some(Sign::Negative)),
+        (&diagonal + &c - n(2) * &b, None),
+        // Where c is huge the sum is positive, at no point that is tried.
+        (&root + &c - n(10).powi(30), None),
+    ] {
+        let mut field = Field::new(&angle_domain("phi", (0, 1), (4, 1)));
+        field.prepare([&e]);
+        let x = field.element(&e).expect("within limits");
+        assert_eq!(field.sign(&x), sign, "{e:?}");
+    }
+}
+
+#[test]
 fn the_domain_fixes_the_sign_of_a_root() {
     let phi = s("phi");
     let half = &phi * &Expr::ratio(1, 2);
