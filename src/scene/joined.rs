@@ -98,7 +98,7 @@ pub(super) fn keep(scene: &mut Scene) {
                 },
             }
             let [a, b] = bodies.map(|b| &scene.bodies[b].name);
-            let reading = format!("once {b} has stuck to {a}, it stays stuck");
+            let reading = format!("once `{b}` has stuck to `{a}`, it stays stuck");
             if !scene.readings.contains(&reading) {
                 scene.readings.push(reading);
             }

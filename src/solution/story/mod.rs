@@ -145,7 +145,8 @@ impl Page<'_> {
     fn readings(&self) -> Vec<Vec<Inline>> {
         let each = self.told.readings.iter();
         let items = each.map(|r| {
-            let mut item = words::with_symbols(self.scene, &words::capital(r));
+            let reading = sentence::called(self.scene, r);
+            let mut item = words::with_symbols(self.scene, &words::capital(&reading));
             item.push(say("."));
             item
         });
