@@ -6,6 +6,7 @@
 //! also tried in the motion that line would imply.
 
 mod cause;
+mod desk;
 mod link;
 mod names;
 mod rounded;
@@ -15,18 +16,13 @@ mod tending;
 mod text;
 mod why;
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use super::sheet::{Sheet, judge};
 use super::{Diagnosis, Options, Verdict};
-use crate::answer::Form;
-use crate::equality::{self, Equality};
-use crate::expr::{Expr, Function, Node, Symbol};
-use crate::formula::{self, Content, Fault, Reading, Symbols};
-use crate::laws;
-use crate::scene::{Ask, ContactLaw, Question, Scene};
+use crate::expr::{Expr, Node, Symbol};
+use crate::formula::{self, Fault, Reading};
+use crate::scene::Question;
+use desk::Desk;
 use link::{Link, Weighed};
-use sought::Sought;
 
 /// What is found of one line.
 #[derive(Clone, PartialEq, Debug)]
@@ -169,123 +165,7 @@ fn check_with(
     Worked { lines, finals }
 }
 
-struct Desk<'a> {
-    sheet: &'a Sheet,
-    /// True values by name.
-    closed: BTreeMap<Symbol, Expr>,
-    /// What wrong lines imply: for each the value of one name, under all that came before.
-    believed: Vec<(usize, BTreeMap<Symbol, Expr>)>,
-    /// The wrong lines themselves, left minus right, with the student's own names put in.
-    wrong: Vec<(usize, Expr)>,
-    /// Every equation so far that was decided, as left minus right with the student's own names put in, and the wrong line
-    /// it hangs on; `None` for what holds.
-    stated: Vec<(Option<usize>, Expr)>,
-    /// Names of velocities and spins that all follow from any one of them; empty unless the motion has one freedom.
-    moving: BTreeSet<Symbol>,
-    /// Names the student introduced.
-    own: BTreeMap<Symbol, Expr>,
-    /// Names that were defined with a slip, or may have been: the line that shows it, the name, and its value without the slip.
-    slipped: Vec<(usize, Symbol, Expr)>,
-    /// All definitions in the solution, as text.
-    ahead: Vec<(Symbol, String)>,
-    /// Names that some line solves for.
-    solved_for: BTreeSet<Symbol>,
-    /// Names that stand for something else with a prime.
-    later: BTreeSet<Symbol>,
-    /// Own names that were used before the line that says what they are.
-    early: BTreeSet<Symbol>,
-    /// Spins as vectors: the name with an arrow, the spin, and whether it counts clockwise.
-    spins: BTreeMap<Symbol, (Symbol, bool)>,
-    /// Components of spins and places as vectors, `omega_vec_z` and `r_vec_B/C_x`.
-    parts: BTreeMap<Symbol, Expr>,
-    /// What names along the normal are in terms of components, as expressions that are zero.
-    linked: Vec<Expr>,
-    /// Parameters whose values the scene asks for.
-    sought: Vec<Sought>,
-    /// Those of them of which it was stated what is supposed.
-    supposed: Vec<usize>,
-    /// What is said last of each quantity.
-    finals: BTreeMap<String, Final>,
-    /// The wrong values that were given last, by what they are of.
-    said: BTreeMap<Symbol, Expr>,
-}
-
-impl<'a> Desk<'a> {
-    fn new(sheet: &'a Sheet) -> Desk<'a> {
-        let mut closed = BTreeMap::new();
-        let mut moving = BTreeSet::new();
-        let d = &sheet.derivation;
-        for unknown in laws::unknowns(&sheet.scene) {
-            if let Some(value) = d.motion.get(&unknown) {
-                let value = if d.names.is_reversed(unknown) {
-                    -value
-                } else {
-                    value.clone()
-                };
-                let name = Symbol::from(d.names.plain(unknown));
-                if !unknown.is_impulse() {
-                    moving.insert(name.clone());
-                }
-                closed.insert(name, value);
-            }
-        }
-        for answer in &d.answers {
-            if let Form::Value { closed: value, .. } = &answer.form {
-                let mut asked = sheet.scene.asked_of_impact();
-                let question = asked.find(|q| q.name == answer.question);
-                if question
-                    .is_some_and(|q| matches!(q.ask, Ask::Velocity { .. } | Ask::Spin { .. }))
-                {
-                    moving.insert(Symbol::from(answer.name.as_str()));
-                }
-                // What is asked of a parameter under a condition is not what the parameter is.
-                let mut parameters = sheet.scene.parameters.iter();
-                if parameters.any(|p| *p.name == *answer.name) {
-                    continue;
-                }
-                closed.insert(Symbol::from(answer.name.as_str()), value.clone());
-            }
-        }
-        // A vector along one axis may be written by its letter alone: `P = m (v_G + v)`.
-        let axes = ["x", "y"].map(|axis| move |name: &str| Symbol::from(format!("{name}_{axis}")));
-        for q in &sheet.scene.questions {
-            let [x, y] = axes.each_ref().map(|of| closed.get(&of(&q.name)));
-            let along = match (x, y) {
-                (Some(x), Some(y)) if x.is_zero() => Some(y),
-                (Some(x), Some(y)) if y.is_zero() => Some(x),
-                _ => None,
-            };
-            if let Some(along) = along.cloned() {
-                closed.entry(Symbol::from(q.name.as_str())).or_insert(along);
-            }
-        }
-        Desk {
-            sheet,
-            closed,
-            believed: Vec::new(),
-            wrong: Vec::new(),
-            stated: Vec::new(),
-            moving: if one_freedom(&sheet.scene) {
-                moving
-            } else {
-                BTreeSet::new()
-            },
-            own: BTreeMap::new(),
-            slipped: Vec::new(),
-            ahead: Vec::new(),
-            solved_for: BTreeSet::new(),
-            later: BTreeSet::new(),
-            early: BTreeSet::new(),
-            spins: spins(&sheet.scene),
-            parts: parts(&sheet.scene),
-            linked: Vec::new(),
-            sought: sought::sought(sheet),
-            supposed: Vec::new(),
-            finals: BTreeMap::new(),
-            said: BTreeMap::new(),
-        }
-    }
-
+impl Desk<'_> {
     /// The final answers in the order of the questions; of a vector its components, where these stand alone.
     fn finals(&self) -> Vec<(String, Option<Final>)> {
         let mut out = Vec::new();
@@ -305,77 +185,6 @@ impl<'a> Desk<'a> {
             }
         }
         out
-    }
-
-    /// The names a line may use; around the cross of `ω × r_{B/C}` letters are vectors without their arrows.
-    fn symbols(&self, text: &str) -> Symbols {
-        let mut symbols = Symbols::strict();
-        let crossed =
-            ["×", "\\times"].iter().any(|sign| text.contains(sign)) && text.contains("r_");
-        let is_vector =
-            |name: &Symbol| crossed && self.spins.values().any(|(spin, _)| spin == name);
-        self.sheet.scene.declare_parameters(&mut symbols);
-        for q in &self.sheet.scene.questions {
-            let known = self.closed.contains_key(q.name.as_str());
-            let spin = is_vector(&Symbol::from(q.name.as_str()));
-            if !spin && (known || self.components(&q.name).is_some()) {
-                symbols.declare_as(q.name.as_str(), q.latex.as_deref(), None);
-            }
-        }
-        self.closed
-            .keys()
-            .chain(self.own.keys())
-            .filter(|name| !is_vector(name))
-            .for_each(|name| symbols.declare(name));
-        for (name, _) in self.sheet.scene.arms() {
-            if let Some(arrow) = formula::with_arrow(&name) {
-                let [plain, arrowed] = [&name, &arrow].map(|name| formula::latex_name(name));
-                symbols.declare_as(&*arrow, Some(&plain), None);
-                symbols.declare_as(&*arrow, Some(&arrowed), None);
-            }
-        }
-        // `ω⁺` and `ω'` are what is asked of the moment just after, and a vector may wear its arrow.
-        let now = |name: &&Symbol| !name.contains('^') && !is_vector(name);
-        for name in self.closed.keys().filter(now) {
-            let marks = ["^{+}", "'"];
-            for mark in &marks[..marks.len() - usize::from(self.later.contains(name))] {
-                let after = format!("{}{mark}", formula::latex_name(name));
-                symbols.declare_as(name.clone(), Some(&after), None);
-            }
-        }
-        let vectors = self.sheet.scene.questions.iter().map(|q| q.name.as_str());
-        let vectors = vectors.filter(|name| self.components(name).is_some());
-        let spins = self
-            .spins
-            .iter()
-            .map(|(arrow, (spin, _))| (&**arrow, &**spin));
-        for (arrow, (spin, _)) in self.spins.iter().filter(|(_, (spin, _))| is_vector(spin)) {
-            let latex = formula::latex_name(spin);
-            for moment in ["", "^{+}"] {
-                symbols.declare_as(arrow.clone(), Some(&format!("{latex}{moment}")), None);
-            }
-        }
-        for (name, plain) in vectors.map(|name| (name, name)).chain(spins) {
-            let latex = formula::latex_name(plain);
-            let (base, index) = latex.split_at(latex.find(['_', '^']).unwrap_or(latex.len()));
-            for moment in ["", "^{+}"] {
-                let arrow = format!("\\vec{{{base}}}{index}{moment}");
-                symbols.declare_as(name, Some(&arrow), None);
-            }
-        }
-        symbols
-    }
-
-    /// A solution with signs and names for words, line by line.
-    fn in_names(&self, text: &str) -> String {
-        let symbols = self.symbols(text);
-        let asked = |word: &str| {
-            let reading = formula::read(word, &symbols).ok();
-            let name = reading.as_ref().and_then(|r| r.expr()?.as_symbol());
-            name.is_some_and(|name| self.closed.contains_key(name))
-        };
-        let lines = text.lines().map(|line| text::in_names(line, &asked));
-        self.with_said(lines.collect()).join("\n")
     }
 
     /// A line is as good as its worst equation.
@@ -489,33 +298,6 @@ impl<'a> Desk<'a> {
         Some(format!("{name} = {}", sides?.join(" = ")))
     }
 
-    /// Whether texts are read as they stand.
-    fn are_read(&self, parts: &[String]) -> bool {
-        let symbols = self.symbols("");
-        parts
-            .iter()
-            .all(|part| formula::read(part, &symbols).is_ok())
-    }
-
-    /// The line with `0.2 m` as a number of meters, where m is also a mass of the scene.
-    fn measured(&self, text: &str, reading: &Reading) -> Option<Reading> {
-        let mut other = reading.clone();
-        let Content::Relations(sides, _) = &mut other.content else {
-            return None;
-        };
-        let texts: Vec<&str> = text.split(['=', '≈']).collect();
-        let mut found = false;
-        for (side, text) in sides.iter_mut().zip(&texts).skip(1) {
-            let read = formula::read(text, &Symbols::strict()).ok();
-            let read =
-                read.filter(|read| read.literal.is_some() && matches!(side, Content::Scalar(_)));
-            if let Some(content @ Content::Quantity(_)) = read.map(|read| read.content) {
-                (*side, found) = (content, true);
-            }
-        }
-        (found && texts.len() == sides.len()).then_some(other)
-    }
-
     fn judged(
         &mut self,
         number: usize,
@@ -618,89 +400,4 @@ impl<'a> Desk<'a> {
             }
         }
     }
-
-    /// |v| of a vector that is asked for, as the root of the squares of its components.
-    fn magnitudes(&self, e: &Expr) -> Expr {
-        if let Node::Call(Function::Abs, inner) = e.node()
-            && let Some([x, y, _]) = inner.as_symbol().and_then(|name| self.components(name))
-        {
-            return (x.powi(2) + y.powi(2)).sqrt();
-        }
-        e.map_parts(|part| self.magnitudes(part))
-    }
-
-    /// An expression with the student's own names put in.
-    fn with_own(&self, e: &Expr) -> Expr {
-        // Own names may use one another.
-        let rounds = 0..self.own.len().min(8);
-        rounds.fold(e.substitute(&self.parts), |e, _| e.substitute(&self.own))
-    }
-
-    /// Whether all differences vanish with the names' values put in; those of `instead` go first.
-    fn all_zero(&self, differences: &[Expr], instead: &BTreeMap<Symbol, Expr>) -> Option<bool> {
-        let mut sure = Some(true);
-        for d in differences {
-            let value = self.put_in(d, instead);
-            match equality::decide(&value, &Expr::zero(), &self.sheet.scene.domains).equality {
-                Equality::Same { .. } => {}
-                Equality::Different(_) | Equality::Invalid { .. } => return Some(false),
-                Equality::Undecided { .. } => sure = None,
-            }
-        }
-        sure
-    }
-
-    fn put_in(&self, e: &Expr, instead: &BTreeMap<Symbol, Expr>) -> Expr {
-        self.magnitudes(&self.with_own(e))
-            .substitute(instead)
-            .substitute(&self.closed)
-    }
-}
-
-/// Spins that are asked for, as vectors out of the page.
-fn spins(scene: &Scene) -> BTreeMap<Symbol, (Symbol, bool)> {
-    let spin = |q: &Question| match q.ask {
-        Ask::Spin { clockwise, .. } => {
-            let arrow = Symbol::from(format!("{}_vec", q.name).as_str());
-            Some((arrow, (Symbol::from(q.name.as_str()), clockwise)))
-        }
-        _ => None,
-    };
-    scene.questions.iter().filter_map(spin).collect()
-}
-
-/// Components of spins that are asked for, out of the page, and of places relative to one another.
-fn parts(scene: &Scene) -> BTreeMap<Symbol, Expr> {
-    let out_of_page = |(spin, clockwise): (Symbol, bool)| {
-        let along = Expr::symbol(&spin);
-        [
-            Expr::zero(),
-            Expr::zero(),
-            if clockwise { -along } else { along },
-        ]
-    };
-    let spins = spins(scene).into_iter();
-    let spins = spins.map(|(arrow, spin)| (arrow.to_string(), out_of_page(spin)));
-    let arms = scene.arms().into_iter();
-    let arms =
-        arms.filter_map(|(name, [x, y])| Some((formula::with_arrow(&name)?, [x, y, Expr::zero()])));
-    let all = spins.chain(arms).flat_map(|(arrow, value)| {
-        let axes = ["x", "y", "z"].into_iter().zip(value);
-        axes.map(move |(axis, value)| (format!("{arrow}_{axis}").into(), value))
-            .collect::<Vec<_>>()
-    });
-    all.collect()
-}
-
-/// Whether hinges and sticking contacts leave the bodies one freedom, so that all velocities go in step.
-fn one_freedom(scene: &Scene) -> bool {
-    let free: usize = scene
-        .bodies
-        .iter()
-        .filter(|b| !b.is_fixed())
-        .map(|b| if b.is_particle() { 2 } else { 3 })
-        .sum();
-    let sticking = scene.contacts.iter().all(|c| c.law == ContactLaw::Sticking);
-    let held = 2 * (scene.hinges.len() + scene.contacts.len());
-    sticking && free == held + 1
 }
