@@ -171,11 +171,3 @@ pub fn cross<T: Number>(a: &[T; 2], b: &[T; 2]) -> T {
 pub fn stretched<T: Number>(a: &[T; 2], k: &T) -> [T; 2] {
     [a[0].times(k), a[1].times(k)]
 }
-
-/// Velocity at a point whose position relative to the reference point is `arm`: v + ω × r.
-pub fn velocity_at<T: Number>(velocity: &[T; 2], spin: &T, arm: &[T; 2]) -> [T; 2] {
-    [
-        velocity[0].minus(&spin.times(&arm[1])),
-        velocity[1].plus(&spin.times(&arm[0])),
-    ]
-}

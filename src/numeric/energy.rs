@@ -2,7 +2,8 @@
 
 use super::given::{Freedom, Given, GivenLaw, Joint};
 use super::solution::Motion;
-use crate::expr::arithmetic::{Number, difference, dot, total, velocity_at};
+use crate::expr::arithmetic::{Number, difference, dot, total};
+use crate::numeric::number::velocity_at;
 
 /// Velocity just after of a body's material point at `point` [m/s].
 pub fn velocity_after<T: Number>(

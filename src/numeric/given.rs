@@ -4,8 +4,9 @@
 
 use std::fmt;
 
-use crate::expr::arithmetic::{Number, difference, velocity_at};
+use crate::expr::arithmetic::{Number, difference};
 use crate::expr::{Expr, Point, Symbol, Vector};
+use crate::numeric::number::velocity_at;
 use crate::scene::{BlowImpulse, Condition, Contact, ContactLaw, Friction, KnownQuantity, Scene};
 
 /// A scene in numbers.

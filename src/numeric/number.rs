@@ -1,4 +1,4 @@
-//! Enclosures of any precision as numbers of equations, for values that are no fractions.
+//! The law of rigid motion over any number, and enclosures of any precision as numbers, for values that are no fractions.
 
 use num_traits::{One, Zero};
 
@@ -6,6 +6,14 @@ use crate::expr::Scalar;
 use crate::expr::arithmetic::Number;
 use crate::interval::dyadic::Round;
 use crate::interval::{Big, Enclosure, Outcome};
+
+/// Velocity at a point whose position relative to the reference point is `arm`: v + ω × r.
+pub fn velocity_at<T: Number>(velocity: &[T; 2], spin: &T, arm: &[T; 2]) -> [T; 2] {
+    [
+        velocity[0].minus(&spin.times(&arm[1])),
+        velocity[1].plus(&spin.times(&arm[0])),
+    ]
+}
 
 /// An enclosure of `BITS` bits; what it cannot decide, a reciprocal around zero say, stays unknown to the end.
 impl<const BITS: u32> Number for Outcome<Big<BITS>> {

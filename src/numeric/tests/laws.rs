@@ -5,10 +5,11 @@ use proptest::prelude::*;
 
 use super::random::{Dice, random_scene};
 use super::*;
-use crate::expr::arithmetic::{difference, velocity_at};
+use crate::expr::arithmetic::difference;
 use crate::expr::number::to_f64;
 use crate::expr::ratio;
 use crate::numeric::given::{Freedom, GivenImpulse, GivenLaw};
+use crate::numeric::number::velocity_at;
 
 type Exact = (Given<Rational>, Motion<Rational>);
 
