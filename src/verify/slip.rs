@@ -2,7 +2,7 @@
 //!
 //! Knows no formula of its own; it changes the one it is given, a place at a time, and asks its caller whether the result fits.
 
-use num_traits::Zero;
+use num_traits::{Signed, Zero};
 
 use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
 
@@ -78,7 +78,7 @@ fn changes(
 
 fn of_number(value: &Rational) -> Vec<(Expr, String)> {
     let times = |k: Rational, words: &str| {
-        let words = format!("{value} stands {words}");
+        let words = format!("{} stands {words}", value.abs());
         (Expr::from(value * &k), words)
     };
     let upside_down = || {
@@ -177,9 +177,9 @@ fn of_power(e: &Expr, base: &Expr, k: &Expr, say: &dyn Fn(&Expr) -> String) -> V
 fn square_of(e: &Expr) -> Option<(Expr, bool)> {
     match e.node() {
         Node::Number(value) => {
-            let size = num_traits::Signed::abs(value);
+            let size = value.abs();
             let root = crate::expr::number::sqrt_exact(&size)?;
-            Some((Expr::from(root), !num_traits::Signed::is_negative(value)))
+            Some((Expr::from(root), !value.is_negative()))
         }
         Node::Power(base, k) => {
             let half = k.as_number()? * ratio(1, 2);

@@ -20,6 +20,9 @@ use crate::verify::slip;
 /// Explanations of a number told at most; when there are more, none is worth much.
 const TOLD: usize = 3;
 
+/// Most points tried for such as have values.
+const TRIED: u64 = 40;
+
 impl Desk<'_> {
     /// A velocity or spin before the collision, printed as the one after.
     pub(super) fn before(&self, item: &str, pairs: &[(Expr, Expr)]) -> Option<String> {
@@ -105,10 +108,11 @@ impl Desk<'_> {
         self.dimensions.get(a) == self.dimensions.get(b) && found(a) == found(b)
     }
 
-    /// Exact points of the domain in doubles, with the values of everything that has a closed form.
-    fn points(&self, e: &[&Expr]) -> Vec<Point<f64>> {
+    /// Exact points of the domain in doubles, with the values of everything that has a closed form, at which a formula has
+    /// a value: a root has none where a motion does not get to its end.
+    fn points(&self, formula: &Expr, wanted: &Expr) -> (Vec<Point<f64>>, Vec<f64>) {
         let mut needed = numeric::needed(self.scene);
-        e.iter().for_each(|e| needed.add(e));
+        [formula, wanted].into_iter().for_each(|e| needed.add(e));
         self.closed.values().for_each(|e| needed.add(e));
         let point = |seed| {
             let random = numeric::random_point(&needed, &self.scene.domains, seed);
@@ -116,17 +120,16 @@ impl Desk<'_> {
             let value = |(name, e): (&Symbol, &Expr)| Some((name.clone(), e.evaluate(&point)?));
             let known: Vec<(Symbol, f64)> = self.closed.iter().filter_map(value).collect();
             point.values.extend(known);
-            point
+            let value = wanted.evaluate(&point).filter(|v| v.is_finite())?;
+            Some((point, value))
         };
-        (31..34).map(point).collect()
+        (31..31 + TRIED).filter_map(point).take(3).unzip()
     }
 
     /// The slip of the pen that turns a formula into the wanted one: seen at points in doubles, then proved.
     fn slip_of(&self, formula: &Expr, wanted: &Expr) -> Option<String> {
-        let points = self.points(&[formula, wanted]);
+        let (points, values) = self.points(formula, wanted);
         let names: Vec<Symbol> = points.first()?.values.keys().cloned().collect();
-        let values: Option<Vec<f64>> = points.iter().map(|at| wanted.evaluate(at)).collect();
-        let values = values.filter(|all| all.iter().all(|v| v.is_finite()))?;
         let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.abs().max(1e-12);
         let whole = wanted.substitute(&self.closed);
         let fits = |changed: &Expr| {
