@@ -11,10 +11,10 @@ use crate::formula::write_plain;
 use crate::scene::{Body, OneSided, Scene, Stage, touch};
 use crate::story::{Part, Refused, State};
 
-/// A motion of more nodes than this goes by the name that a question gives it,
+/// Most nodes of a motion that is put in as it stands; a longer one goes by the name that a question gives it.
 const LONG: usize = 16;
 
-/// where the factors beside that name have no more than so many.
+/// Most nodes of the factors beside such a name.
 const SHORT: usize = 8;
 
 /// A particle is touched where it is, but by what slides on it in some stage: a plank of no given size is below that wherever it is.
