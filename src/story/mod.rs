@@ -440,7 +440,10 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
     let mut ended = Vec::new();
     for stage in &scene.stages {
         let mut mine = Vec::new();
-        for (branch, mut before, given) in beginnings(stage, &stages, &told_as, from) {
+        let mut refused = Vec::new();
+        let ways = beginnings(stage, &stages, &told_as, from);
+        let several = ways.len() > 1;
+        for (branch, mut before, given) in ways {
             let mut earlier = BTreeMap::new();
             for name in &stage.earlier {
                 match answer::earlier(scene, &stages, branch, name)? {
@@ -473,13 +476,20 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
                     placed.scene.domains = placed.scene.domains.given(need, false);
                 }
             }
-            let mut told = match one(scene, &stages, &placed, (before, &given)) {
-                Ok(told) => told,
-                Err(why) if why.contradicts => {
+            let begins = several.then(|| before.clone());
+            let mut told = match (one(scene, &stages, &placed, (before, &given)), begins) {
+                (Ok(told), _) => told,
+                (Err(why), _) if why.contradicts => {
                     ended.push(why);
                     continue;
                 }
-                Err(why) => return Err(why),
+                // Of several ways one may lead nowhere, and the others on.
+                (Err(why), Some(before)) if !placed.kind.moved().is_empty() => {
+                    let told = motion::leads_nowhere(&placed, before, &why.reason);
+                    refused.push(why);
+                    told
+                }
+                (Err(why), _) => return Err(why),
             };
             told.checks.extend(at_values(scene, &told));
             told.earlier = earlier;
@@ -497,6 +507,11 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
                 let hint = "give values, or say with `supposing` which supports act";
                 return Err(Refused::new(&stage.name, why, hint));
             }
+        }
+        if refused.len() == mine.len()
+            && let Some(why) = refused.into_iter().next()
+        {
+            return Err(why);
         }
         told_as.push(mine);
     }

@@ -313,6 +313,9 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
             (_, None) => "moves on a smooth floor",
         };
         let below = listed(&below);
+        if told.time.as_ref().is_some_and(Expr::is_zero) {
+            return sentence!("{} and {} move together already", lead, below);
+        }
         let lead = format!("{lead} {verb} on {below}, which {goes},");
         return match &slide.until {
             SlideEnd::Distance(s) => {
@@ -346,12 +349,17 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
         format!(", and the string over {over}{under} takes {to} along{rough}{half}")
     });
     let strings = strings.collect::<String>();
-    let spring = match &slide.spring {
-        None => "",
-        Some(spring) if spring.relaxed.is_zero() => ", pressing a spring,",
-        Some(_) => ", on a spring,",
+    let lead = match slide.spring.as_ref().map(|spring| &spring.relaxed) {
+        None => lead.into(),
+        Some(relaxed) if relaxed.is_zero() => sentence!("{}, pressing a spring,", lead),
+        Some(relaxed) => match sign(relaxed, &stage.scene.domains) {
+            Seen::Proved(Sign::Positive) => {
+                let pressed = measured(relaxed, "m");
+                sentence!("{}, on a spring pressed by {} at first,", lead, pressed)
+            }
+            _ => sentence!("{}, on a spring,", lead),
+        },
     };
-    let lead = lead + spring;
     match &slide.until {
         SlideEnd::Distance(s) if way.is_some() => {
             sentence!("{} by {}{}", lead, measured(s, "m"), strings)

@@ -384,16 +384,21 @@ impl Page<'_> {
                 "The acceleration is constant, so the time is the change of velocity divided by it.",
             )],
             (StageKind::Slide(slide), Some(time)) if slide.spring.is_some() => {
-                let relaxed = slide.spring.iter().any(|s| s.relaxed.is_zero());
+                let v = &told.before.velocity[slide.body];
+                let relaxed = slide.spring.iter().any(|spring| match &slide.until {
+                    SlideEnd::Stops => spring.relaxed.is_zero(),
+                    SlideEnd::Distance(s) => *s == spring.relaxed && v.iter().all(Expr::is_zero),
+                    _ => false,
+                });
                 let alone = told.work.iter().all(|(what, _)| *what == "spring");
                 let period = tidied(self.scene, &(Expr::from(4) * time));
-                match relaxed && alone && matches!(slide.until, SlideEnd::Stops) {
+                match relaxed && alone {
                     true => fill(
                         "The motion is a quarter of a harmonic oscillation of period {}.",
                         [words::formula(&period)],
                     ),
                     false => vec![say(
-                        "The motion is a part of a harmonic oscillation about the place where the forces balance; the time to its turning point follows from the place and the velocity at the beginning.",
+                        "The motion is a part of a harmonic oscillation about the place where the forces balance; the time follows from the places and the velocities at its ends.",
                     )],
                 }
             }

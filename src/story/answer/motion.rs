@@ -46,7 +46,10 @@ pub(super) fn reaction(
     at_end: bool,
 ) -> Result<Answer, Refused> {
     let (state, when, granted) = end(told, at_end);
-    let words = format!("force of the fixed point at the {when} of `{}`", told.name);
+    let words = format!(
+        "force of the fixed point at the {when} of `{}`",
+        told.placed.name
+    );
     let out = blank(question, words);
     let StageKind::Turn(turn) = &told.placed.kind else {
         return Ok(out);
@@ -66,7 +69,10 @@ pub(super) fn angular_acceleration(
     at_end: bool,
 ) -> Result<Answer, Refused> {
     let (state, when, granted) = end(told, at_end);
-    let words = format!("angular acceleration at the {when} of `{}`", told.name);
+    let words = format!(
+        "angular acceleration at the {when} of `{}`",
+        told.placed.name
+    );
     let out = blank(question, words);
     let Ask::AngularAcceleration {
         body, clockwise, ..
@@ -113,7 +119,10 @@ pub(super) fn point_acceleration(
         Some(point) => format!("the point {point} of `{name}`"),
         None => format!("the center of mass of `{name}`"),
     };
-    let words = format!("acceleration of {what} at the {when} of `{}`", told.name);
+    let words = format!(
+        "acceleration of {what} at the {when} of `{}`",
+        told.placed.name
+    );
     let out = blank(question, words);
     let parts = state.center[*body].iter().chain(&state.velocity[*body]);
     if let Some(why) = state.why_open(parts.chain([&state.spin[*body]])) {
@@ -174,15 +183,20 @@ fn measured(
     if let Some(value) = value {
         return valued(out, value, &told.assumptions);
     }
-    let [places, motions] = [&told.before.center, &told.before.velocity];
-    let moved = told.placed.kind.moved().into_iter();
-    let parts = moved.flat_map(|b| places[b].iter().chain(&motions[b]));
-    out.leave_open(told.before.why_open(parts).unwrap_or_else(|| why.into()))
+    let moved = told.placed.kind.moved();
+    let why_open = |state: &State| {
+        let parts = moved
+            .iter()
+            .flat_map(|b| [&state.center[*b], &state.velocity[*b]]);
+        state.why_open(parts.flatten())
+    };
+    let why_open = why_open(&told.before).or_else(|| why_open(&told.after));
+    out.leave_open(why_open.unwrap_or_else(|| why.into()))
 }
 
 /// How long a motion lasts.
 pub(super) fn time(question: &Question, told: &StageTold) -> Answer {
-    let words = format!("time that `{}` takes", told.name);
+    let words = format!("time that `{}` takes", told.placed.name);
     let value = told.time.clone();
     measured(
         question,
@@ -195,7 +209,7 @@ pub(super) fn time(question: &Question, told: &StageTold) -> Answer {
 
 /// How a body on a line gets faster.
 pub(super) fn acceleration(question: &Question, told: &StageTold, body: usize) -> Answer {
-    let words = format!("acceleration along its way in `{}`", told.name);
+    let words = format!("acceleration along its way in `{}`", told.placed.name);
     let (strings, below) = match &told.placed.kind {
         StageKind::Slide(slide) => (slide.strings.as_slice(), slide.on.as_ref()),
         _ => (Default::default(), None),
@@ -215,7 +229,7 @@ pub(super) fn acceleration(question: &Question, told: &StageTold, body: usize) -
 /// How a string pulls a body.
 pub(super) fn tension(question: &Question, told: &StageTold, body: usize) -> Answer {
     let name = &told.placed.scene.bodies[body].name;
-    let words = format!("pull of the string at `{name}` in `{}`", told.name);
+    let words = format!("pull of the string at `{name}` in `{}`", told.placed.name);
     let pull = told.tensions.iter().find(|(b, _)| *b == body);
     let why = match told.tensions.is_empty() {
         true => "what comes before is open",
@@ -228,7 +242,7 @@ pub(super) fn tension(question: &Question, told: &StageTold, body: usize) -> Ans
 
 /// How far a motion along a line leads.
 pub(super) fn distance(question: &Question, told: &StageTold) -> Answer {
-    let stage = &told.name;
+    let stage = &told.placed.name;
     let words = match turns_back(told) {
         true => format!("displacement in `{stage}`, negative where it ends behind its beginning"),
         false if is_carried(told) => format!("distance along the body below in `{stage}`"),
@@ -273,7 +287,7 @@ pub(super) fn angle(
     let sense = if clockwise { "" } else { "counter" };
     let words = format!(
         "angle through which `{name}` turns in `{}`, {sense}clockwise positive",
-        told.name
+        told.placed.name
     );
     let out = blank(question, words);
     let ends = [&told.before.angle[body], &told.after.angle[body]];
@@ -304,7 +318,7 @@ pub(super) fn position(
 ) -> Result<Answer, Refused> {
     let (state, when, granted) = end(told, at_end);
     let name = &told.placed.scene.bodies[body].name;
-    let stage = &told.name;
+    let stage = &told.placed.name;
     let words = format!("position of the center of mass of `{name}` at the {when} of `{stage}`");
     let mut out = Answer::blank(question, &format!("{}{suffix}", question.name), words);
     out.dimension = question.ask.dimension();
@@ -325,7 +339,7 @@ pub(super) fn angular_momentum(
     at_end: bool,
 ) -> Result<Answer, Refused> {
     let (_, when, granted) = end(told, at_end);
-    let (b, stage) = (&told.placed.scene.bodies[body], &told.name);
+    let (b, stage) = (&told.placed.scene.bodies[body], &told.placed.name);
     let arm = minus(&state.center[body], about);
     let h = &(&b.mass * &cross(&arm, &state.velocity[body])) + &(&b.inertia * &state.spin[body]);
     let place = match told.placed.scene.named_at(about) {
@@ -383,7 +397,7 @@ pub(super) fn at_end(
         Ask::Energy { when, .. } if *when == EnergyWhen::Lost => "from the beginning to the end",
         _ => "at the end",
     };
-    let words = format!("{what}, {when} of `{}`", told.name);
+    let words = format!("{what}, {when} of `{}`", told.placed.name);
     let parts = match ask {
         Ask::Spin { body, clockwise } => {
             let w = &told.after.spin[*body];

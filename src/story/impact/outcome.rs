@@ -73,6 +73,16 @@ pub(super) fn case(
         _ => None,
     };
     let mut conditions = Vec::new();
+    // Where a support needs the same, what friction does says it.
+    for need in &outcome.when {
+        let need = need.substitute(handed);
+        match sign(&need, &scene.domains) {
+            Seen::Proved(s) if s.is_not_negative() => {}
+            // Where it only vanishes, such as at e = 0, the mode beside it says the same.
+            Seen::Proved(Sign::Negative | Sign::NotPositive) => return Ok(None),
+            _ => conditions.push((outcome.words.clone(), essential(&need, &scene.domains))),
+        }
+    }
     for (i, (_, words)) in wanted.iter().enumerate() {
         let Some(end) = amount(&closed, &scene, active, i)? else {
             continue;
@@ -97,15 +107,6 @@ pub(super) fn case(
                 Seen::Proved(Sign::Negative | Sign::NotPositive) => return Ok(None),
                 _ => conditions.push((words.clone(), essential(&amount, &scene.domains))),
             }
-        }
-    }
-    for need in &outcome.when {
-        let need = need.substitute(handed);
-        match sign(&need, &scene.domains) {
-            Seen::Proved(s) if s.is_not_negative() => {}
-            // Where it only vanishes, such as at e = 0, the mode beside it says the same.
-            Seen::Proved(Sign::Negative | Sign::NotPositive) => return Ok(None),
-            _ => conditions.push((outcome.words.clone(), essential(&need, &scene.domains))),
         }
     }
     conditions.sort_by(|a, b| a.1.cmp(&b.1));
@@ -253,6 +254,7 @@ fn has_point(conditions: &[(String, Expr)], domains: &Domains) -> bool {
 pub(super) fn add_possible(case: &mut Case, domains: &Domains) -> Vec<(String, Expr)> {
     let known = case.conditions.iter();
     let mut known = known.fold(domains.clone(), |given, (_, e)| given.given(e, true));
+    case.possible.given(&known);
     let mut places = Vec::new();
     for open in case.possible.open() {
         let Some(e) = open.essential.as_ref().filter(|_| open.divides(&known)) else {

@@ -118,13 +118,19 @@ pub(super) fn open(stage: &Stage, before: State) -> Option<StageTold> {
         let spin = Some(&before.spin[b]).filter(|_| !scene.bodies[b].is_light_pulley());
         reason = reason.or_else(|| before.why_open(parts.chain(spin)));
     }
-    let why = reason?;
+    Some(leads_nowhere(stage, before, &reason?))
+}
+
+/// A motion of which it is not determined where it leads, and why.
+pub(super) fn leads_nowhere(stage: &Stage, before: State, why: &str) -> StageTold {
+    // Of a fault of the body it says that it does this.
+    let why = why.replacen("`: it ", "` ", 1);
     let mut after = before.clone();
-    for b in moved {
-        after.lose(scene, b, &why, true);
+    for b in stage.kind.moved() {
+        after.lose(&stage.scene, b, &why, true);
     }
     meanwhile::others(stage, &before, &mut after, None);
     let mut out = StageTold::new(stage, before, after);
     out.words = vec![sentence!("where this leads is open: {}", &why)];
-    Some(out)
+    out
 }

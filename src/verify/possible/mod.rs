@@ -199,6 +199,18 @@ impl Possible {
         (self.verdict, self.at_values) = concluded(&self.conditions, &self.not_judged);
     }
 
+    /// Keeps what a part of the domain grants.
+    pub fn given(&mut self, part: &Domains) {
+        for condition in &mut self.conditions {
+            let essential = condition.essential.as_ref();
+            let mut essential = essential.filter(|_| !condition.is_equation).into_iter();
+            if essential.any(|e| decide(e, part).verdict == Verdict::Everywhere) {
+                (condition.verdict, condition.essential) = (Verdict::Everywhere, None);
+            }
+        }
+        (self.verdict, self.at_values) = concluded(&self.conditions, &self.not_judged);
+    }
+
     /// The conditions on parameters, each once.
     pub fn open(&self) -> Vec<&Condition> {
         let mut open: Vec<&Condition> = Vec::new();

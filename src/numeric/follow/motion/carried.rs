@@ -220,7 +220,10 @@ pub(super) fn carried(
     let grows = |i: usize| dot(&[rates[3 * i], rates[3 * i + 1]], &pair.along);
     let [x, y] = pair.arm(&PLAIN);
     let rate = pair.sense * (grows(0) - grows(pair.company) + dot(&[-y, x], &along) * rates[2]);
-    if slip <= ROUNDING * fastest && rate <= 0.0 {
+    let is_still = slip <= ROUNDING * fastest && rate <= 0.0;
+    let is_driven = pair.forces != [0.0; 2] || along[1] != 0.0;
+    let is_together = is_still && !is_driven && matches!(slide.until, SlideEnd::Together);
+    if is_still && !is_together {
         return Err(course.contradiction("it does not slide over the body below"));
     }
     let time = match &slide.until {
@@ -229,21 +232,28 @@ pub(super) fn carried(
             s / (slip + (rate.abs() * s).sqrt())
         }
         SlideEnd::Time(t) => course.number(t, "time")?,
+        _ if is_together => 0.0,
         _ if rate >= 0.0 => return Err(course.never("it never comes to move with it")),
         _ => slip / -rate,
     };
-    if !(time > 0.0 && time.is_finite()) {
+    if !(time > 0.0 && time.is_finite() || is_together) {
         return Err(course.contradiction("the motion takes no time"));
     }
     let largest = grows(0).abs().max(grows(pair.company).abs());
-    let units = Units {
-        length: (fastest + largest * time) * time,
-        time: time / 4.0,
-        mass: movers.inertias.iter().map(|i| i[0]).sum(),
+    let units = match is_together {
+        true => PLAIN,
+        false => Units {
+            length: (fastest + largest * time) * time,
+            time: time / 4.0,
+            mass: movers.inertias.iter().map(|i| i[0]).sum(),
+        },
     };
     let (mechanism, _) = pair.rough(course, &units)?;
     let never = "it comes to move with the body below before";
-    let run = pair.to_the_end(course, slide, &mechanism, &units, time)?;
+    let run = match is_together {
+        true => mechanism.lasting(&start, 0.0),
+        false => pair.to_the_end(course, slide, &mechanism, &units, time)?,
+    };
     let run = run.map_err(|stop| stopped(course, stop, never))?;
     let tiny = ROUNDING * (fastest + largest * time) / units.speed();
     if pair.sense * pair.slip(&units, &run.end) < -tiny {

@@ -53,9 +53,14 @@ pub(super) fn carried(
 ) -> Result<StageTold, Refused> {
     let mut pair = Pair::of(stage, &before, slide, below)?;
     let [slip, rate] = pair.slip()?;
-    pair.slips(&slip, &rate)?;
     let mut steps = pair.steps();
-    let (time, way) = pair.course(&slip, &rate, &mut steps)?;
+    let (time, way) = match pair.is_together(&slip) {
+        true => (Expr::zero(), Expr::zero()),
+        false => {
+            pair.slips(&slip, &rate)?;
+            pair.course(&slip, &rate, &mut steps)?
+        }
+    };
     let speeds_after = [0, 1].map(|i| &pair.speeds[i] + &(&pair.accelerations[i] * &time));
     let mut after = before.clone();
     let mut works = Vec::new();
@@ -82,6 +87,12 @@ pub(super) fn carried(
         spins = [round.spin.clone(), spin];
     }
     pair.told(&ends, &spins[1], &mut steps);
+    let slid = !time.is_zero();
+    if !slid {
+        // No force has changed anything.
+        steps.retain(|step| step.letter == "v");
+        steps.iter_mut().for_each(|step| step.by_time.clear());
+    }
     let energy = |speeds: &[Expr], spin: &Expr| {
         let all = pair.masses.iter().zip(speeds);
         let turns = pair.round.iter().map(|r| &r.body.inertia * &spin.powi(2));
@@ -101,8 +112,11 @@ pub(super) fn carried(
         .words
         .extend(meanwhile::others(stage, &before, &mut after, Some(&time)));
     let mut out = StageTold::new(stage, before, after);
-    out.kept = vec![energy_kept];
-    if momentum && rubs {
+    out.kept = match slid {
+        true => vec![energy_kept],
+        false => vec![kept("energy", true, "nothing slips")],
+    };
+    if slid && momentum && rubs {
         let why = "friction between the two is the only force along the line";
         out.kept.push(kept("momentum", true, why));
     }
@@ -259,6 +273,14 @@ impl<'a> Pair<'a> {
         }
         let [slip, rate] = out;
         Ok([self.tidied(&slip)?, self.tidied(&rate)?])
+    }
+
+    /// Whether what came before has left them together already, and nothing makes one slide.
+    fn is_together(&self, slip: &Expr) -> bool {
+        self.stage.from.is_some()
+            && matches!(self.slide.until, SlideEnd::Together)
+            && self.is_undriven()
+            && is_zero(slip, &self.stage.scene.domains) == Some(true)
     }
 
     /// The slip has the direction of the line, or begins to have it.

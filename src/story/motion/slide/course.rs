@@ -109,8 +109,9 @@ impl Line<'_> {
     /// Time and velocity at the end of a distance; no time where it rests all along.
     fn over(&self, s: &Expr, supposed: &mut Supposed<'_>) -> Result<(Option<Expr>, Expr), Refused> {
         let a = &self.acceleration;
-        if self.slide.spring.is_some() {
-            return Ok((None, self.arrival(s, supposed)?));
+        if let Some(spring) = &self.slide.spring {
+            let speed = self.arrival(s, supposed)?;
+            return Ok((Some(self.swinging(spring, s)?), speed));
         }
         let still = is_zero(a, self.domains()) == Some(true);
         let speed = match still {
@@ -204,6 +205,22 @@ impl Line<'_> {
         Ok([force, mass])
     }
 
+    /// The time on a spring over a way: m v² + k x² stays, with x from the place where the forces balance, so that x goes as
+    /// the cosine of a phase that begins at acos(f/R), R² = f² + k m v₀².
+    fn swinging(&self, spring: &Spring, s: &Expr) -> Result<Expr, Refused> {
+        let k = &spring.stiffness;
+        let [force, mass] = self.sprung(spring)?;
+        let left = &force - &(k * s);
+        let root = &force.powi(2) + &(&(k * &mass) * &self.speed.powi(2));
+        let root = self.tidied(&root.sqrt())?;
+        let phase = |e: &Expr| Ok(Expr::call(Function::Acos, self.tidied(&(e / &root))?));
+        let phase = match is_zero(&self.speed, self.domains()) == Some(true) {
+            true => Expr::call(Function::Acos, self.tidied(&(&left / &force))?),
+            false => &phase(&left)? - &phase(&force)?,
+        };
+        self.tidied(&(&phase * &(&mass / k).sqrt()))
+    }
+
     /// Distance and velocity after a time on a spring that has not stopped it yet.
     fn swung(
         &self,
@@ -276,6 +293,10 @@ impl Line<'_> {
         if let Seen::Proved(Sign::Negative | Sign::NotPositive) = seen {
             let end = self.tidied(&half(&(&self.mass * &square)))?;
             return Err(never_arrives(self.stage, self.slide.body, &end));
+        }
+        if self.slide.spring.is_some() && seen == Seen::Proved(Sign::Zero) {
+            let hint = "end the stage with \"until\": \"stops\"";
+            return Err(self.refused("it comes to rest just there", hint));
         }
         let body = self.slide.body;
         // At rest a constant force of zero moves nothing.

@@ -13,7 +13,10 @@ mod line;
 
 use super::supposed::Supposed;
 use super::{half, meanwhile};
+use crate::algebra::Sign;
+use crate::answer::calc::{Seen, sign};
 use crate::expr::{Expr, Vector};
+use crate::formula::sentence;
 use crate::scene::{Slide, SlideEnd, Stage};
 use crate::story::{Refused, StageTold, State};
 use course::Course;
@@ -53,6 +56,7 @@ pub(in crate::story) fn slide(
         steps.clear();
     }
     line.held(&limits, &mut supposed)?;
+    line.fastened(&course, &mut supposed)?;
     begins::rims(&line, &before)?;
     if let ([string], true) = (line.strings.as_slice(), is_driven) {
         steps.extend(string.steps(stage, &line.acceleration)?);
@@ -120,6 +124,26 @@ impl Line<'_> {
             supposed.not_negative(limit, format!("`{name}` {does}"), || {
                 self.refused(why, hint)
             })?;
+        }
+        Ok(())
+    }
+
+    /// Tells that a spring which pushes the body on is fastened to it, where that goes farther than the spring is pressed.
+    fn fastened(&self, course: &Course, supposed: &mut Supposed<'_>) -> Result<(), Refused> {
+        let Some(spring) = &self.slide.spring else {
+            return Ok(());
+        };
+        let beyond = self.tidied(&(&course.distance - &spring.relaxed))?;
+        let may_be = |e: &Expr| match sign(e, self.domains()) {
+            Seen::Proved(sign) => matches!(sign, Sign::Positive | Sign::NotNegative),
+            seen => !matches!(seen, Seen::Negative),
+        };
+        if may_be(&spring.relaxed) && may_be(&beyond) {
+            supposed.words.push(sentence!(
+                "the spring is fastened to `{}`, and holds it back beyond the first {}",
+                self.name(),
+                &spring.relaxed
+            ));
         }
         Ok(())
     }
