@@ -72,6 +72,16 @@ pub struct Case {
     pub slip_ends: Option<Scene>,
 }
 
+impl Table {
+    /// What the contact does in a case, as people call it.
+    pub fn called(&self, case: &Case) -> Mode {
+        match self.side.of.is_zero() {
+            true => case.mode.without_slip(),
+            false => case.mode,
+        }
+    }
+}
+
 impl Case {
     /// Everything that must be ≥ 0 for it, the direction included.
     pub fn needs(&self, side: &Side) -> Vec<Expr> {

@@ -59,7 +59,7 @@ pub fn text(
     if let ([one], Pick::Values(_) | Pick::Supposed(_)) = (shown, &judged.pick) {
         say(&format!(
             "\n{contact} {}{}",
-            one.case.mode.words(),
+            table.called(one.case).words(),
             holds_where(scene, &table.law, one.case)
         ));
         let full = super::text::told(&one.case.scene, &one.told);
@@ -75,7 +75,7 @@ pub fn text(
         for each in shown {
             say(&format!(
                 "\n{contact} {}{}",
-                each.case.mode.words(),
+                table.called(each.case).words(),
                 holds_where(scene, &table.law, each.case)
             ));
             let Some(impact) = each.told.alone() else {

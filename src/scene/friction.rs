@@ -143,6 +143,15 @@ impl Mode {
         )
     }
 
+    /// What people call it where the points that touch do not slip before: they stick, or slide, from the start.
+    pub fn without_slip(self) -> Mode {
+        match self {
+            Mode::SticksInCompression => Mode::Sticks,
+            Mode::ReversesInCompression => Mode::Slides,
+            other => other,
+        }
+    }
+
     /// Whether it is what a scene supposes: `sticks` means sticking at any time.
     pub fn is(self, supposed: Mode) -> bool {
         self == supposed || supposed == Mode::Sticks && self.sticks()

@@ -54,6 +54,9 @@ impl Writer<'_> {
             }
             Mode::SticksInCompression => "it stops sliding during compression, and sticks",
             Mode::SticksInRestitution => "it stops sliding during restitution, and sticks",
+            Mode::ReversesInCompression if !self.slips_before(contact) => {
+                "it slides from the start"
+            }
             Mode::ReversesInCompression => "its slip is reversed during compression",
             Mode::ReversesInRestitution => "its slip is reversed during restitution",
         };
@@ -97,10 +100,13 @@ impl Writer<'_> {
             "friction of a sliding contact" => {
                 fill("{} slides against friction all the while:", [begins])
             }
-            "friction before and after the reversal of slip" => {
+            "friction before and after the reversal of slip" if self.slips_before(c) => {
                 vec![say(
                     "Friction acts against the slip, first one way and then the other:",
                 )]
+            }
+            "friction before and after the reversal of slip" => {
+                fill("{} slides from the start, against friction:", [begins])
             }
             "normal impulse, 1 + e times that of compression" => {
                 let slips = self.slips_before(c);

@@ -96,7 +96,7 @@ pub fn judge(scene: &Scene, table: &Table) -> Judged {
     let by_values = picked(scene, table);
     let supposed = table.law.supposing.map(|mode| {
         let all = table.cases.iter().enumerate();
-        all.filter(|(_, case)| case.mode.is(mode))
+        all.filter(|(_, case)| case.mode.is(mode) || table.called(case) == mode)
             .map(|(i, _)| i)
             .collect::<Vec<_>>()
     });
@@ -160,7 +160,7 @@ pub fn outcomes(scene: &Scene) -> Result<Vec<Outcome>, String> {
     let name = &scene.contacts[table.contact].name;
     let outcome = |case: &Case| Outcome {
         scene: case.scene.clone(),
-        words: case.mode.of(name),
+        words: table.called(case).of(name),
         when: case.needs(&table.side),
         slip_ends: case.slip_ends.clone(),
     };
