@@ -4,8 +4,10 @@
 use std::collections::BTreeMap;
 
 use crate::answer::Form;
-use crate::expr::{Expr, Symbol};
-use crate::scene::{ContactLaw, Decided, Scene};
+use crate::derive::Derivation;
+use crate::expr::{Expr, Symbol, Vector, minus};
+use crate::laws::Unknown;
+use crate::scene::{Ask, ContactLaw, Decided, Question, Scene};
 use crate::solution::neat::tidied;
 use crate::solution::words::{self, fill, say};
 use crate::solution::{Claim, Detail, Inline, Line, Math, Part, Section, Writer, sentence};
@@ -19,31 +21,48 @@ pub(super) struct Again {
 }
 
 impl Writer<'_> {
-    /// An impact whose equations stand in an earlier stage: their results, and what follows from them.
-    pub(super) fn in_earlier(&mut self, lead: &str) {
+    /// An impact whose equations stand in an earlier stage: their results, and what follows from them. Where the bodies come
+    /// otherwise than there, `come` tells how, and all that the equations determine is shown.
+    pub(super) fn in_earlier(&mut self, lead: &str, come: Vec<Vec<Math>>) {
         self.say(lead);
+        let anew = !come.is_empty();
+        for math in come {
+            self.show(math, None);
+        }
+        if anew {
+            self.say("They give");
+        }
+        let questions: Vec<&Question> = self.scene.asked_of_impact().collect();
+        let renamed: Vec<&Question> = questions
+            .iter()
+            .copied()
+            .filter(|q| self.is_renamed(q))
+            .collect();
         let asked = self.d.blocks.iter().filter(|b| b.asked_by.is_some());
         for (u, value) in asked.flat_map(|b| b.unknowns.iter().zip(self.d.solution(b))) {
             let name = self.d.names.plain(*u);
             let symbol = Expr::symbol(name);
-            if value.is_zero() {
-                self.zero.insert(*u);
-            }
+            let is_zero = value.is_zero();
+            self.zero.extend(is_zero.then_some(*u));
             let math = words::related(&symbol, "=", &value);
             let id = self.step(Vec::new(), vec![Claim::new(symbol, value)], lead);
             if self.d.answers.iter().any(|a| a.name == name) {
                 self.told.insert(Symbol::from(name));
                 let step = Some(id);
                 self.push(Part::Result(vec![Line { math, step }]));
+            } else if anew && !is_zero && !renamed.iter().any(|q| is_along(q, *u)) {
+                self.show(math, Some(id));
             }
         }
-        for question in self.scene.asked_of_impact() {
+        for question in questions {
             if self.is_derived(question)
                 && !self.is_open(question)
                 && self.detail() != Detail::Brief
             {
-                let heading = self.heading(question);
-                self.section(heading);
+                if !renamed.iter().any(|q| q.name == question.name) {
+                    let heading = self.heading(question);
+                    self.section(heading);
+                }
                 self.derived(question);
             }
         }
@@ -66,6 +85,21 @@ impl Writer<'_> {
             [case, words::formula(&-&mu), words::formula(&mu)],
         ));
         self.boxed();
+    }
+}
+
+/// Whether a question asks for this component of a velocity.
+fn is_along(question: &Question, unknown: Unknown) -> bool {
+    match (&question.ask, unknown) {
+        (
+            Ask::Velocity {
+                body,
+                along: Some(d),
+                ..
+            },
+            Unknown::Velocity(b, axis),
+        ) => *body == b && !d[axis].is_zero(),
+        _ => false,
     }
 }
 
@@ -93,6 +127,65 @@ pub(super) fn in_earlier(told: &Told, [i, k]: [usize; 2]) -> Option<[usize; 2]> 
             cases.position(|case| moves(case) == own && case.handed == here.cases[k].handed)?;
         (begins(&there.before) == begins(&here.before)).then_some([j, case])
     })
+}
+
+/// Least number of equations that are not written again for bodies that come with another motion.
+const MANY: usize = 3;
+
+/// Whether the equations of the second impact are those of the first, but for the motion with which the bodies come.
+pub(super) fn same_equations(first: (&Scene, &Derivation), second: (&Scene, &Derivation)) -> bool {
+    let asked = |d: &'_ Derivation| {
+        let asked = d.blocks.iter().filter(|b| b.asked_by.is_some());
+        let all = asked.flat_map(|b| b.equations.clone());
+        all.map(|e| (e.law, e.terms)).collect::<Vec<_>>()
+    };
+    let joints = |scene: &Scene| {
+        let from =
+            |at: &Vector, b: usize| minus(at, &scene.bodies[b].center).map(|x| tidied(scene, &x));
+        let moving = |bodies: [usize; 2]| {
+            let moving = bodies.into_iter().filter(|b| !scene.bodies[*b].is_fixed());
+            moving.collect::<Vec<_>>()
+        };
+        let contacts = scene.contacts.iter().map(|c| {
+            let law = match &c.law {
+                ContactLaw::Decided(decided) => ContactLaw::Friction(Box::new(decided.law.clone())),
+                law => law.clone(),
+            };
+            let arms: Vec<_> = moving(c.bodies).iter().map(|b| from(&c.at, *b)).collect();
+            (c.bodies, arms, c.normal.clone(), Some(law))
+        });
+        let hinges = scene.hinges.iter().map(|h| {
+            let arms = moving(h.bodies).iter().map(|b| from(&h.at, *b)).collect();
+            (h.bodies, arms, None, None)
+        });
+        contacts.chain(hinges).collect::<Vec<_>>()
+    };
+    let is_plain = |scene: &Scene| scene.blows.is_empty() && scene.after.is_empty();
+    let modes = [first.0, second.0].map(crate::solution::decided);
+    let [there, here] = [first.1, second.1].map(asked);
+    here.len() >= MANY
+        && here.iter().all(|e| there.contains(e))
+        && modes[0] == modes[1]
+        && is_plain(first.0)
+        && is_plain(second.0)
+        && joints(first.0) == joints(second.0)
+}
+
+/// How the bodies come into the second of two impacts, where that is otherwise than into the first.
+pub(super) fn come(first: &Scene, second: &Scene) -> Vec<Vec<Math>> {
+    let mut out = Vec::new();
+    let bodies = first.bodies.iter().zip(&second.bodies).enumerate();
+    for (b, (there, here)) in bodies {
+        if there.velocity != here.velocity {
+            let v = words::vector("v", &words::center(second, b), "-");
+            out.push(vec![v, Math::Op("="), here.velocity.clone().into()]);
+        }
+        if there.spin != here.spin {
+            let omega = words::spin(second, b, "-");
+            out.push(vec![omega, Math::Op("="), Math::Along(here.spin.clone())]);
+        }
+    }
+    out
 }
 
 /// The first case before one, by index, that has its results already.
