@@ -933,6 +933,72 @@ fn no_abbreviation_is_used_before_it_is_told() {
     }
 }
 
+/// The symbols that a sentence takes `from above`.
+fn from_above(text: &[solution::Inline]) -> Vec<&carom::expr::Expr> {
+    let symbols = text.iter().filter_map(|piece| match piece {
+        solution::Inline::Math(math) => match math.as_slice() {
+            [solution::Math::Expr(e)] => Some(e),
+            _ => None,
+        },
+        _ => None,
+    });
+    match words(text).starts_with("With ") && words(text).ends_with(" from above,") {
+        true => symbols.collect(),
+        false => Vec::new(),
+    }
+}
+
+/// The symbol that a piece of a formula is, as it is or with the opposite sign.
+fn symbol(math: &solution::Math) -> Option<carom::expr::Expr> {
+    match math {
+        solution::Math::Expr(e) if e.as_symbol().is_some() => Some(e.clone()),
+        solution::Math::Expr(e) if (-e).as_symbol().is_some() => Some(-e),
+        _ => None,
+    }
+}
+
+#[test]
+fn what_is_taken_from_above_has_its_value_above() {
+    let stories = shared::files("tests/stories/scenes", "json").into_par_iter();
+    let stories: Vec<Case> = stories.map(Case::read).collect();
+    let (mut faults, mut taken) = (Vec::new(), 0);
+    for case in cases().iter().chain(&stories) {
+        let mut valued: Vec<carom::expr::Expr> = Vec::new();
+        for section in &case.solution(Detail::Normal).sections {
+            // What an earlier stage or case gives is not above, unless its equations are referred to.
+            let heads = |text: &str| matches!(section.heading.first(), Some(solution::Inline::Text(t)) if t.starts_with(text));
+            let refers = section.parts.iter().any(|part| matches!(part, solution::Part::Text(text) if words(text).starts_with("The equations are those of")));
+            let begins = section.depth == 0 && case.scene.has_stages() || heads("Case ");
+            if begins && !refers {
+                valued.clear();
+            }
+            for part in &section.parts {
+                let lines = match part {
+                    solution::Part::Text(text) => {
+                        taken += from_above(text).len();
+                        let missing = from_above(text).into_iter().filter(|e| !valued.contains(e));
+                        faults.extend(missing.map(|e| format!("{}: {e:?}", case.path.display())));
+                        let math = text.iter().filter_map(|piece| match piece {
+                            solution::Inline::Math(math) if math.len() > 1 => Some(math),
+                            _ => None,
+                        });
+                        valued.extend(math.flatten().filter_map(symbol));
+                        continue;
+                    }
+                    solution::Part::Display(lines) | solution::Part::Result(lines) => lines,
+                    _ => continue,
+                };
+                for line in lines {
+                    // Of `v = v_x = u` both names have the value.
+                    valued.extend(line.math.iter().filter_map(symbol));
+                }
+            }
+        }
+    }
+    assert!(taken > 100, "{taken} values taken from above");
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
 #[test]
 fn no_phrase_that_an_editor_would_strike() {
     // Nor at full length.

@@ -10,6 +10,9 @@ use crate::scene::{Ask, ContactLaw, EnergyWhen, KnownQuantity, Question};
 /// Above this many equations in a block the balances are not written out in vectors.
 const WRITTEN_OUT: usize = 3;
 
+/// Above this many nodes a solution stands below, in named parts.
+const LONG: usize = 150;
+
 impl Writer<'_> {
     /// Every block with the question that needs it, then what the question still asks.
     pub(super) fn blocks(&mut self) {
@@ -220,9 +223,14 @@ impl Writer<'_> {
         if self.reads_solved(&before, &pairs) {
             return;
         }
-        let shown: Vec<Expr> = pairs.iter().map(|(u, v)| self.short(*u, v)).collect();
+        let shown = pairs
+            .iter()
+            .map(|(u, v)| self.with_roots(&self.short(*u, v)));
+        let shown: Vec<Expr> = shown.collect();
         self.abbreviations(&shown);
-        let too_long = pairs.iter().any(|(u, v)| self.short(*u, v).size() > 150);
+        // The parts of a long value have names where the results stand.
+        let has_parts = !self.d.definitions.is_empty();
+        let too_long = has_parts && shown.iter().any(|e| e.size() > LONG);
         let lead = if too_long { "" } else { lead };
         let mut substeps = Vec::new();
         if self.detail() == Detail::Full && !lead.is_empty() {
@@ -243,10 +251,9 @@ impl Writer<'_> {
         }
         let mut after = Vec::new();
         let mut lines = Vec::new();
-        for (u, value) in &pairs {
+        for ((u, value), shown) in pairs.iter().zip(&shown) {
             let symbol = Expr::symbol(self.d.names.plain(*u));
-            let shown = self.short(*u, value);
-            lines.push(words::related(&symbol, "=", &shown));
+            lines.push(words::related(&symbol, "=", shown));
             after.push(Claim::new(symbol, value.clone()));
         }
         let id = self.step(before, after, "solving for the unknowns");

@@ -57,9 +57,19 @@ fn acting(one_sided: &[OneSided], case: &Case) -> String {
 /// Which outcomes lead through an outcome of a stage to what follows it.
 pub(super) fn leading(stages: &[StageTold], parent: usize, case: usize) -> String {
     let several = line(stages, (parent, case)).filter(|(i, _)| stages[*i].cases.len() > 1);
-    let mut parts: Vec<_> = several.map(|(i, k)| active(&stages[i].cases[k])).collect();
+    let mut parts: Vec<_> = several.map(|(i, k)| called(&stages[i].cases, k)).collect();
     parts.reverse();
     parts.join("; ")
+}
+
+/// What acts in one of several outcomes, with its number where that is the same in another.
+fn called(cases: &[Case], k: usize) -> String {
+    let words = active(&cases[k]);
+    let others = cases.iter().filter(|case| active(case) == words);
+    match others.count() {
+        1 => words,
+        _ => format!("{words}, case {}", k + 1),
+    }
 }
 
 impl Case {

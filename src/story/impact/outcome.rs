@@ -1,6 +1,6 @@
 //! One outcome of an impact: these supports act and friction goes this way, under conditions; and the motion just after.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::algebra::Sign;
 use crate::answer::Form;
@@ -495,14 +495,26 @@ impl Case {
         };
         let mut blocks = derivation.blocks.clone();
         let mut asking: Vec<&str> = Vec::new();
-        for block in &mut blocks {
+        // What the later equations hold; they stand behind those that determine it.
+        let mut needed: BTreeSet<Unknown> = BTreeSet::new();
+        for block in blocks.iter_mut().rev() {
             let has_own = block.asked_by.as_deref().is_some_and(is_own);
-            if !has_own || block.unknowns.iter().all(by_inspection) {
+            let mut goes_on = block
+                .unknowns
+                .iter()
+                .filter(|u| moves(u) || needed.contains(u));
+            let is_dropped = asked && goes_on.next().is_none();
+            if has_own && block.unknowns.iter().all(by_inspection) {
                 continue;
             }
-            match asked && !block.unknowns.iter().any(moves) {
-                true => block.asked_by = None,
-                false => asking.extend(block.asked_by.as_deref()),
+            match has_own {
+                true if is_dropped => block.asked_by = None,
+                true => asking.extend(block.asked_by.as_deref()),
+                false => {}
+            }
+            if block.asked_by.is_some() {
+                let terms = block.equations.iter().flat_map(|e| &e.terms);
+                needed.extend(terms.map(|(u, _)| *u));
             }
         }
         scene
