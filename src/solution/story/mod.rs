@@ -398,11 +398,12 @@ impl Page<'_> {
         let alike = || (0..i).find_map(|j| self.alike(j, writer));
         let again = || cases::again(self.scene, &self.told.stages[i].cases, k);
         let full = self.solution.detail == Detail::Full;
-        let earlier = same.map(|at| (at, None));
-        match (
-            earlier.or_else(|| if full { None } else { alike() }),
-            again(),
-        ) {
+        let earlier = match same {
+            Some(at) => Some((at, Vec::new())),
+            None if full => None,
+            None => alike(),
+        };
+        match (earlier, again()) {
             (Some(([j, c], come)), _) => {
                 let there = &self.told.stages[j];
                 let stage = sentence::called(self.scene, &words::stage(&there.name));
@@ -410,12 +411,12 @@ impl Page<'_> {
                     1 => String::new(),
                     _ => format!("case {} of ", c + 1),
                 };
-                let rest = match come {
-                    None => ", and so is the motion just after:",
-                    Some(_) => ", with another motion just before:",
+                let rest = match come.as_slice() {
+                    [] => ", and so is the motion just after:",
+                    _ => ", with another motion just before:",
                 };
                 let lead = format!("The equations are those of {which}{stage}{rest}");
-                writer.in_earlier(&lead, come.unwrap_or_default());
+                writer.in_earlier(&lead, come);
             }
             (None, Some(again)) => writer.again(&case.rubs, &again),
             (None, None) => {
@@ -428,14 +429,14 @@ impl Page<'_> {
     }
 
     /// An earlier impact of one outcome whose equations are those of the one under way, and how the bodies come into this one.
-    fn alike(&self, j: usize, writer: &Writer<'_>) -> Option<([usize; 2], Option<Vec<Vec<Math>>>)> {
+    fn alike(&self, j: usize, writer: &Writer<'_>) -> Option<([usize; 2], Vec<Vec<Math>>)> {
         let [case] = self.told.stages[j].cases.as_slice() else {
             return None;
         };
         let (scene, derivation) = case.asked(&self.going_on([j, 0]));
         let same = cases::same_equations((&scene, &derivation), (writer.scene, writer.d));
         let come = cases::come(&scene, writer.scene);
-        (same && !come.is_empty()).then_some(([j, 0], Some(come)))
+        (same && !come.is_empty()).then_some(([j, 0], come))
     }
 
     /// Whether cases are called by what a rough contact does: their conditions are long, and stand before them.
