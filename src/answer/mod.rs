@@ -25,8 +25,8 @@ pub use formulas::{LONGEST, about, dimension_of, formulas};
 pub use graph::{Curve, Graph, graphs};
 
 use crate::dimension::Dimension;
-use crate::expr::{Expr, Symbol};
-use crate::formula::{Relation, Sentence, latex_name, sentence, with_subscript};
+use crate::expr::{Expr, Symbol, Vector};
+use crate::formula::{Relation, Sentence, latex_name, sentence, with_subscript, write_plain};
 use crate::scene::{Ask, Parameter, Question, Scene};
 
 /// The symbol whose square stands for a parameter under a root.
@@ -184,6 +184,21 @@ pub struct Near {
     pub to: Option<Expr>,
     /// The power.
     pub order: u32,
+}
+
+/// The component of a vector that is asked, in the words of an answer: `, along −y`, `, along (cos(a), sin(a))`; nothing for both.
+pub fn along(direction: Option<&Vector>) -> String {
+    let Some([x, y]) = direction else {
+        return String::new();
+    };
+    let axis = match (x.is_zero(), y.is_zero()) {
+        (false, true) if x.is_one() => "x",
+        (false, true) if (-x).is_one() => "−x",
+        (true, false) if y.is_one() => "y",
+        (true, false) if (-y).is_one() => "−y",
+        _ => return format!(", along ({}, {})", write_plain(x), write_plain(y)),
+    };
+    format!(", along {axis}")
 }
 
 impl Answer {

@@ -3,7 +3,7 @@
 use super::compact::Parts;
 use super::{Names, Stop, Work};
 use crate::algebra::{self, Element, Row};
-use crate::answer::{Answer, Form, Matrix};
+use crate::answer::{self, Answer, Form, Matrix};
 use crate::derive::count::Counting;
 use crate::expr::{Expr, Vector};
 use crate::formula::{Sentence, sentence};
@@ -500,14 +500,16 @@ fn words(scene: &Scene, ask: &Ask) -> String {
     match ask {
         Ask::Velocity {
             body: b,
-            point: None,
-            ..
-        } => format!("velocity of the center of mass of {} just after", body(*b)),
-        Ask::Velocity {
-            body: b,
-            point: Some((name, _)),
-            ..
-        } => format!("velocity of point {name} of {} just after", body(*b)),
+            point,
+            along,
+        } => {
+            let point = point.as_ref();
+            let of = point.map_or("the center of mass".into(), |(name, _)| {
+                format!("point {name}")
+            });
+            let along = answer::along(along.as_ref());
+            format!("velocity of {of} of {} just after{along}", body(*b))
+        }
         Ask::Spin { body: b, clockwise } => {
             let sense = if *clockwise {
                 "clockwise"
@@ -519,13 +521,14 @@ fn words(scene: &Scene, ask: &Ask) -> String {
                 body(*b)
             )
         }
-        Ask::Impulse { from, on, .. } => {
+        Ask::Impulse { from, on, along } => {
             let at = match from {
                 ImpulseAt::Contact(c) => &scene.contacts[*c].name,
                 ImpulseAt::Hinge(h) => &scene.hinges[*h].name,
                 ImpulseAt::Blow(b) => &scene.blows[*b].name,
             };
-            format!("impulse at {at} on {}", body(*on))
+            let along = answer::along(along.as_ref());
+            format!("impulse at {at} on {}{along}", body(*on))
         }
         Ask::Energy { when, of } => {
             let whose = of.map_or_else(|| String::from("all bodies"), |b| body(b).to_string());

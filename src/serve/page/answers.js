@@ -8,8 +8,9 @@ const solved = latest();
 const valued = latest();
 // Where the number of an answer stands, by the answer's name.
 let places = new Map();
-// Names of the answers.
+// Names of the answers, and how they are written.
 let answerNames = [];
+let letters = new Map();
 // What was derived last, for the panels that build on it.
 let last = Promise.resolve(null);
 
@@ -37,6 +38,7 @@ export function pieces(text) {
     const count = (sign) => run.slice(first, last).filter((t) => t === sign).length;
     while (first < last && /^(?:[+*/^)=<>≤≥]|<=|>=|\s+)$/.test(run[first])) first += 1;
     while (first < last && /^(?:[-+*/^(=<>≤≥]|<=|>=|\s+)$/.test(run[last - 1])) last -= 1;
+    while (run[first] === "(" && count("(") > count(")")) first += 1;
     while (run[last - 1] === ")" && count(")") > count("(")) last -= 1;
     const inner = run.slice(first, last);
     const isFormula = inner.some((t) => names.has(t)) && !(inner.length === 1 && LITTLE.test(inner[0]));
@@ -94,15 +96,19 @@ async function draw(found) {
     for (const c of one.conditions ?? []) formulas.push(`${c.left.formula} ${c.relation} ${c.right.formula}`);
   }
   const set = await typeset(formulas, symbols);
+  letters = new Map(all.flatMap((one) => one.answers.map((a) => [a.name, set.symbols.get(a.symbol ?? a.name)])));
+  const everywhere = (a) => all.length > 1 && all.every((one) => one.answers.some((b) => b.name === a.name && b.formula === a.formula));
+  const common = all[0].answers.filter(everywhere);
   const parts = [];
   if (found.refusals?.length) parts.push(...found.refusals.map((why) => make("p", { class: "failed" }, `✗ ${why}.`)));
   for (const one of all) {
     if (one.mode) parts.push(make("h3", {}, `If the contact ${one.mode}`), conditions(one, set));
-    parts.push(...one.answers.map((a) => answer(a, set, !one.mode)));
+    parts.push(...one.answers.filter((a) => !everywhere(a)).map((a) => answer(a, set, !one.mode)));
     const defined = (one.where ?? []).filter((w) => !one.answers.some((a) => a.name === w.name));
     if (defined.length) parts.push(make("h3", {}, "where"), ...defined.map((w) => definition(w, set)));
     parts.push(known(one, set));
   }
+  if (common.length) parts.push(make("h3", {}, "In every case"), ...common.map((a) => answer(a, set, false)));
   if (found.cases) parts.unshift(make("section", { id: "numbers" }), laws());
   $("answers").replaceChildren(...parts.filter(Boolean));
   renumber();
@@ -171,6 +177,8 @@ function known(one, set) {
 
 const number = (n) => (n.value === null ? (n.reason ?? "open") : `≈ ${digits(n.value).replaceAll("-", "−")} ${n.unit === "1" ? "" : n.unit}`);
 
+const letter = (name) => (letters.get(name) ? markup(letters.get(name)) : name);
+
 // The numbers at the values of the sliders, from the geometry alone.
 export async function renumber() {
   if (!bench.about || (!places.size && !$("numbers"))) return;
@@ -183,7 +191,7 @@ export async function renumber() {
       if (n) place.textContent = number(n);
     }
     $("numbers")?.replaceChildren(make("h3", { id: "mode" }, "At these values"),
-      ...found.answers.map((n) => make("div", { class: "number" }, `${n.name} ${number(n)}`)));
+      ...found.answers.map((n) => make("div", { class: "number" }, letter(n.name), " ", number(n))));
     if ($("numbers")) return modeAtValues();
     const missing = [...places.keys()].filter((name) => !told.has(name));
     if (missing.length) revalue(missing);

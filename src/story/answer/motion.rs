@@ -1,7 +1,7 @@
 //! What is asked of a motion: its end, how long and how far it went, places, angular momenta, the force of a fixed point.
 
 use crate::answer::calc::{Seen, is_zero, sign, tidy};
-use crate::answer::{Answer, Check, Form, Refused};
+use crate::answer::{self, Answer, Check, Form, Refused};
 use crate::domain::Domains;
 use crate::expr::{Expr, Vector, cross, dot, minus};
 use crate::formula::Sentence;
@@ -376,16 +376,13 @@ pub(super) fn at_end(
     let of = |body: &usize| format!("of `{}`", scene.bodies[*body].name);
     let what = match ask {
         Ask::Spin { body, .. } => format!("angular velocity {}", of(body)),
-        Ask::Velocity {
-            point: None, body, ..
-        } => {
-            format!("velocity of the center of mass {}", of(body))
+        Ask::Velocity { point, body, .. } => {
+            let point = point.as_ref();
+            let of_point = point.map_or("the center of mass".into(), |(name, _)| {
+                format!("the point {name}")
+            });
+            format!("velocity of {of_point} {}", of(body))
         }
-        Ask::Velocity {
-            body,
-            point: Some((point, _)),
-            ..
-        } => format!("velocity of the point {point} {}", of(body)),
         Ask::Energy {
             when: EnergyWhen::Lost,
             ..
@@ -397,7 +394,11 @@ pub(super) fn at_end(
         Ask::Energy { when, .. } if *when == EnergyWhen::Lost => "from the beginning to the end",
         _ => "at the end",
     };
-    let words = format!("{what}, {when} of `{}`", told.placed.name);
+    let along = match ask {
+        Ask::Velocity { along, .. } => answer::along(along.as_ref()),
+        _ => String::new(),
+    };
+    let words = format!("{what}, {when} of `{}`{along}", told.placed.name);
     let parts = match ask {
         Ask::Spin { body, clockwise } => {
             let w = &told.after.spin[*body];
@@ -432,7 +433,11 @@ pub(super) fn at_end(
     let mut out = Vec::new();
     for (suffix, value) in parts {
         let name = format!("{}{suffix}", question.name);
-        let mut a = Answer::blank(question, &name, words.clone());
+        let words = match suffix {
+            "" => words.clone(),
+            axis => format!("{words}, along {}", &axis[1..]),
+        };
+        let mut a = Answer::blank(question, &name, words);
         let tidied = tidy(&value, domains).map_err(|stop| refuse(&stop.to_string()))?;
         let is_energy = matches!(ask, Ask::Energy { .. });
         let value = match is_energy && value.size() < tidied.size() {
