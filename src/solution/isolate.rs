@@ -20,7 +20,11 @@ pub(super) fn on_the_way(scene: &Scene, stated: &Related, range: &Related) -> Ve
         .as_symbol()
         .map(|p| (p, (left - right).derivative(p)));
     let is_linear = slope.is_some_and(|(p, slope)| !slope.mentions(p));
-    let alone = alone(scene, range).filter(|_| !is_linear);
+    let alone = match alone(scene, range) {
+        _ if is_linear => Vec::new(),
+        Some(line) => vec![line],
+        None => completed(scene, range),
+    };
     let lines = undone.into_iter().chain(alone);
     lines
         .filter(|line| line != stated && line != range)
@@ -64,6 +68,37 @@ fn alone(scene: &Scene, (p, relation, value): &Related) -> Option<Related> {
     }
     (is_root(value) && never_below_zero(scene, p) && never_below_zero(scene, value))
         .then(|| (square(scene, p), *relation, square(scene, value)))
+}
+
+/// The completed square of a parameter whose value is a root and something beside it, and its root where that has one sign.
+fn completed(scene: &Scene, (p, relation, value): &Related) -> Vec<Related> {
+    let is_sum = |e: &&Expr| matches!(e.node(), Node::Sum(_));
+    let terms = match value.node() {
+        Node::Sum(terms) => terms.to_vec(),
+        Node::Product(factors) => {
+            let Some(Node::Sum(terms)) = factors.iter().find(is_sum).map(Expr::node) else {
+                return Vec::new();
+            };
+            let others = Expr::product(factors.iter().filter(|f| !is_sum(f)).cloned());
+            terms
+                .iter()
+                .map(|term| tidied(scene, &(term * &others)))
+                .collect()
+        }
+        _ => return Vec::new(),
+    };
+    let (roots, rest): (Vec<Expr>, Vec<Expr>) = terms.into_iter().partition(is_root);
+    let [root] = roots.as_slice() else {
+        return Vec::new();
+    };
+    let beyond = p - &tidied(scene, &Expr::sum(rest));
+    let has_sign = never_below_zero(scene, &beyond);
+    if !never_below_zero(scene, root) || !has_sign && *relation != Relation::Equal {
+        return Vec::new();
+    }
+    let squares = (beyond.powi(2), *relation, square(scene, root));
+    let roots = has_sign.then(|| (beyond, *relation, root.clone()));
+    [Some(squares), roots].into_iter().flatten().collect()
 }
 
 /// The square, without the size that a root of a square in it would leave.
