@@ -115,25 +115,36 @@ const CONDITION: &str = "CONDITION";
 pub const MAX_LINES: usize = 400;
 
 /// Checks a worked solution. An acceleration that it speaks of and nobody asks for is the scene's, counted the way in which
-/// fewest of its lines are wrong; where there may be others and none fits better, it is whatever the solution says.
+/// fewest of its lines are wrong; where there may be others and none fits better, it is whatever the solution says. So is a
+/// velocity against an axis by its letter alone, which may be meant as the speed.
 pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
-    let meant = names::accelerations(sheet, text).into_iter();
-    let worked = meant.map(|a| check_with(sheet, text, options, a));
+    let worked = |meant| check_with(sheet, text, options, meant);
     let slips = |worked: &Worked| {
         let wrong = |line: &&Line| line.status == Status::Wrong;
         worked.lines.iter().filter(wrong).count()
     };
-    worked.min_by_key(slips).expect("one at least")
+    let meant = names::accelerations(sheet, text).into_iter();
+    let best = meant.map(worked).min_by_key(slips).expect("one at least");
+    if slips(&best) == 0 {
+        return best;
+    }
+    let speeds = Desk::new(sheet).speeds().into_iter();
+    let others = speeds.map(|speed| worked(Some(speed)));
+    [best]
+        .into_iter()
+        .chain(others)
+        .min_by_key(slips)
+        .expect("one at least")
 }
 
 fn check_with(
     sheet: &Sheet,
     text: &str,
     options: &Options,
-    acceleration: Option<(Symbol, Expr)>,
+    meant: Option<(Symbol, Expr)>,
 ) -> Worked {
     let mut desk = Desk::new(sheet);
-    desk.closed.extend(acceleration);
+    desk.closed.extend(meant);
     let read = desk.in_names(text);
     desk.ahead = names::definitions(&read);
     desk.along_normal(&read);
@@ -189,7 +200,7 @@ impl Desk<'_> {
 
     /// A line is as good as its worst equation.
     fn line(&mut self, number: usize, text: &str, options: &Options) -> (Status, Vec<Diagnosis>) {
-        if let Some(status) = self.in_case(text) {
+        if let Some(status) = self.in_case(number, text) {
             return (status, Vec::new());
         }
         let mut line = (Status::Comment, Vec::new());
@@ -248,8 +259,10 @@ impl Desk<'_> {
                     first.1.extend(second.1);
                     return first;
                 }
-                // A name that looks like one of the scene's is a slip of the pen rather than a new name.
-                let near = text::is_near(&fault, text);
+                // A name that looks like one of the scene's is a slip of the pen rather than a new name; V_y beside an own
+                // V_x is none.
+                let near = text::near(&fault, text);
+                let near = near.is_some_and(|meant| !self.own.contains_key(meant));
                 match self.looked_ahead(text) {
                     Some(reading) => reading,
                     None if near => return (Status::Unreadable(fault), Vec::new()),

@@ -21,7 +21,7 @@ use crate::answer::Answer;
 use crate::derive::Derivation;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol};
-use crate::formula::{self, Content, Relation, Symbols};
+use crate::formula::{self, Content, Quantity, Relation, Symbols};
 use crate::scene::{Ask, Print, Printed, Scene};
 
 /// The finding about one printed thing.
@@ -116,8 +116,18 @@ impl Desk<'_> {
     ) -> Result<(), String> {
         let (before, last) = text.rsplit_once('=').unwrap_or(("", text));
         let number = formula::read(last, &Symbols::strict());
-        let number = number.is_ok_and(|number| {
-            matches!(number.content, Content::Quantity(_)) && number.literal.is_some()
+        // `9h` is nine times a height h, unless a time is asked for.
+        let is_unit = |q: &Quantity| {
+            let target = self.closed.get(item);
+            target.is_some_and(|of| self.other_dimension(of, q).is_none())
+                || !self.read(last, printed).is_ok_and(|in_names| {
+                    let names = in_names.expr().map(Expr::symbols);
+                    names.is_some_and(|names| !names.is_empty())
+                })
+        };
+        let number = number.is_ok_and(|number| match &number.content {
+            Content::Quantity(q) => number.literal.is_some() && is_unit(q),
+            _ => false,
         });
         if self.vectors.contains_key(item)
             && let Some(parts) = numbers(last)

@@ -53,6 +53,9 @@ impl Desk<'_> {
                 return None;
             };
             let one = self.with_own(one);
+            if let Some(cause) = effort::within(MOST_STEPS, || self.supposed_with(&one)) {
+                return Some(cause);
+            }
             let domains = &self.sheet.scene.domains;
             let moves = |e: &Expr| e.symbols().iter().any(|n| self.is_found(n));
             let said = self.wrong.iter().rev().take(8);
@@ -83,14 +86,7 @@ impl Desk<'_> {
         let domains = &self.sheet.scene.domains;
         // What a question asks of a parameter is that parameter where the lines above hold.
         let used = one.symbols();
-        let mut sought = self.sought.iter();
-        let one = &match sought.find(|s| used.contains(s.question.as_str())) {
-            Some(s) => one.replace(
-                &Expr::symbol(s.question.as_str()),
-                &Expr::symbol(&s.parameter),
-            ),
-            None => one.clone(),
-        };
+        let one = &self.by_parameter(one);
         let mut causes: Vec<usize> = self.stated.iter().filter_map(|(c, _)| *c).collect();
         causes.sort_unstable();
         causes.dedup();
@@ -114,7 +110,7 @@ impl Desk<'_> {
             let hangs = |c: &Option<usize>| c.is_some_and(|c| causes.contains(&c));
             let wrong = self.stated.iter().filter(|(c, _)| hangs(c));
             let right = self.stated.iter().filter(|(c, _)| c.is_none());
-            let said = wrong.clone().chain(right).map(|(_, line)| line);
+            let laws = right.map(|(_, line)| line).chain(laws.iter().copied());
             // A balance of energies speaks of several squares until what binds them is put in, or is first solved for what
             // the equation is about: that is tried again.
             let found = |e: &Expr| {
@@ -123,12 +119,13 @@ impl Desk<'_> {
                 names
             };
             let spoken: BTreeSet<Symbol> = wrong.clone().flat_map(|(_, e)| found(e)).collect();
-            let (binding, others): (Vec<&Expr>, Vec<&Expr>) = laws.iter().partition(|law| {
+            let (binding, others): (Vec<&Expr>, Vec<&Expr>) = laws.partition(|law| {
                 let names = found(law);
                 again && names.len() > 1 && names.is_subset(&spoken)
             });
             let mut rules: Vec<Rule> = Vec::new();
-            for line in binding.into_iter().chain(said).chain(others) {
+            let wrong = wrong.map(|(_, line)| line);
+            for line in binding.into_iter().chain(wrong).chain(others) {
                 // What says nothing new, or contradicts those before, gives no rule.
                 rules.extend(rule(reduced(line, &rules), again));
             }

@@ -14,7 +14,7 @@ use crate::answer::limit;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Function, Symbol, effort};
 use crate::formula::{self, Content, Reading, Relation};
-use crate::scene::Ask;
+use crate::scene::{Ask, Question};
 
 /// One equality of a line.
 pub(super) struct Link {
@@ -63,6 +63,20 @@ impl Desk<'_> {
         Some([part("x")?, part("y")?, part("z").unwrap_or(Expr::zero())])
     }
 
+    /// Velocities that are asked for as vectors and point against an axis, counted as speeds.
+    pub(super) fn speeds(&self) -> Vec<(Symbol, Expr)> {
+        let domains = &self.sheet.scene.domains;
+        let moving = |q: &&Question| matches!(q.ask, Ask::Velocity { .. });
+        let asked = self.sheet.scene.questions.iter().filter(moving);
+        let along = asked.filter_map(|q| {
+            self.components(&q.name)?;
+            let (name, value) = self.closed.get_key_value(q.name.as_str())?;
+            let against = algebra::sign(value, domains) == Some(Sign::Negative);
+            against.then(|| (name.clone(), -value))
+        });
+        along.collect()
+    }
+
     pub(super) fn vector(&self, side: &Content) -> Option<[Expr; 3]> {
         match side {
             Content::Vector(v) => Some(v.clone()),
@@ -107,8 +121,8 @@ impl Desk<'_> {
     }
 
     /// Whether what a line says of one value of a parameter is so: `For θ = 0: ω = 3v/(2l)`. Nothing later hangs on it.
-    pub(super) fn in_case(&mut self, text: &str) -> Option<Status> {
-        if let Some(status) = self.in_limit(text) {
+    pub(super) fn in_case(&mut self, number: usize, text: &str) -> Option<Status> {
+        if let Some(status) = self.in_limit(number, text) {
             return Some(status);
         }
         let (given, behind) = supposition(text)?;

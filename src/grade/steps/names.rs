@@ -11,7 +11,7 @@ use super::{Desk, Diagnosis, Options, Status};
 use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
 use crate::equality::{self};
-use crate::expr::{Expr, Function, Symbol, dot, ratio};
+use crate::expr::{Expr, Function, Node, Symbol, dot, ratio};
 use crate::formula::{self, Content, Reading, Remark, Symbols};
 use crate::scene::{Ask, Body, Scene, StageKind};
 
@@ -42,18 +42,28 @@ pub(super) fn definitions(text: &str) -> Vec<(Symbol, String)> {
     named.map(|(n, right)| (n, right.to_string())).collect()
 }
 
-/// The names for which a worked solution says something at the end of its way: `v = …`, `v ≥ …`.
-pub(super) fn solved_for(text: &str) -> BTreeSet<Symbol> {
+/// What a worked solution says something about: `v = …`, `v ≥ …`, `v² = …`.
+pub(super) fn left_sides(text: &str) -> Vec<Expr> {
     let lines = text.lines().take(super::MAX_LINES);
     let parts = lines.flat_map(super::text::equations);
-    let alone = parts.filter_map(|part| {
+    let sides = parts.filter_map(|part| {
         let reading = formula::read(part, &Symbols::open()).ok()?;
         let Content::Relations(sides, _) = reading.content else {
             return None;
         };
-        sides.first()?.expr()?.as_symbol().cloned()
+        sides.first()?.expr().cloned()
     });
-    alone.collect()
+    sides.collect()
+}
+
+/// The names for which it says something at the end of its way, by their powers too.
+pub(super) fn solved_for(text: &str) -> BTreeSet<Symbol> {
+    let sides = left_sides(text);
+    let base = |side: &Expr| match side.node() {
+        Node::Power(base, _) => base.as_symbol().cloned(),
+        _ => side.as_symbol().cloned(),
+    };
+    sides.iter().filter_map(base).collect()
 }
 
 /// The place of what was read as a unit behind a formula in symbols; of several the last, as others may be names.

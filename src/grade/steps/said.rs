@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 
 use super::Desk;
 use super::text::{relates, without_remark};
+use crate::expr::{Expr, Symbol};
 use crate::formula;
 use crate::scene::{Ask, Body, EnergyWhen, Question};
 
@@ -90,7 +91,8 @@ impl Desk<'_> {
         let questions: Vec<&Question> = self.sheet.answered().collect();
         let scene = &self.sheet.scene;
         let text = lines.join("\n");
-        let solved = super::names::solved_for(&text);
+        let sides = super::names::left_sides(&text);
+        let solved: Vec<&Symbol> = sides.iter().filter_map(Expr::as_symbol).collect();
         let open: Vec<&Question> = questions
             .iter()
             .copied()

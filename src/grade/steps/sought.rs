@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::super::relation::{proportional, solve_for};
+use super::super::relation::{follows, proportional, solve_for};
 use super::super::sheet::Sheet;
 use super::Desk;
 use super::link::{Link, Weighed};
@@ -78,6 +78,37 @@ impl Desk<'_> {
     pub(super) fn is_found(&self, name: &Symbol) -> bool {
         let mut sought = self.sought.iter().filter(|s| s.is_named(name));
         self.closed.contains_key(name) || sought.any(|s| self.is_solved_for(s))
+    }
+
+    /// What a question asks of a parameter is that parameter where the lines above hold.
+    pub(super) fn by_parameter(&self, e: &Expr) -> Expr {
+        let used = e.symbols();
+        let mut sought = self.sought.iter();
+        match sought.find(|s| used.contains(s.question.as_str())) {
+            Some(s) => e.put(
+                &Symbol::from(s.question.as_str()),
+                &Expr::symbol(&s.parameter),
+            ),
+            None => e.clone(),
+        }
+    }
+
+    /// The wrong line with whose values a condition says of its parameter what an equation does.
+    pub(super) fn supposed_with(&self, line: &Expr) -> Option<usize> {
+        let none = BTreeMap::new();
+        let line = self.by_parameter(line);
+        let sought = self.sought.iter();
+        let sought = sought.filter(|s| line.mentions(&s.parameter) && self.is_solved_for(s));
+        let conditions: Vec<&Expr> = sought.filter_map(|s| s.condition.as_ref()).collect();
+        let line = self.put_in(&line, &none);
+        let mut implied = self.believed.iter().rev();
+        let found = implied.find(|(_, values)| {
+            conditions.iter().any(|condition| {
+                let [there, here] = [values, &none].map(|values| self.put_in(condition, values));
+                there != here && follows(&there, &line, &self.sheet.scene.domains)
+            })
+        });
+        found.map(|(cause, _)| *cause)
     }
 
     /// Whether some line says what the parameter is, by its name or that of the question.

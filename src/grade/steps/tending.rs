@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use super::super::Verdict;
 use super::cause::MOST_STEPS;
 use super::link::Link;
-use super::{Desk, Status, text};
+use super::{Desk, Final, Status, text};
 use crate::answer::limit;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol, effort};
@@ -73,7 +74,7 @@ fn first(text: &str) -> &str {
 
 impl Desk<'_> {
     /// Whether what a line says of a limit is so, where it does not hold as it stands; words where that cannot be told.
-    pub(super) fn in_limit(&self, line: &str) -> Option<Status> {
+    pub(super) fn in_limit(&mut self, number: usize, line: &str) -> Option<Status> {
         let signs = in_signs(line);
         if !tends(&signs) && !tends(line) {
             return None;
@@ -110,7 +111,7 @@ impl Desk<'_> {
             }
         };
         let mut implied = self.believed.iter().rev();
-        effort::within(MOST_STEPS, || {
+        let status = effort::within(MOST_STEPS, || {
             Some(match so(&none) {
                 Some(true) => Status::Holds,
                 None => Status::Comment,
@@ -119,7 +120,41 @@ impl Desk<'_> {
                     None => Status::Wrong,
                 },
             })
-        })
+        });
+        self.note_limit(number, line, &goes, &links);
+        status
+    }
+
+    /// Keeps `M ≫ m: H = 9h` as an answer where this limit is asked for.
+    fn note_limit(&mut self, number: usize, line: &str, goes: &[Goes], links: &[Link]) {
+        let ([first, ..], [.., last]) = (links, links) else {
+            return;
+        };
+        let (of, value) = (first.sides[0].expr(), last.sides[1].expr());
+        let mut questions = self.sheet.scene.questions.iter();
+        let asked = questions.find(|q| match &q.ask {
+            Ask::Limit {
+                of: asked,
+                parameter,
+                to,
+            } => {
+                of == Some(asked)
+                    && goes
+                        .iter()
+                        .any(|(name, end)| name == parameter && end == to)
+            }
+            _ => false,
+        });
+        let right = asked.and_then(|q| Some((q, self.closed.get(q.name.as_str())?)));
+        if let (Some((asked, right)), Some(value)) = (right, value) {
+            let verdict = match self.all_zero(&[value - right], &BTreeMap::new()) {
+                Some(true) => Verdict::Equivalent,
+                Some(false) => Verdict::Different,
+                None => Verdict::Undecided,
+            };
+            self.finals
+                .insert(asked.name.clone(), Final::new(number, line, verdict));
+        }
     }
 
     fn links_of<'t>(&self, equations: impl Iterator<Item = &'t str>) -> Option<Vec<Link>> {

@@ -228,13 +228,30 @@ pub(super) fn unaligned(line: &str) -> String {
         .trim_end_matches("\\\\")
         .replace("&=", "=")
         .replace("&\\approx", "\\approx");
-    let line = line.replace("\\quad", " ").replace('&', " ");
+    let line = between_formulas(&line.replace("\\quad", " ").replace('&', " "));
     // `v = 3 u/7 [m/s]`
     let unit = line.strip_suffix(']').and_then(|l| l.rsplit_once('['));
     match unit.filter(|(_, unit)| dimension::unit(unit).is_ok()) {
         Some((said, unit)) => format!("{said}{unit}"),
         None => line,
     }
+}
+
+/// A line with the words between its formulas, `\\text{and}`, as words.
+fn between_formulas(line: &str) -> String {
+    let mut pieces = line.split("\\text{");
+    let mut out = pieces.next().unwrap_or_default().to_string();
+    for piece in pieces {
+        let said = piece
+            .split_once('}')
+            .map(|(word, rest)| (word.trim(), rest));
+        let known = |word: &str| BETWEEN.split('|').any(|sign| sign.trim() == word);
+        match said.filter(|(word, _)| known(word)) {
+            Some((word, rest)) => out.extend([" ", word, " ", rest]),
+            None => out.extend(["\\text{", piece]),
+        }
+    }
+    out
 }
 
 /// A line without the mark of an item in a list: `1) ω = …`, `(a) ω = …`, `* ω = …`, and `- ω = …` where `dashes` are marks.
@@ -483,10 +500,11 @@ pub(super) fn without_remark(text: &str) -> &str {
 
 /// Whether a refused name of several letters looks like a slip of the pen for a declared one, which begins alike and has an
 /// index as well.
-pub(super) fn is_near(fault: &Fault, text: &str) -> bool {
+pub(super) fn near<'f>(fault: &'f Fault, text: &str) -> Option<&'f str> {
     let offered = fault.hint.as_ref().and_then(|h| h.strip_prefix("did you"));
     let first = |text: &str| text.chars().find(|c| c.is_alphabetic());
     let meant = offered.and_then(|words| words.split_whitespace().last());
+    let meant = meant.map(|name| name.trim_end_matches('?'));
     let own = text.get(fault.start..fault.end).unwrap_or_default();
     let indexed = |name: &str| {
         name.contains('_') || name.ends_with(|c: char| c.is_ascii_digit() || c == '\'')
@@ -494,5 +512,5 @@ pub(super) fn is_near(fault: &Fault, text: &str) -> bool {
     let alike = |meant: &str| first(meant) == first(own) && (indexed(meant) || !indexed(own));
     // `ma` is m a rather than a slip for m.
     let product = |meant: &str| meant.len() == 1 && own.len() < 4 && !own.contains('_');
-    own.len() > 1 && meant.is_some_and(|meant| alike(meant) && !product(meant))
+    meant.filter(|meant| own.len() > 1 && alike(meant) && !product(meant))
 }

@@ -97,7 +97,7 @@ impl Desk<'_> {
     }
 
     /// The dimension of an answer, where a printed quantity has another one.
-    fn other_dimension(&self, of: &Expr, printed: &Quantity) -> Option<Dimension> {
+    pub(super) fn other_dimension(&self, of: &Expr, printed: &Quantity) -> Option<Dimension> {
         let known = |name: &str| self.dimensions.get(name).cloned();
         let is = dimension::of(of, &known).ok()??;
         (is != printed.unit.dimension).then_some(is)
