@@ -933,6 +933,48 @@ fn no_abbreviation_is_used_before_it_is_told() {
     }
 }
 
+#[test]
+fn every_answer_stands_under_its_name_however_much_is_told() {
+    let mut faults = Vec::new();
+    for (case, detail) in cases()
+        .iter()
+        .flat_map(|case| [Detail::Brief, Detail::Normal, Detail::Full].map(|d| (case, d)))
+    {
+        let solution = case.solution(detail);
+        let lines = solution.sections.iter().flat_map(lines);
+        let stands: Vec<carom::expr::Expr> = lines
+            .flat_map(|(_, line)| line.math.iter().filter_map(symbol))
+            .collect();
+        // A limit and what stands for an answer nearby are told of that answer.
+        let is_near = |a: &carom::answer::Answer| {
+            let mut questions = case.scene.questions.iter();
+            questions.any(|q| {
+                q.name == a.question
+                    && matches!(
+                        q.ask,
+                        scene::Ask::Limit { .. } | scene::Ask::Approximate { .. }
+                    )
+            })
+        };
+        let of_value =
+            |a: &&carom::answer::Answer| a.formula().is_some() && a.range.is_empty() && !is_near(a);
+        for answer in case.worked.told.answers.iter().filter(of_value) {
+            // Within a case the name has no number.
+            let numbered = answer.name.rsplit_once("_case");
+            let plain = numbered.map_or(answer.name.as_str(), |(plain, _)| plain);
+            let named = |name: &str| stands.contains(&carom::expr::Expr::symbol(name));
+            if !named(&answer.name) && !named(plain) {
+                faults.push(format!(
+                    "{}, {detail:?}: {}",
+                    case.path.display(),
+                    answer.name
+                ));
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
 /// The symbols that a sentence takes `from above`.
 fn from_above(text: &[solution::Inline]) -> Vec<&carom::expr::Expr> {
     let symbols = text.iter().filter_map(|piece| match piece {

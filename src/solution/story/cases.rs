@@ -25,11 +25,11 @@ impl Writer<'_> {
     /// otherwise than there, `come` tells how, and all that the equations determine is shown.
     pub(super) fn in_earlier(&mut self, lead: &str, come: Vec<Vec<Math>>) {
         self.say(lead);
-        let anew = !come.is_empty();
-        for math in come {
-            self.show(math, None);
-        }
+        let anew = !come.is_empty() && self.detail() != Detail::Brief;
         if anew {
+            for math in come {
+                self.show(math, None);
+            }
             self.say("They give");
         }
         let questions: Vec<&Question> = self.scene.asked_of_impact().collect();

@@ -8,7 +8,7 @@ use crate::solution::known;
 use crate::solution::neat::tidied;
 use crate::solution::opening::NUMBERS;
 use crate::solution::words::{self, say};
-use crate::solution::{Detail, Inline, Line, Math, Meaning, Part};
+use crate::solution::{Inline, Line, Math, Meaning, Part};
 use crate::story::{Case, StageTold, Step};
 
 /// Largest ratio of two velocities, in nodes, that needs no reason.
@@ -165,10 +165,7 @@ impl Page<'_> {
         math.extend(made.into_iter().flatten());
         math.push(Math::Expr(formula.clone()));
         // What is in given quantities already stands where it was found.
-        let stands = |case: &Case| match self.solution.detail {
-            Detail::Brief if case.handed.is_empty() => self.stands(from, formula),
-            _ => !changes(case, formula),
-        };
+        let stands = |case: &Case| !changes(case, formula) && self.stands(from, name);
         if !here.cases.get(outcome).is_some_and(stands) {
             let step = Some(id);
             end.boxed.push(Line { math, step });
@@ -366,14 +363,15 @@ impl Page<'_> {
             && (part.is_zero() || part == value || *part == opposite)
     }
 
-    /// Whether a formula stands alone on one side of a line, from this section on.
-    fn stands(&self, from: usize, formula: &Expr) -> bool {
+    /// Whether a line tells of this symbol, from this section on.
+    fn stands(&self, from: usize, name: &str) -> bool {
+        let name = Math::Expr(Expr::symbol(name));
         let parts = self.solution.sections[from..].iter().flat_map(|s| &s.parts);
         let mut lines = parts.flat_map(|part| match part {
             Part::Display(lines) | Part::Result(lines) => lines.as_slice(),
             _ => &[],
         });
-        lines.any(|line| matches!(line.math.last(), Some(Math::Expr(e)) if e == formula))
+        lines.any(|line| line.math.contains(&name))
     }
 }
 
