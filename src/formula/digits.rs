@@ -145,7 +145,9 @@ impl Lexer<'_> {
             && self.text[end..].starts_with(' ')
             && behind.is_some_and(|c| c.is_alphabetic() || c == '\\');
         let alone = closer || behind.is_none_or(|c| "+-−±*·/=<>≤≥≈)]},;.$|".contains(c));
-        if !alone || !matches!(self.before, Before::Number { .. }) {
+        // Behind a bracket that ends the text: `(33 + 1/3)%`.
+        let bracket = behind.is_none() && self.text[..start].trim_end().ends_with(')');
+        if !alone || !bracket && !matches!(self.before, Before::Number { .. }) {
             let fault = Fault::new("a percent sign belongs behind a number", start, end);
             return Err(fault.hint("write 5% or 0.05"));
         }

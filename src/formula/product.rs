@@ -231,11 +231,16 @@ fn beside(before: &Written, factor: &Written) -> Faulty<()> {
         Shape::Bracket(inner) => whole(inner),
         _ => whole(w),
     };
-    let mixed = match &factor.shape {
-        Shape::Fraction(above, below) => whole(before) && inner(above) && inner(below),
+    let is_fraction = |w: &Written| match &w.shape {
+        Shape::Fraction(above, below) => inner(above) && inner(below),
         _ => false,
     };
-    if mixed {
+    // `33\frac13\%`: its hundred begins where the fraction does.
+    let percent = match &factor.shape {
+        Shape::Fraction(above, below) => is_fraction(above) && below.start == above.start,
+        _ => false,
+    };
+    if whole(before) && (is_fraction(factor) || percent) {
         let fault = Fault::new("a mixed number or a product", before.start, factor.end);
         return Err(fault.hint("write 3/2 or 1 + 1/2 for one and a half, and * for a product"));
     }

@@ -5,8 +5,8 @@ use num_traits::Signed;
 use super::compare;
 use super::{Diagnosis, Grade, Key, Options, Proof, Verdict, read, show};
 use crate::dimension;
-use crate::expr::{Expr, Function, Node, Symbol};
-use crate::formula::{self, Content, Fault, Note, Reading, Remark};
+use crate::expr::{Expr, Function, Node, Point, Symbol};
+use crate::formula::{self, Content, Fault, Note, Reading, Relation, Remark};
 
 /// `cosθ^2`, read as the cosine of a square, would be right as the square of the cosine.
 pub(super) fn power_of_function(content: &Content) -> Option<Content> {
@@ -135,6 +135,34 @@ pub(super) fn imaginary(key: &Key, reading: &Reading, finding: &mut compare::Fin
         let hint = "write cosines and sines, or declare i and j where they are quantities";
         finding.note = "DIFF";
         finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
+    }
+}
+
+/// `(1, 2) or (2, 1)`: an interval whose ends stand the wrong way round holds nothing and would agree with anything; it is a
+/// point, or a slip.
+pub(super) fn backwards(key: &Key, reading: &Reading, finding: &mut compare::Finding) {
+    let value = |side: &Content| side.expr()?.evaluate(&Point::default());
+    let empty = |part: &Content| match part {
+        Content::Relations(sides, signs) => match (&sides[..], &signs[..]) {
+            (
+                [low, _, high],
+                [
+                    Relation::Less | Relation::LessEqual,
+                    Relation::Less | Relation::LessEqual,
+                ],
+            ) => {
+                let ends: Option<(f64, f64)> = value(low).zip(value(high));
+                ends.is_some_and(|(low, high)| low > high)
+            }
+            _ => false,
+        },
+        _ => false,
+    };
+    let some =
+        |content: &Content| matches!(content, Content::Joined(_, parts) if parts.iter().any(empty));
+    if finding.is_equivalent() && (some(&key.reading.content) || some(&reading.content)) {
+        let words = "the ends of an interval stand the wrong way round; it holds nothing, and may be meant as a point";
+        undecide(finding, words);
     }
 }
 

@@ -138,8 +138,35 @@ pub(super) fn named(expected: &Content, answer: &Content) -> Option<Content> {
     if expected.mentions(UNNAMED) || !answer.mentions(UNNAMED) {
         return None;
     }
-    let subject = Expr::symbol(&subject(expected, &answer.symbols())?);
+    let Some(subject) = subject(expected, &answer.symbols()) else {
+        return points(expected, answer);
+    };
+    let subject = Expr::symbol(&subject);
     Some(answer.map(&|e| e.substitute(&[(UNNAMED.into(), subject.clone())].into())))
+}
+
+/// `(1, 2) or (2, 1)` where two quantities are asked for: points, not intervals.
+fn points(expected: &Content, answer: &Content) -> Option<Content> {
+    let unknowns: Vec<Symbol> = expected.symbols().into_iter().collect();
+    let [x, y] = unknowns.as_slice() else {
+        return None;
+    };
+    let Content::Joined(Join::Or, cases) = answer else {
+        return None;
+    };
+    let point = |case: &Content| match case {
+        Content::Relations(sides, signs) if *signs == [Relation::Less; 2] => {
+            let is = |name: &Symbol, value: &Content| {
+                let sides = vec![Content::Scalar(Expr::symbol(name)), value.clone()];
+                Content::Relations(sides, vec![Relation::Equal])
+            };
+            let both = vec![is(x, sides.first()?), is(y, sides.last()?)];
+            Some(Content::Joined(Join::And, both))
+        }
+        _ => None,
+    };
+    let cases: Option<Vec<Content>> = cases.iter().map(point).collect();
+    Some(Content::Joined(Join::Or, cases?))
 }
 
 /// The symbol that stands alone on a side of every relation, and is no bound; the only one of its own.

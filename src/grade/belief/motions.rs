@@ -2,10 +2,12 @@
 //!
 //! In: a scene with stages. Out: the same scene as believed; the story is told again from there.
 
-use super::slips::{each, slip};
+use super::slips::{each, slip, sticking};
 use super::{BELIEFS, Belief, Slip};
+use crate::answer::Answer;
+use crate::derive;
 use crate::expr::{Expr, dot, minus};
-use crate::scene::{Scene, Stage, StageKind, Turn};
+use crate::scene::{Ask, EnergyWhen, Question, Scene, Stage, StageKind, Turn};
 
 /// The beliefs about motions.
 const MOTIONS: &[Belief] = &[
@@ -107,7 +109,43 @@ pub(in crate::grade) fn in_stages(s: &Scene) -> Vec<(&'static Belief, Slip)> {
             }));
         }
     }
+    let kept = BELIEFS.iter().find(|b| b.code == "ENERGY_KEPT");
+    let kept = kept.map(|belief| energy_kept(s).into_iter().map(move |slip| (belief, slip)));
+    found.extend(kept.into_iter().flatten());
     found
+}
+
+/// Kinetic energy kept in an impact that begins as the file says: the bodies come in faster, by so much that they leave with
+/// all that they had.
+fn energy_kept(s: &Scene) -> Vec<Slip> {
+    each(s, 0..s.stages.len(), |scene, k| {
+        let stage = &mut scene.stages[k];
+        let mut alone = stage.from_the_file()?;
+        // Impulses and losses are not those of bodies that come in faster.
+        let moves = |q: &Question| matches!(q.ask, Ask::Velocity { .. } | Ask::Spin { .. });
+        if sticking(&alone).next().is_none() || !alone.questions.iter().all(moves) {
+            return None;
+        }
+        alone.questions = [EnergyWhen::Lost, EnergyWhen::After]
+            .map(|when| Question::new("energy", None, Ask::Energy { when, of: None }))
+            .to_vec();
+        let energies = derive::derive(&alone).ok()?.answers;
+        let energies: Option<Vec<&Expr>> = energies.iter().map(Answer::formula).collect();
+        let [lost, after] = energies?[..] else {
+            return None;
+        };
+        if after.is_zero() {
+            return None;
+        }
+        let faster = (Expr::one() + lost / after).sqrt();
+        let bodies = alone.bodies.iter().enumerate();
+        let start = bodies.map(|(b, body)| {
+            let velocity = body.velocity.each_ref().map(|v| v * &faster);
+            (b, Some(velocity), Some(&body.spin * &faster))
+        });
+        stage.start = start.collect();
+        Some(format!("in {}", stage.name))
+    })
 }
 
 /// The scene with one motion changed, for each that `change` changes.

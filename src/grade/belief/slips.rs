@@ -155,7 +155,7 @@ pub(super) fn other_shapes(s: &Scene, b: usize) -> Vec<(Expr, String)> {
             of(1, 3, length, "taken about the end"),
             of(1, 2, length, "a disk"),
             of(1, 1, length, "all mass at the end"),
-            of(1, 4, length, "half of it"),
+            of(1, 4, length, "all mass at both ends"),
             of(1, 6, length, "twice as much"),
             of(1, 24, length, "half as much"),
         ],

@@ -3,7 +3,7 @@
 use crate::formula::Fault;
 
 /// Words and arrows behind a formula for a direction, each with its sense along x and y or about the axis out of the page.
-const SENSES: [(&str, [i32; 3]); 31] = [
+const SENSES: [(&str, [i32; 3]); 35] = [
     ("counterclockwise", [0, 0, 1]),
     ("anticlockwise", [0, 0, 1]),
     ("clockwise", [0, 0, -1]),
@@ -25,6 +25,10 @@ const SENSES: [(&str, [i32; 3]); 31] = [
     ("westward", [-1, 0, 0]),
     ("northward", [0, 1, 0]),
     ("southward", [0, -1, 0]),
+    ("to the east", [1, 0, 0]),
+    ("to the west", [-1, 0, 0]),
+    ("to the north", [0, 1, 0]),
+    ("to the south", [0, -1, 0]),
     ("↺", [0, 0, 1]),
     ("↻", [0, 0, -1]),
     ("→", [1, 0, 0]),
