@@ -621,3 +621,11 @@ fn the_numbers_of_every_stage_are_printed() {
     scene.parameters[0].value = None;
     assert!(follow::values(&scene).is_err_and(|missing| missing.len() == 1));
 }
+
+#[test]
+fn what_follows_the_case_that_is_supposed_rests_on_its_condition() {
+    let told = told(&scene("ball-bounces-with-backspin"));
+    let x = told.answers.iter().find(|a| a.name == "x");
+    let given = plain(&x.expect("where it lands").assumptions);
+    assert!(given.contains("sticks in compression"), "{given}");
+}

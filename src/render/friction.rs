@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::{latex, unicode};
-use crate::answer::{Answer, Check, Form};
+use crate::answer::{Answer, Check};
 use crate::derive::friction::{Bound, Case, Direction, Table};
 use crate::expr::Expr;
 use crate::formula::write_plain;
@@ -83,8 +83,9 @@ pub fn text(
             };
             let is_common = |a: &&Answer| about.iter().any(|b| b.name == a.name);
             for answer in each.told.answers.iter().filter(|a| !is_common(a)) {
-                if let Form::Value { short, .. } = &answer.form {
-                    say(&format!("  {} = {}", answer.name, unicode(scene, short)));
+                say(&format!("  {}", super::text::says(scene, None, answer)));
+                for line in &answer.text {
+                    say(&format!("    {}", line.written(|e| unicode(scene, e))));
                 }
             }
             for definition in &impact.derivation.definitions {

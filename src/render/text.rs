@@ -154,7 +154,7 @@ pub fn answers(scene: &Scene, of: Option<&Told>, answers: &[Answer]) -> String {
 }
 
 /// An answer in one line: its formula, equation or range, with the number it has at the given values.
-fn says(scene: &Scene, alone: Option<&Derivation>, a: &Answer) -> String {
+pub(super) fn says(scene: &Scene, alone: Option<&Derivation>, a: &Answer) -> String {
     let name = &a.name;
     let is_it = |q: &&Question| q.name == a.question;
     let asked = scene.questions.iter().find(is_it).map(|q| &q.ask);

@@ -286,6 +286,19 @@ impl Resolver<'_> {
             SupposedName::InsideCone => Mode::InsideCone,
             SupposedName::OnCone => Mode::OnCone,
         });
+        let by_cone = matches!(hypothesis, Hypothesis::ChatterjeeRuina { .. });
+        let is_cone = |mode: &Mode| matches!(mode, Mode::InsideCone | Mode::OnCone);
+        if let Some(mode) = supposing.filter(|mode| is_cone(mode) != by_cone) {
+            let (words, law) = (mode.words(), hypothesis.name());
+            let message = format!("the law of {law} knows no `{words}`");
+            let hint = match by_cone {
+                true => {
+                    "its impulse lies \"inside the cone\", where the slip ends as `tangential_restitution` says, or \"on the cone\", where it does not"
+                }
+                false => "the contact slides or sticks; the cone belongs to \"chatterjee-ruina\"",
+            };
+            self.report(contact.span, message, hint);
+        }
         Some(ContactLaw::Friction(Box::new(Friction {
             mu: mu.or_else(|| brach.then(Expr::zero))?,
             restitution: restitution?,

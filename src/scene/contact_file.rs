@@ -1,5 +1,6 @@
 //! What acts on bodies, as a scene file writes it: hinges, contacts with their laws, blows, what is known after, forces.
 
+use super::fault::Span;
 use super::place_file::{DirectionFile, PositionFile};
 use super::record::{Formula, Pair, Text, choice, record};
 
@@ -93,6 +94,26 @@ record! {
         passes: Option<bool>,
         /// What the contact does, if the answer for this one case is wanted.
         supposing: Option<SupposedName>,
+    }
+}
+
+impl ContactFile {
+    /// Of these bodies, with nothing said of it.
+    pub(super) fn between(span: Span, bodies: Pair<Text>) -> ContactFile {
+        ContactFile {
+            span,
+            bodies,
+            at: None,
+            normal: None,
+            law: None,
+            restitution: None,
+            mu: None,
+            hypothesis: None,
+            tangential_restitution: None,
+            impulse_ratio: None,
+            passes: None,
+            supposing: None,
+        }
     }
 }
 

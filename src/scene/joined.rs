@@ -97,13 +97,31 @@ pub(super) fn keep(scene: &mut Scene) {
                     None => break,
                 },
             }
-            let [a, b] = bodies.map(|b| &scene.bodies[b].name);
-            let reading = format!("once `{b}` has stuck to `{a}`, it stays stuck");
-            if !scene.readings.contains(&reading) {
-                scene.readings.push(reading);
-            }
+            let names = bodies.map(|b| scene.bodies[b].name.clone());
+            stays(scene, &names);
         }
     }
+}
+
+/// The scene tells that what has stuck stays stuck.
+pub(super) fn stays(scene: &mut Scene, [a, b]: &[String; 2]) {
+    let reading = format!("once `{b}` has stuck to `{a}`, it stays stuck");
+    if !scene.readings.contains(&reading) {
+        scene.readings.push(reading);
+    }
+}
+
+/// The two, by name, that stick at a contact of this name after a stage, one of them a particle.
+pub(super) fn sticking_at(scene: &Scene, from: Option<usize>, name: &str) -> Option<[String; 2]> {
+    let stage = Stage {
+        from,
+        ..Stage::default()
+    };
+    let mut joints = joints(&scene.stages, &stage).into_iter();
+    let is_small = |b: &usize| scene.bodies[*b].is_particle();
+    let joint =
+        joints.find(|j| j.name == name && j.how != HINGED && j.bodies.iter().any(is_small))?;
+    Some(joint.bodies.map(|b| scene.bodies[b].name.clone()))
 }
 
 /// Notes with each flight which of its bodies are joined by then.

@@ -570,7 +570,8 @@ fn beginnings(
         }
         for (k, case) in told.cases.iter().enumerate() {
             let mut given = told.given.clone();
-            if told.cases.len() > 1 {
+            // The only one that is supposed, or that values leave, rests on something as well.
+            if told.cases.len() > 1 || is_open(&told.placed) {
                 given.extend(case.conditions.iter().cloned());
             }
             out.push((Some((parent, k)), case.after.clone(), given));
@@ -587,6 +588,14 @@ fn only_cases(stages: &[StageTold], branch: Option<(usize, usize)>) -> Vec<(Stri
         _ => None,
     });
     only.flatten().collect()
+}
+
+/// Whether an impact may come out one way or another.
+fn is_open(stage: &Stage) -> bool {
+    let StageKind::Impact { one_sided, .. } = &stage.kind else {
+        return false;
+    };
+    !one_sided.is_empty() || stage.scene.friction().is_some()
 }
 
 /// One stage, from a state and what must be ≥ 0 on the way there.

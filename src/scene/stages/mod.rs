@@ -20,13 +20,13 @@ use crate::expr::{Expr, Symbol, Vector, minus};
 use crate::formula::near::nearest;
 use crate::scene::body_file::VelocityFile;
 use crate::scene::check::{Claim, Claimed, check};
-use crate::scene::contact_file::ContactFile;
+use crate::scene::contact_file::{ContactFile, LawName};
 use crate::scene::fault::Fault;
 use crate::scene::file::SceneFile;
 use crate::scene::formulas::{Quantity, Symbols};
 use crate::scene::place::Place;
 use crate::scene::questions::About;
-use crate::scene::record::{Map, Text};
+use crate::scene::record::{Map, Pair, Text};
 use crate::scene::resolve::{Resolver, entries, keys};
 use crate::scene::stage::{OneSided, Stage, StageKind};
 use crate::scene::stage_file::{EndName, StageFile, StartFile};
@@ -112,7 +112,7 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     let readings = file.assumptions.iter().flatten();
     scene.readings = readings.map(|t| t.text.clone()).collect();
     let homes = homes(base, stages);
-    let composed: Vec<SceneFile> = (0..stages.len())
+    let mut composed: Vec<SceneFile> = (0..stages.len())
         .map(|i| composed(file, &stages[i], i, &homes))
         .collect();
     let names = earlier::names(file);
@@ -132,6 +132,7 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
         };
         let symbols = std::mem::replace(&mut base.symbols, Symbols::new(Default::default()));
         let left_at = left_at(&read, from);
+        held_on(&mut composed[i], scene, (&read, from));
         let (one, symbols, faults) = one(&composed[i], stage, (from, &left_at), scene, symbols);
         base.symbols = symbols;
         base.faults.extend(faults);
@@ -365,18 +366,9 @@ fn composed(
         .flat_map(|m| m.0.iter());
     let one_sided = one_sided.map(|(name, entry)| {
         let entry = entry.as_ref().map(|e| ContactFile {
-            span: e.span,
-            bodies: e.bodies.clone(),
             at: e.at.clone(),
             normal: Some(e.normal.clone()),
-            law: None,
-            restitution: None,
-            mu: None,
-            hypothesis: None,
-            tangential_restitution: None,
-            impulse_ratio: None,
-            passes: None,
-            supposing: None,
+            ..ContactFile::between(e.span, e.bodies.clone())
         });
         (name.clone(), entry)
     });
@@ -403,6 +395,63 @@ fn composed(
         .map(|(_, q)| q)
         .collect()));
     out
+}
+
+/// Repeats in an impact the contacts of earlier ones whose impulse is asked of it, where what stuck there still sticks.
+fn held_on(
+    file: &mut SceneFile,
+    scene: &mut Scene,
+    (read, from): (&[Option<Stage>], Option<usize>),
+) {
+    let hinges = keys(file.hinges.as_ref());
+    let here = [
+        keys(file.contacts.as_ref()),
+        hinges,
+        keys(file.blows.as_ref()),
+    ]
+    .concat();
+    let asked = entries(file.questions.as_ref()).into_iter();
+    let asked = asked.filter_map(|(_, q)| q.impulse.clone());
+    let mut missing: Vec<Text> = asked.collect();
+    missing.retain(|name| here.iter().all(|here| here.text != name.text));
+    let stages: Option<Vec<Stage>> = read.iter().cloned().collect();
+    let (Some(stages), false, Some(contacts)) = (stages, missing.is_empty(), &mut file.contacts)
+    else {
+        return;
+    };
+    let mut before = Scene {
+        bodies: scene.bodies.clone(),
+        stages,
+        ..Scene::default()
+    };
+    joined::keep(&mut before);
+    for name in missing {
+        let Some(bodies) = joined::sticking_at(&before, from, &name.text) else {
+            continue;
+        };
+        joined::stays(scene, &bodies);
+        let bodies = bodies.map(|text| Text {
+            text,
+            ..name.clone()
+        });
+        let is_said = contacts.0.iter().any(|(other, entry)| {
+            let pair = entry.as_ref().map(|contact| &contact.bodies.items);
+            let names =
+                |pair: &[Text; 2]| bodies.iter().all(|b| pair.iter().any(|p| p.text == b.text));
+            other.text == name.text || pair.is_some_and(names)
+        });
+        if !is_said {
+            let pair = Pair {
+                span: name.span,
+                items: bodies,
+            };
+            let contact = ContactFile {
+                law: Some(LawName::Sticking),
+                ..ContactFile::between(name.span, pair)
+            };
+            contacts.0.push((name, Some(contact)));
+        }
+    }
 }
 
 /// Symbols for where the bodies are when a stage begins; no parameter has a blank in its name.

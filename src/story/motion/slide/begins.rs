@@ -170,21 +170,24 @@ pub(super) fn rims(line: &Line<'_>, before: &State) -> Result<(), Refused> {
     Ok(())
 }
 
-/// Refuses a speed or distance that is negative; one that may be is supposed not to be.
-pub(super) fn not_negative(
+/// Refuses a speed or distance that is negative; one that may be is supposed not to be, nor to be zero where it has to get
+/// somewhere.
+pub(super) fn forward(
     stage: &Stage,
     slide: &Slide,
-    what: &str,
-    size: &Expr,
+    (what, size, moves): (&str, &Expr, bool),
     supposed: &mut Supposed<'_>,
 ) -> Result<(), Refused> {
     let name = &stage.scene.bodies[slide.body].name;
-    let forward = format!("`{name}` does not move backward");
-    supposed.not_negative(size, forward, || {
+    let refused = || {
         let size = write_plain(size);
         let why = format!(
             "`{name}` is to move along the line, and its {what} along it, {size}, is negative"
         );
         Refused::new(&stage.name, why, "turn the direction round")
-    })
+    };
+    match moves && is_zero(size, &stage.scene.domains) != Some(true) {
+        true => supposed.positive(size, format!("`{name}` moves forward"), refused),
+        false => supposed.not_negative(size, format!("`{name}` does not move backward"), refused),
+    }
 }

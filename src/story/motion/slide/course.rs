@@ -106,6 +106,11 @@ impl Line<'_> {
         })
     }
 
+    /// Whether no force that stays the same makes it faster or slower.
+    pub fn is_steady(&self) -> bool {
+        is_zero(&self.acceleration, self.domains()) == Some(true)
+    }
+
     /// Time and velocity at the end of a distance; no time where it rests all along.
     fn over(&self, s: &Expr, supposed: &mut Supposed<'_>) -> Result<(Option<Expr>, Expr), Refused> {
         let a = &self.acceleration;
@@ -113,7 +118,7 @@ impl Line<'_> {
             let speed = self.arrival(s, supposed)?;
             return Ok((Some(self.swinging(spring, s)?), speed));
         }
-        let still = is_zero(a, self.domains()) == Some(true);
+        let still = self.is_steady();
         let speed = match still {
             true => self.speed.clone(),
             false => self.arrival(s, supposed)?,

@@ -38,9 +38,11 @@ pub(in crate::story) fn slide(
     begins::fits(stage, &before, slide)?;
     begins::springy(stage, slide)?;
     let line = Line::of(stage, &before, slide, &mut limits)?;
-    begins::not_negative(stage, slide, "speed", &line.speed, &mut supposed)?;
+    let is_steady = slide.spring.is_none() && line.is_steady();
+    let moves = is_steady && matches!(slide.until, SlideEnd::Distance(_));
+    begins::forward(stage, slide, ("speed", &line.speed, moves), &mut supposed)?;
     if let SlideEnd::Distance(distance) = &slide.until {
-        begins::not_negative(stage, slide, "distance", distance, &mut supposed)?;
+        begins::forward(stage, slide, ("distance", distance, false), &mut supposed)?;
     }
     // On a spring neither the force nor the acceleration stays as it is.
     let swings = slide.spring.is_some() && matches!(slide.until, SlideEnd::Time(_));
