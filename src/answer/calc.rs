@@ -260,6 +260,10 @@ pub fn above_zero(e: &Expr, domains: &Domains) -> Sentence {
 /// `e > 0` where zero is excluded, else `e ≥ 0`.
 pub(super) fn beyond_zero(e: &Expr, domains: &Domains, open: bool) -> Sentence {
     let e = essential(e, domains);
+    // A root that has a value is positive where what stands under it is.
+    if let Some(inside) = e.under_root().filter(|_| open) {
+        return beyond_zero(inside, domains, open);
+    }
     let e = squared(&e, domains).unwrap_or(e);
     match open {
         true => Sentence::positive(&e),

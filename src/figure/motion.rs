@@ -102,7 +102,7 @@ pub fn motion(scene: &Scene, values: &Values, course: &Course) -> Option<Sheet> 
         stage.body(sheet, end, [0.0, 0.0]);
     }
     if let StageKind::Slide(slide) = kind {
-        stage.pressed(sheet, slide, end);
+        stage.pressed(sheet, slide, [from, end]);
     }
     stage.hinges(sheet, &|_| true);
     for (b, way) in &gone.ways {

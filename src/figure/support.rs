@@ -104,13 +104,20 @@ impl Stage<'_> {
         }
     }
 
-    /// The spring along a line, at a body that has come to its end: ahead of a body that comes to it relaxed, behind one that
-    /// it pushes on.
-    pub(super) fn pressed(&self, sheet: &mut Sheet, slide: &Slide, end: &Pose) -> Option<()> {
-        let pushes = !slide.spring.as_ref()?.relaxed.is_zero();
+    /// The spring along a line: ahead of a body at its end, or behind one at its beginning that it pushes on.
+    pub(super) fn pressed(
+        &self,
+        sheet: &mut Sheet,
+        slide: &Slide,
+        [from, end]: [&Pose; 2],
+    ) -> Option<()> {
+        let relaxed = self.values.of(&slide.spring.as_ref()?.relaxed)?;
         let along = unit(self.values.pair(&slide.along)?);
-        let way = if pushes { opposite(along) } else { along };
-        spring(sheet, self.rim(end, end.center, opposite(way)), way);
+        let (pose, way) = match relaxed > 0.0 {
+            true => (from, opposite(along)),
+            false => (end, along),
+        };
+        spring(sheet, self.rim(pose, pose.center, opposite(way)), way);
         Some(())
     }
 

@@ -72,6 +72,9 @@ fn among(word: &str, here: &[&str]) -> Option<Option<&'static str>> {
         "k" | "constant" | "spring_constant" if has("stiffness") => {
             "the constant of a spring is its `stiffness`"
         }
+        "compressed" | "compression" | "pressed" if has("stiffness") => {
+            "a spring that is pressed by d when the stage begins has \"relaxed\": \"d\""
+        }
         "collision" | "collide" | "hit" | "strike" | "blow" if has("impact") => {
             "bodies that collide do so in an `impact`, at its `contacts`"
         }

@@ -37,6 +37,9 @@ const POINTS: u64 = 3;
 /// Points tried at most where the first ones have no rational values.
 const MORE_POINTS: u64 = 60;
 
+/// What an impact rests on where bodies separate at some of the points.
+pub(crate) const APPROACH: &str = "the bodies approach each other at the contact";
+
 /// The outcome of all checks.
 #[derive(Clone, Debug, Default)]
 pub struct Proof {
@@ -280,9 +283,7 @@ fn admissible(scene: &Scene, derivation: &Derivation, runs: &[Run<Rational>], pr
         }
     }
     if separating > 0 {
-        proof.assumptions.push(String::from(
-            "the bodies approach each other at the contact",
-        ));
+        proof.assumptions.push(String::from(APPROACH));
     }
     if let Some(most) = most {
         let told: Vec<String> = ratios.iter().flatten().map(write_plain).collect();

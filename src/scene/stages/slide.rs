@@ -60,7 +60,11 @@ pub(super) fn slide(
     let wrong = twice.map(|twice| {
         let name = &scene.bodies[twice[0]].name;
         let message = format!("`{name}` moves along with itself");
-        (message, "name each body once")
+        let is_drum = out
+            .strings
+            .iter()
+            .any(|s| s.to.contains(&twice[0]) && s.over.contains(&twice[0]));
+        (message, if is_drum { DRUM } else { "name each body once" })
     });
     match wrong.or_else(|| unfit(scene, &out)) {
         Some((message, hint)) => r.refuse(span, message, hint),
@@ -221,6 +225,8 @@ fn spring(r: &mut Resolver<'_>, spring: &SpringFile) -> Option<Spring> {
     })
 }
 
+const DRUM: &str = "where the string is wound on a drum, a `linkage` whose coordinate is the length run off moves both; the drum turns by that over its radius";
+
 /// A string over pulleys with what moves at its other end.
 fn strung(r: &mut Resolver<'_>, scene: &Scene, string: &StrungFile) -> Option<Strung> {
     let to: Vec<_> = string.to.iter().map(|name| r.moving(name)).collect();
@@ -238,9 +244,7 @@ fn strung(r: &mut Resolver<'_>, scene: &Scene, string: &StrungFile) -> Option<St
     if to.is_empty() || !(1..=2).contains(&over.len()) {
         let message = "a string runs over one or two pulleys to one or more bodies";
         let hint = match to.is_empty() {
-            true => {
-                "where the string is wound on a drum, a `linkage` whose coordinate is the length run off moves both; the drum turns by that over its radius"
-            }
+            true => DRUM,
             false => "a body that is pulled along the same line is named under `with`",
         };
         return r.refuse(string.span, message, hint);

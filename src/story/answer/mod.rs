@@ -15,6 +15,7 @@ use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, sentence};
 use crate::scene::{Ask, Question, Scene, Stage, StageKind};
+use crate::verify::APPROACH;
 
 /// Answers all questions.
 pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Refused> {
@@ -413,7 +414,12 @@ fn each_outcome(
 
 /// What an outcome of an impact rests on, and what must hold for it.
 fn rests_on(case: &Case) -> Vec<Sentence> {
+    let mut conditions = case.conditions.iter();
+    // When they approach is told with the contact.
+    let is_told = conditions.any(|(words, _)| words.starts_with("the bodies approach at"));
+    let told = |words: &Sentence| is_told && words.to_string() == APPROACH;
     case.assumptions()
+        .filter(|words| !told(words))
         .chain(case.conditions.iter().map(supposed))
         .collect()
 }
@@ -439,7 +445,7 @@ fn quantity(
     let mut out = Vec::new();
     for (i, told, way) in ways {
         let outcomes = told.cases.iter();
-        let name = (scene.stages.len() > 1).then_some(told.name.as_str());
+        let name = (scene.stages.len() > 1).then_some(told.placed.name.as_str());
         let outcomes = outcomes.flat_map(|case| of_case(question, (name, case), cases > 1));
         let mut own = match told.cases.is_empty() {
             true => motion::at_end(scene, question, told)?,

@@ -119,6 +119,17 @@ fn waits(scene: &Scene, b: usize, before: &State) -> Option<String> {
 fn pulls(stage: &Stage, scene: &Scene, one_sided: &[OneSided]) -> Result<(), Refused> {
     for string in one_sided.iter().filter(|o| o.is_string) {
         let [first, second] = string.bodies.map(|b| &scene.bodies[b]);
+        let held = |b: &usize| scene.hinges.iter().any(|h| h.bodies.contains(b));
+        let mut loose = string.bodies.iter().filter(|b| !held(b));
+        if let Some(pulley) = loose.find(|b| scene.bodies[**b].is_light_pulley()) {
+            let name = &scene.bodies[*pulley].name;
+            let why = format!(
+                "nothing holds the pulley `{name}` against the string `{}`",
+                string.name
+            );
+            let hint = "hinge it to a fixed body in this impact: \"hinges\": {\"O\": {\"bodies\": [\"ceiling\", \"pulley\"], \"at\": …}}";
+            return Err(Refused::new(&stage.name, why, hint));
+        }
         if !first.is_particle() || !second.is_particle() {
             continue;
         }
