@@ -410,7 +410,7 @@ fn held_on(
         keys(file.blows.as_ref()),
     ]
     .concat();
-    let asked = entries(file.questions.as_ref()).into_iter();
+    let asked = entries(file.questions.as_ref());
     let asked = asked.filter_map(|(_, q)| q.impulse.clone());
     let mut missing: Vec<Text> = asked.collect();
     missing.retain(|name| here.iter().all(|here| here.text != name.text));
