@@ -150,19 +150,19 @@ impl Worked {
 
     /// What is to be drawn of its stages, by name.
     pub fn chapters(&self) -> Vec<(String, Chapter)> {
-        let chapter = |t: &StageTold| {
+        let chapter = |(i, t): (usize, &StageTold)| {
             let chapter = match story::impact(&self.scene, &self.told, Some(&t.placed.name)) {
                 Some(impact) => Chapter::Impact(impact),
                 None if t.way.as_ref().is_some_and(|way| way.is_zero()) => Chapter::Rest,
                 None => Chapter::Motion(Course {
-                    begin: story::beginning(t),
+                    begin: story::beginning(&self.told, i),
                     kind: t.placed.kind.clone(),
                     asked: self.asked_of(&t.placed.name),
                 }),
             };
             (t.name.clone(), chapter)
         };
-        self.told.stages.iter().map(chapter).collect()
+        self.told.stages.iter().enumerate().map(chapter).collect()
     }
 
     /// The questions about a stage.

@@ -35,6 +35,8 @@ pub fn document(s: &Solution, pictures: &[Picture]) -> String {
         text(title),
         body(s, pictures)
     )
+    // Other Greek letters are spelled out where a name is read.
+    .replace('π', "\\pi ")
 }
 
 /// Scales a formula that is wider than the line down to it.

@@ -125,7 +125,7 @@ fn words(index: &str) -> String {
                 flush(&mut word, &mut out);
                 out.push_str(&format!("<mo lspace=\"0\" rspace=\"0\">{c}</mo>"));
             }
-            c => word.push(if c == '_' { ' ' } else { c }),
+            c => word.push(if "_-".contains(c) { ' ' } else { c }),
         }
     }
     flush(&mut word, &mut out);

@@ -3,7 +3,7 @@
 use super::balance::Outside;
 use super::words::{self, fill, name, set, vector};
 use super::{Claim, Inline, Math, Writer};
-use crate::expr::{Expr, Vector, cross};
+use crate::expr::{Expr, Symbol, Vector, cross};
 use crate::laws::Place;
 
 impl Writer<'_> {
@@ -57,7 +57,14 @@ impl Writer<'_> {
             Place::Center(_) if self.scene.bodies.iter().filter(|b| !b.is_fixed()).count() == 1 => {
                 String::from("G")
             }
-            _ => o.clone(),
+            // Of two balances about one point the second says whose it is.
+            _ => match (
+                self.told.insert(Symbol::from(format!("H about {o}"))),
+                system,
+            ) {
+                (false, [b]) => format!("{o},{}", words::center(self.scene, *b)),
+                _ => o.clone(),
+            },
         };
         let outside: Vec<Outside> = self
             .outside(system, Some(about))

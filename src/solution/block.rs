@@ -324,9 +324,17 @@ impl Writer<'_> {
             .iter()
             .map(|(u, _)| Symbol::from(self.d.names.plain(*u)));
         self.told.extend(names);
-        self.push(Part::Result(
-            answers.into_iter().map(|(_, line)| line).collect(),
-        ));
+        let boxed: Vec<Line> = answers.into_iter().map(|(_, line)| line).collect();
+        // An equation that is the value already stands in the box alone.
+        let parts = self.solution.sections.last_mut().map(|s| &mut s.parts);
+        for part in parts.into_iter().flatten() {
+            if let Part::Display(lines) = part
+                && !lines.iter().all(|l| boxed.iter().any(|b| b.math == l.math))
+            {
+                lines.retain(|l| boxed.iter().all(|b| b.math != l.math));
+            }
+        }
+        self.push(Part::Result(boxed));
     }
 
     /// Says of impulses that results are written with, and that are not found yet, what they are and that they come.

@@ -6,7 +6,7 @@ use super::rough;
 use super::words::{self, fill, say, set};
 use super::{Claim, Detail, Inline, Line, Math, Part, Slot, Solution, Writer};
 use crate::expr::{Expr, Symbol, dot, minus};
-use crate::scene::{Body, Scene, Shape};
+use crate::scene::{Body, Parameter, Scene, Shape};
 
 /// How the sentence about the axes begins.
 pub(super) const AXES: &str = "Let x point right and y up; counterclockwise is positive";
@@ -60,10 +60,33 @@ impl Solution {
         let begins = |text: &[Inline], with: &str| matches!(text.first(), Some(Inline::Text(t)) if t.starts_with(with));
         let numbers = texts.iter().position(|text| begins(text, NUMBERS));
         let here = texts.iter().position(|text| begins(text, "Here "));
-        if let (Some(numbers), Some(here), Some(meant)) = (numbers, here, words::meant(scene, true))
-        {
+        let Some(numbers) = numbers else {
+            return;
+        };
+        let meant = here.zip(words::meant(scene, true));
+        let is_told = |p: &Parameter| meant.is_some() && !p.meaning.is_empty();
+        let (told, rest): (Vec<_>, Vec<_>) = scene.parameters.iter().partition(|p| is_told(p));
+        let rest = rest.into_iter().filter_map(|p| {
+            let value = words::value(p)?;
+            Some([words::formula(&Expr::symbol(&p.name)), say(" = "), value])
+        });
+        let in_brackets = told.iter().any(|p| p.value.is_some());
+        let brackets = in_brackets.then(|| vec![say("the values in brackets")]);
+        let all: Vec<Vec<Inline>> = brackets.into_iter().chain(rest.map(Vec::from)).collect();
+        let mut lead = vec![say("With ")];
+        for (i, one) in all.iter().enumerate() {
+            let comma = if i + 1 == all.len() { " and " } else { ", " };
+            lead.extend((i > 0).then(|| say(comma)));
+            lead.extend(one.iter().cloned());
+        }
+        // Behind equations a comma would be one more of their row.
+        let is_row = !in_brackets || all.len() > 1;
+        lead.push(say(if is_row { ": " } else { ", " }));
+        if !all.is_empty() {
+            texts[numbers].splice(0..1, lead);
+        }
+        if let Some((here, meant)) = meant {
             *texts[here] = meant;
-            texts[numbers][0] = say("With the values in brackets, ");
         }
     }
 }

@@ -239,8 +239,11 @@ impl Writer<'_> {
                 all.any(|d| !named(&d.name) && short.symbols().contains(&d.name))
             });
         let short = !abbreviated && rows.iter().all(|(l, r)| l.size() + r.size() <= READABLE);
-        // What holds impulses alone stands there already.
-        let is_mixed = |e: &Equation| e.terms.iter().any(|(u, _)| !u.is_impulse());
+        // What holds impulses alone, or velocities that are given, stands there already.
+        let is_mixed = |e: &Equation| {
+            let mut found = e.terms.iter().filter(|(u, _)| block.unknowns.contains(u));
+            found.any(|(u, _)| !u.is_impulse())
+        };
         let mixed = rows.into_iter().zip(&others);
         let rows: Vec<_> = mixed
             .filter(|(_, e)| is_mixed(e))

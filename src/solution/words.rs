@@ -141,21 +141,25 @@ pub fn meant(scene: &Scene, values: bool) -> Option<Vec<Inline>> {
         };
         text.push(say(format!(" is {article}")));
         text.extend(with_symbols(scene, &p.meaning));
-        if let Some(value) = p.value.as_ref().filter(|_| values) {
-            text.push(say(" ("));
-            text.push(match value.as_number().map(crate::expr::number::to_f64) {
-                // As the scene writes it: a moment is so many N m.
-                Some(number) if p.scale().is_one() && is_plain(&p.unit) => {
-                    say(format!("{} {}", digits(number), p.unit))
-                }
-                Some(number) => say(p.dimension.measured(&digits(number))),
-                None => formula(value),
-            });
-            text.push(say(")"));
+        if let Some(value) = value(p).filter(|_| values) {
+            text.extend([say(" ("), value, say(")")]);
         }
         text.push(say(end));
     }
     Some(text)
+}
+
+/// The value that the scene gives a parameter, with its unit.
+pub fn value(p: &Parameter) -> Option<Inline> {
+    let value = p.value.as_ref()?;
+    Some(match value.as_number().map(crate::expr::number::to_f64) {
+        // As the scene writes it: a moment is so many N m.
+        Some(number) if p.scale().is_one() && is_plain(&p.unit) => {
+            say(format!("{} {}", digits(number), p.unit))
+        }
+        Some(number) => say(p.dimension.measured(&digits(number))),
+        None => formula(value),
+    })
 }
 
 /// Whether a unit reads as it is typed.

@@ -3,7 +3,7 @@
 //! In: a scene as it was told. Out: the scene of an impact with the motion handed on put in, and its derivation with
 //! the answers of the whole story in place of its own. Nothing is derived here.
 
-use super::{Case, StageTold, Told, worlds};
+use super::{Case, StageTold, Told, line, worlds};
 use crate::answer::calc::sign;
 use crate::answer::{Answer, Form};
 use crate::derive::{self, Derivation, Stop};
@@ -50,13 +50,20 @@ pub fn impacts(scene: &Scene, told: &Told) -> Vec<(String, Scene)> {
     outcomes(told).map(put).collect()
 }
 
-/// The scene at the beginning of a stage: the bodies where they are, in the motion they have.
-pub fn beginning(told: &StageTold) -> Scene {
-    let mut out = told.placed.scene.clone();
+/// The scene at the beginning of a stage, by index: the bodies where they are, in the motion they have, where the motions
+/// before it go as told.
+pub fn beginning(told: &Told, stage: usize) -> Scene {
+    let stages = &told.stages;
+    let mut out = stages[stage].placed.scene.clone();
     for (b, body) in out.bodies.iter_mut().enumerate() {
         if !body.is_fixed() {
-            body.velocity.clone_from(&told.before.velocity[b]);
-            body.spin.clone_from(&told.before.spin[b]);
+            body.velocity.clone_from(&stages[stage].before.velocity[b]);
+            body.spin.clone_from(&stages[stage].before.spin[b]);
+        }
+    }
+    for (i, _) in line(stages, (stage, 0)) {
+        for need in &stages[i].needs {
+            out.domains = out.domains.given(need, false);
         }
     }
     out

@@ -135,6 +135,7 @@ impl Page<'_> {
                         continue;
                     }
                     let parts = cluster.bodies.iter().map(|b| mass(b) * &of[*b][k]);
+                    let parts = parts.map(|part| tidied(self.scene, &part));
                     let raw = Expr::sum(parts) / &all;
                     let index = if is_rate {
                         format!("{g},{axis}")
@@ -285,6 +286,7 @@ impl Page<'_> {
             } if fall.bodies().contains(body) => {
                 let along = direction(along);
                 let from = tidied(self.scene, &dot(&told.before.center[*body], &along));
+                let from = self.named(&from);
                 [&shown, time].map(|time| &from + dot(&self.way(told, fall, *body, time), &along))
             }
             Ask::Velocity {

@@ -136,8 +136,9 @@ impl Page<'_> {
             if both {
                 self.solution.say(&format!("At the {when}:"));
             }
-            let lines = lines.into_iter().map(Line::plain);
-            self.solution.display(lines.collect());
+            let fresh = lines.into_iter().filter(|line| !self.solution.shows(line));
+            let fresh = fresh.map(Line::plain).collect();
+            self.solution.display(fresh);
         }
     }
 

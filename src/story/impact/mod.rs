@@ -120,9 +120,9 @@ fn no_case(stage: &Stage, base: &Scene, contradiction: Option<String>) -> Refuse
         ),
     };
     let hint = match base.friction() {
-        None => "look at the directions `normal`, and at the motion handed on",
+        None => "look at the directions `normal`, and at the motion before the impact",
         Some(_) => {
-            "look at the directions `normal`, and at the motion handed on; with friction a support may let go and come back while the impact lasts, which is not followed"
+            "look at the directions `normal`, and at the motion before the impact; with friction a support may let go and come back while the impact lasts, which is not followed"
         }
     };
     Refused {
