@@ -477,9 +477,7 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
                 }
             }
             let begins = several.then(|| before.clone());
-            let mut on_the_way = given.clone();
-            on_the_way.extend(only_cases(&stages, branch));
-            let told = one(scene, &stages, &placed, (before, &on_the_way));
+            let told = one(scene, &stages, &placed, (before, &given));
             let mut told = match (told, begins) {
                 (Ok(told), _) => told,
                 (Err(why), _) if why.contradicts => {
@@ -578,16 +576,6 @@ fn beginnings(
         }
     }
     out
-}
-
-/// What must be ≥ 0 for the impacts on the way to a stage that have one outcome, as it was supposed or as values leave it.
-fn only_cases(stages: &[StageTold], branch: Option<(usize, usize)>) -> Vec<(String, Expr)> {
-    let way = branch.into_iter().flat_map(|at| line(stages, at));
-    let only = way.filter_map(|(stage, _)| match stages[stage].cases.as_slice() {
-        [case] => Some(case.conditions.clone()),
-        _ => None,
-    });
-    only.flatten().collect()
 }
 
 /// Whether an impact may come out one way or another.
