@@ -138,6 +138,38 @@ pub(super) fn imaginary(key: &Key, reading: &Reading, finding: &mut compare::Fin
     }
 }
 
+/// `x = n pi` for an equation in sines: its n may stand for any whole number, which is told of no symbol.
+pub(super) fn any_whole_number(key: &Key, reading: &Reading, finding: &mut compare::Finding) {
+    let asked = key.reading.content.symbols();
+    let said = reading.content.symbols();
+    let is_count = |name: &Symbol| matches!(&**name, "n" | "k" | "m" | "N" | "j");
+    let mut counts = said
+        .iter()
+        .filter(|name| !asked.contains(*name) && is_count(name));
+    let Some(count) = counts.next() else {
+        return;
+    };
+    let (mut turns, mut periodic) = (false, false);
+    reading.content.each(&mut |e| {
+        let product = |part: &Expr| matches!(part.node(), Node::Product(_));
+        let is_turn = |part: &Expr| product(part) && part.mentions(count) && part.mentions("pi");
+        turns |= e.parts().any(is_turn);
+    });
+    key.reading.content.each(&mut |e| {
+        let is_arc = |f: &Function| matches!(f, Function::Sin | Function::Cos | Function::Tan);
+        periodic |= e
+            .parts()
+            .any(|part| matches!(part.node(), Node::Call(f, _) if is_arc(f)));
+    });
+    if finding.verdict == Verdict::Different && turns && periodic {
+        let words =
+            format!("{count} is read as a symbol; what holds for any whole number is not compared");
+        undecide(finding, &words);
+        let hint = "give the solutions of one period";
+        finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
+    }
+}
+
 /// `(1, 2) or (2, 1)`: an interval whose ends stand the wrong way round holds nothing and would agree with anything; it is a
 /// point, or a slip.
 pub(super) fn backwards(key: &Key, reading: &Reading, finding: &mut compare::Finding) {

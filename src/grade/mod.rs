@@ -400,6 +400,7 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         doubt::raised(key, answer, options, &mut finding);
     }
     doubt::imaginary(key, &reading, &mut finding);
+    doubt::any_whole_number(key, &reading, &mut finding);
     doubt::backwards(key, &reading, &mut finding);
     if open_to_doubt {
         doubt::ambiguity(key, answer, options, &reading, &mut finding);
