@@ -123,8 +123,7 @@ pub fn happened<T: Number + PartialOrd>(given: &Given<T>, followed: &Followed<T>
     let last = path.corners.iter().rfind(|c| !ends(c));
     let lasts = last.is_some_and(|c| !c.velocity[0].is_zero());
     let at = |event| path.corners.iter().position(|c| c.event == event);
-    let start = path.corners[0].velocity.each_ref().map(Number::size);
-    let slip_at_start = start[0] > 1e-12 * start[1];
+    let slip_at_start = path.slips_at_first();
     match (at(Event::SlipEnds), at(Event::Compressed), still) {
         // Without slip before, it sticks from the start or slips from the start.
         (_, _, true) if !slip_at_start => Mode::SticksInCompression,

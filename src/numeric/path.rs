@@ -83,6 +83,12 @@ impl<T: Number> Path<T> {
         self.corners.last().expect("a path has a start")
     }
 
+    /// Whether the contact slips just before, beyond rounding.
+    pub fn slips_at_first(&self) -> bool {
+        let [slip, approach] = self.corners[0].velocity.each_ref().map(Number::size);
+        slip > 1e-12 * approach
+    }
+
     /// Kinetic energy gained, ½ P·(u⁻ + u⁺) \[J\]: negative for a loss.
     pub fn gain(&self) -> T {
         let (start, end) = (&self.corners[0], self.end());

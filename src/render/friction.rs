@@ -256,7 +256,7 @@ pub fn json(scene: &Scene, table: &Table, judged: &Judged, shown: &[Shown]) -> V
         .map(|each| {
             let mut value = super::json::told(&each.case.scene, &each.told);
             if let Value::Object(fields) = &mut value {
-                fields.insert("mode".into(), json!(each.case.mode.words()));
+                fields.insert("mode".into(), json!(table.called(each.case).words()));
                 fields.insert("direction".into(), json!(each.case.direction.sign()));
                 let conditions: Vec<Value> = each
                     .case

@@ -2,9 +2,9 @@
 
 use super::html::Picture;
 use super::markdown::{aligned, matrix};
-use super::math::{apart, latex, rows, width};
+use super::math::{self, apart, rows, width};
 use crate::figure::{self, Piece};
-use crate::solution::{Inline, Line, Part, Solution};
+use crate::solution::{Inline, Line, Math, Part, Solution};
 
 /// A document that compiles on its own and holds its pictures.
 pub fn document(s: &Solution, pictures: &[Picture]) -> String {
@@ -35,8 +35,6 @@ pub fn document(s: &Solution, pictures: &[Picture]) -> String {
         text(title),
         body(s, pictures)
     )
-    // Other Greek letters are spelled out where a name is read.
-    .replace('π', "\\pi ")
 }
 
 /// Scales a formula that is wider than the line down to it.
@@ -60,6 +58,11 @@ pub fn fragment(s: &Solution, pictures: &[Picture]) -> String {
         false => "",
     };
     format!("{fitted}\\section*{{{}}}\n{body}", text(title))
+}
+
+/// A formula, with the π of a name spelled out: other Greek letters are where a name is read.
+fn latex(s: &Solution, math: &[Math]) -> String {
+    math::latex(s, math).replace('π', "\\pi ")
 }
 
 fn body(s: &Solution, pictures: &[Picture]) -> String {

@@ -3,6 +3,7 @@
 
 use crate::algebra::Field;
 use crate::expr::{Expr, Node};
+use crate::formula::write_plain;
 use crate::scene::Scene;
 
 /// The same formula, as a hand would write it before working it out.
@@ -97,11 +98,16 @@ pub(super) fn tidied(scene: &Scene, e: &Expr) -> Expr {
 
 /// Whether two formulas read alike, whatever the order of terms and factors.
 pub(super) fn alike(a: &Expr, b: &Expr) -> bool {
+    // D/(e w) is one fraction however it was put together.
+    same_parts(a, b) || write_plain(a) == write_plain(b)
+}
+
+fn same_parts(a: &Expr, b: &Expr) -> bool {
     match (a.node(), b.node()) {
         (Node::Product(x), Node::Product(y)) | (Node::Sum(x), Node::Sum(y)) => {
-            x.len() == y.len() && x.iter().all(|f| y.iter().any(|g| alike(f, g)))
+            x.len() == y.len() && x.iter().all(|f| y.iter().any(|g| same_parts(f, g)))
         }
-        (Node::Power(x, j), Node::Power(y, k)) => alike(x, y) && alike(j, k),
+        (Node::Power(x, j), Node::Power(y, k)) => same_parts(x, y) && same_parts(j, k),
         _ => a == b,
     }
 }

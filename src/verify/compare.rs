@@ -233,9 +233,10 @@ impl<T: Number + PartialOrd> Impact<T> {
                 normal: double(&space.normal),
             }),
             outcome: Ok(Outcome {
-                mode: match law.mu.is_zero() {
-                    true => Mode::Slides,
-                    false => happened(&self.given, &self.followed),
+                mode: match happened(&self.given, &self.followed) {
+                    _ if law.mu.is_zero() => Mode::Slides,
+                    mode if path.slips_at_first() => mode,
+                    mode => mode.without_slip(),
                 },
                 impulse: pair(&end.impulse),
                 exact: None,

@@ -473,7 +473,7 @@ fn same<T: Number>(
             if stated(bound, exact).is_some_and(|told| told != holds) {
                 return Err(format!(
                     "a condition of `{}` says something else than its law at one point",
-                    case.mode.words()
+                    table.called(case).words()
                 ));
             }
             all &= holds;
@@ -494,9 +494,9 @@ fn same<T: Number>(
         if !gap.is_zero() && gap.size() > tolerance * length {
             return Err(format!(
                 "`{}` gives another impulse than the path at one point",
-                case.mode.words()
+                table.called(case).words()
             ));
         }
     }
-    Ok(Some(case.mode))
+    Ok(Some(table.called(case)))
 }

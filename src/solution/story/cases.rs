@@ -175,7 +175,7 @@ pub(super) fn same_equations(first: (&Scene, &Derivation), second: (&Scene, &Der
 pub(super) fn come(first: &Scene, second: &Scene) -> Vec<Vec<Math>> {
     let mut out = Vec::new();
     let bodies = first.bodies.iter().zip(&second.bodies).enumerate();
-    for (b, (there, here)) in bodies {
+    for (b, (there, here)) in bodies.filter(|(b, _)| second.takes_part(*b)) {
         if there.velocity != here.velocity {
             let v = words::vector("v", &words::center(second, b), "-");
             out.push(vec![v, Math::Op("="), here.velocity.clone().into()]);
