@@ -220,6 +220,26 @@ fn newton_gains_where_poisson_and_stronge_lose() {
     }
 }
 
+/// The end of a rod that falls straight down does not slip before, so no slip ends or is reversed.
+#[test]
+fn what_does_not_slip_before_sticks_or_slides_in_table_and_comparison() {
+    let (table, _) = judged(&read("falling-rod-on-rough-floor", ""));
+    let called: Vec<Mode> = table.cases.iter().map(|c| table.called(c)).collect();
+    assert_eq!(called, [Mode::Sticks, Mode::Slides]);
+    for (mu, expected) in [("1/5", Mode::Slides), ("5", Mode::Sticks)] {
+        let set = format!("m=1 l=1 theta=acos(3/5) v=1 mu={mu}");
+        let found = compare(&read("falling-rod-on-rough-floor", &set)).expect("values");
+        for row in found
+            .rows
+            .iter()
+            .filter(|r| ["Poisson", "Stronge", "Newton"].contains(&r.law))
+        {
+            let mode = row.outcome.as_ref().expect("an outcome").mode;
+            assert_eq!(mode, expected, "{} at {mu}", row.law);
+        }
+    }
+}
+
 /// A rod hinged to the ground whose tip scrapes a floor: ac = b², which doubles meet only up to rounding.
 #[test]
 fn a_hinged_body_is_no_freer_in_doubles_than_it_is() {
