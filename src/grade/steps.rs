@@ -16,6 +16,8 @@ mod tending;
 mod text;
 mod why;
 
+use std::collections::BTreeSet;
+
 use super::sheet::{Sheet, judge};
 use super::{Diagnosis, Options, Verdict};
 use crate::expr::{Expr, Node, Symbol};
@@ -116,9 +118,11 @@ pub const MAX_LINES: usize = 400;
 
 /// Checks a worked solution. An acceleration that it speaks of and nobody asks for is the scene's, counted the way in which
 /// fewest of its lines are wrong; where there may be others and none fits better, it is whatever the solution says. So is a
-/// velocity against an axis by its letter alone, which may be meant as the speed.
+/// velocity against an axis by its letter alone, which may be meant as the speed, and a final answer with a prime, which may be
+/// its value after an earlier impact where it is right without.
 pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
-    let worked = |meant| check_with(sheet, text, options, meant);
+    let none = BTreeSet::new();
+    let worked = |meant| check_with(sheet, text, options, (meant, &none));
     let slips = |worked: &Worked| {
         let wrong = |line: &&Line| line.status == Status::Wrong;
         worked.lines.iter().filter(wrong).count()
@@ -130,9 +134,22 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
     }
     let speeds = Desk::new(sheet).speeds().into_iter();
     let others = speeds.map(|speed| worked(Some(speed)));
+    let earlier = names::of_another_moment(sheet, text, true);
+    let is_right = |worked: &Worked, name: &Symbol| {
+        let mut finals = worked.finals.iter().filter(|(of, _)| *of == **name);
+        finals.any(|(_, found)| {
+            found
+                .as_ref()
+                .is_some_and(|f| f.verdict == Verdict::Equivalent)
+        })
+    };
+    let with_prime =
+        (!earlier.is_empty()).then(|| check_with(sheet, text, options, (None, &earlier)));
+    let with_prime = with_prime.filter(|worked| earlier.iter().all(|name| is_right(worked, name)));
     [best]
         .into_iter()
         .chain(others)
+        .chain(with_prime)
         .min_by_key(slips)
         .expect("one at least")
 }
@@ -141,7 +158,7 @@ fn check_with(
     sheet: &Sheet,
     text: &str,
     options: &Options,
-    meant: Option<(Symbol, Expr)>,
+    (meant, earlier): (Option<(Symbol, Expr)>, &BTreeSet<Symbol>),
 ) -> Worked {
     let mut desk = Desk::new(sheet);
     desk.closed.extend(meant);
@@ -149,7 +166,8 @@ fn check_with(
     desk.ahead = names::definitions(&read);
     desk.along_normal(&read);
     desk.solved_for = names::solved_for(&read);
-    desk.later = names::later(sheet, &read);
+    desk.own_with_prime = names::of_another_moment(sheet, &read, false);
+    desk.own_with_prime.extend(earlier.iter().cloned());
     let mut before = String::new();
     let dashes = text::has_dashes(text);
     let lines = text

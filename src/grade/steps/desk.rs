@@ -36,7 +36,7 @@ pub(super) struct Desk<'a> {
     /// Names that some line solves for.
     pub solved_for: BTreeSet<Symbol>,
     /// Names that stand for something else with a prime.
-    pub later: BTreeSet<Symbol>,
+    pub own_with_prime: BTreeSet<Symbol>,
     /// Own names that were used before the line that says what they are.
     pub early: BTreeSet<Symbol>,
     /// Spins as vectors: the name with an arrow, the spin, and whether it counts clockwise.
@@ -119,7 +119,7 @@ impl<'a> Desk<'a> {
             slipped: Vec::new(),
             ahead: Vec::new(),
             solved_for: BTreeSet::new(),
-            later: BTreeSet::new(),
+            own_with_prime: BTreeSet::new(),
             early: BTreeSet::new(),
             spins: spins(&sheet.scene),
             parts: parts(&sheet.scene),
@@ -162,7 +162,7 @@ impl<'a> Desk<'a> {
         let now = |name: &&Symbol| !name.contains('^') && !is_vector(name);
         for name in self.closed.keys().filter(now) {
             let marks = ["^{+}", "'"].into_iter();
-            for mark in marks.filter(|mark| *mark != "'" || !self.later.contains(name)) {
+            for mark in marks.filter(|mark| *mark != "'" || !self.own_with_prime.contains(name)) {
                 let after = format!("{}{mark}", formula::latex_name(name));
                 symbols.declare_as(name.clone(), Some(&after), None);
             }

@@ -98,9 +98,9 @@ fn readings(scene: &Scene, text: &str) -> Vec<Reading> {
 }
 
 /// Names of what is asked before the last impact that a worked solution writes with a prime as well: with it they are of a later
-/// moment.
-pub(super) fn later(sheet: &Sheet, text: &str) -> BTreeSet<Symbol> {
-    let Some(last) = sheet.impacts.last() else {
+/// moment. So may those be that are asked of the last of several impacts, with it of an earlier one.
+pub(super) fn of_another_moment(sheet: &Sheet, text: &str, of_last: bool) -> BTreeSet<Symbol> {
+    let (Some(last), false) = (sheet.impacts.last(), of_last && sheet.impacts.len() < 2) else {
         return BTreeSet::new();
     };
     let readings = readings(&sheet.scene, text);
@@ -109,7 +109,8 @@ pub(super) fn later(sheet: &Sheet, text: &str) -> BTreeSet<Symbol> {
     let is_last = |name: &Symbol| last.questions.iter().any(|q| *q.name == **name);
     let asked = sheet.scene.questions.iter();
     let asked = asked.map(|q| Symbol::from(q.name.as_str()));
-    asked.filter(|name| both(name) && !is_last(name)).collect()
+    let wanted = asked.filter(|name| both(name) && is_last(name) == of_last);
+    wanted.collect()
 }
 
 /// The accelerations that such a name in a worked solution may stand for, counted either way: those of the scene, where it
