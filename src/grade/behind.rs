@@ -8,7 +8,7 @@ use super::belief::{BELIEFS, Slip};
 use super::believed::{NAMED, Written, doubles, words};
 use crate::expr::{Expr, Point, Symbol};
 use crate::numeric;
-use crate::scene::{Ask, EnergyWhen, Scene};
+use crate::scene::{Ask, Contact, ContactLaw, EnergyWhen, Scene};
 
 /// Points at which every belief is tried.
 const POINTS: u64 = 3;
@@ -18,15 +18,7 @@ pub(super) type Named = (Symbol, Ask, Option<usize>);
 
 /// The beliefs under which the two sides agree.
 pub(super) fn behind(scene: &Scene, [left, right]: [&Expr; 2], names: &[Named]) -> Vec<Diagnosis> {
-    let mut needed = numeric::needed(scene);
-    needed.add(left);
-    needed.add(right);
-    needed
-        .plain
-        .retain(|name| names.iter().all(|(known, ..)| known != name));
-    let points: Vec<Point<f64>> = (11..11 + POINTS)
-        .map(|seed| numeric::rounded(&numeric::random_point(&needed, &scene.domains, seed)))
-        .collect();
+    let points = points(scene, [left, right], names);
     let mut found = Vec::new();
     for belief in BELIEFS {
         let slips = (belief.slips)(scene);
@@ -51,9 +43,6 @@ pub(super) fn behind(scene: &Scene, [left, right]: [&Expr; 2], names: &[Named]) 
     if found.len() > NAMED {
         found.clear();
     }
-    if found.is_empty() {
-        found.extend(keeps_energy(scene, [left, right], names, &points));
-    }
     found
 }
 
@@ -77,38 +66,40 @@ fn asked(
     }
 }
 
-/// A balance of velocities and spins in which just the energy is missing, or a multiple of it, that the impact loses.
-fn keeps_energy(
-    scene: &Scene,
-    [left, right]: [&Expr; 2],
-    names: &[Named],
-    points: &[Point<f64>],
-) -> Option<Diagnosis> {
+/// An equation, by what its two sides differ in the given quantities, in which just the energy is missing, or a multiple of it,
+/// that a plastic impact loses.
+pub(super) fn keeps_energy(scene: &Scene, gap: &Expr) -> Option<Diagnosis> {
     let belief = BELIEFS.iter().find(|b| b.code == "ENERGY_KEPT")?;
-    let slip = (belief.slips)(scene).into_iter().next()?;
-    let moves = |(_, ask, _): &Named| matches!(ask, Ask::Velocity { .. } | Ask::Spin { .. });
-    if !names.iter().all(moves) {
-        return None;
-    }
-    let truth = Slip {
-        change: None,
-        ..slip.clone()
+    let plastic = |c: &Contact| match &c.law {
+        ContactLaw::Frictionless { restitution } => restitution.is_zero(),
+        law => *law == ContactLaw::Sticking,
     };
+    let truth = Slip::none(scene);
     let lost = Ask::Energy {
         when: EnergyWhen::Lost,
         of: None,
     };
-    let share = |point: &Point<f64>| {
-        let mut here = point.clone();
-        for (name, ask, component) in names {
-            let value = asked(scene, (ask, *component), &truth, point)?;
-            here.values.insert(name.clone(), value);
-        }
-        let gap = left.evaluate(&here)? - right.evaluate(&here)?;
-        Some(gap / asked(scene, (&lost, None), &truth, point)?).filter(|k| k.is_finite())
+    let share = |point: Point<f64>| {
+        let share = gap.evaluate(&point)? / asked(scene, (&lost, None), &truth, &point)?;
+        Some(share).filter(|k| k.is_finite() && *k != 0.0)
     };
-    let shares: Vec<f64> = points.iter().map(share).collect::<Option<_>>()?;
-    let first = *shares.first()?;
-    let same = |k: &f64| (k - first).abs() <= 1e-9 * first.abs();
-    (first != 0.0 && shares.iter().all(same)).then(|| words(belief, &slip, false))
+    let shares: Option<Vec<f64>> = points(scene, [gap], &[]).into_iter().map(share).collect();
+    let shares = shares.filter(|_| scene.contacts.iter().any(plastic))?;
+    let same = |k: &f64| (k - shares[0]).abs() <= 1e-9 * k.abs();
+    shares
+        .iter()
+        .all(same)
+        .then(|| words(belief, &truth, false))
+}
+
+/// Points at which an equation is tried, all given quantities with values; those of `names` come from the motion.
+fn points<const N: usize>(scene: &Scene, sides: [&Expr; N], names: &[Named]) -> Vec<Point<f64>> {
+    let mut needed = numeric::needed(scene);
+    sides.iter().for_each(|side| needed.add(side));
+    needed
+        .plain
+        .retain(|name| names.iter().all(|(known, ..)| known != name));
+    (11..11 + POINTS)
+        .map(|seed| numeric::rounded(&numeric::random_point(&needed, &scene.domains, seed)))
+        .collect()
 }

@@ -111,6 +111,11 @@ impl Desk<'_> {
         found.map(|(cause, _)| *cause)
     }
 
+    /// Whether the solution goes on to what a condition gives.
+    pub(super) fn gives(&self, sought: &Sought) -> bool {
+        sought.condition.is_some() && self.is_solved_for(sought)
+    }
+
     /// Whether some line says what the parameter is, by its name or that of the question.
     fn is_solved_for(&self, sought: &Sought) -> bool {
         self.solved_for.contains(&sought.parameter)
@@ -209,17 +214,27 @@ impl Desk<'_> {
 
     /// Whether an equality holds at the value that is sought.
     pub(super) fn holds_where(&self, link: &Link, sought: &Sought) -> bool {
+        let differences: Vec<&Expr> = link.differences.iter().collect();
+        self.is_zero_where(&differences, sought)
+    }
+
+    /// Whether expressions vanish at the value that is sought.
+    pub(super) fn is_zero_where(&self, all: &[&Expr], sought: &Sought) -> bool {
         let none = BTreeMap::new();
-        let Some(root) = self.value_of(sought) else {
-            return false;
-        };
-        let there = link.differences.iter();
-        let there = there.map(|d| self.put_in(d, &none).put(&sought.parameter, &root));
-        self.all_zero(&there.collect::<Vec<_>>(), &none) == Some(true)
+        let there = all
+            .iter()
+            .map(|d| self.at_value(&self.put_in(d, &none), sought));
+        let there: Option<Vec<Expr>> = there.collect();
+        there.is_some_and(|there| self.all_zero(&there, &none) == Some(true))
+    }
+
+    /// An expression in what is given at the value that is sought.
+    pub(super) fn at_value(&self, e: &Expr, sought: &Sought) -> Option<Expr> {
+        Some(e.put(&sought.parameter, &self.value_of(sought)?))
     }
 
     /// Whether an equation speaks of a quantity that is zero at the value sought: any slip in its factor is lost there.
-    fn vanishes(&self, line: &Expr, sought: &Sought) -> bool {
+    pub(super) fn vanishes(&self, line: &Expr, sought: &Sought) -> bool {
         let Some(root) = self.value_of(sought) else {
             return true;
         };

@@ -13,7 +13,10 @@ const LEADS: &str = "=>|⇒|⟹|∴|→|->|\\Rightarrow|\\implies|\\therefore|th
 
 /// What stands between two equations of one line.
 const BETWEEN: &str = "<=>|⇔|\\Leftrightarrow|\\iff|=>|⇒|⟹|∴|\\Rightarrow|\\implies|\\therefore|\
-    →|->|; |, | so | where | with | and |: ";
+    →|->|; |, | so | hence | thus | therefore | we get | where | with | and |: ";
+
+/// Which of these words lead from a sentence to what follows from it: `G is l/2 away, so I = m l^2/3`.
+const CONCLUDING: [&str; 5] = [" so ", " hence ", " thus ", " therefore ", " we get "];
 
 /// Words behind an equation that tell the moment it speaks of.
 const MOMENTS: &str = "(just before)|(just after)|(before)|(after)|just before|just after";
@@ -43,6 +46,10 @@ pub(super) fn equations(text: &str) -> Vec<&str> {
             // A comma may part components, and an arrow may begin the line: equations stand on both sides.
             Some(sign) if relates(&text[start..at]) && parts(sign, &rest[sign.len()..]) => {
                 out.push(equation(&text[start..at]));
+                at += sign.len();
+                start = at;
+            }
+            Some(sign) if CONCLUDING.contains(&sign) && is_prose(&text[start..at]) => {
                 at += sign.len();
                 start = at;
             }
@@ -413,6 +420,12 @@ fn turns_sign(word: &str) -> bool {
     SENSES
         .split(' ')
         .any(|sense| sense.eq_ignore_ascii_case(word))
+}
+
+/// Whether a text without an equation is a sentence, which may have formulas in it: `The distance of G is l/2`.
+fn is_prose(text: &str) -> bool {
+    let words = text.split([' ', ',']).filter(|word| is_word(word));
+    !relates(text) && words.count() > 1
 }
 
 /// Whether words say something by themselves, so many at least: `The gate turns at a steady rate`, `Using (1) and (2)`.

@@ -2,17 +2,36 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::super::behind::{Named, behind};
+use super::super::behind::{Named, behind, keeps_energy};
 use super::super::belief::BELIEFS;
 use super::super::relation::solve_for;
 use super::super::{Diagnosis, Options};
 use super::cause::size_in;
+use super::sought::Sought;
 use super::{Desk, MOST_TERMS};
 use crate::algebra::{Sign, sign};
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{self, Content, Reading};
 use crate::laws;
-use crate::scene::{Ask, Scene};
+use crate::scene::{Ask, Question, Scene};
+
+/// Longest value, in letters, that an own name is said to need.
+const LONGEST_VALUE: usize = 80;
+/// Most pairs of parameters of one kind that are tried for one another.
+const MOST_PAIRS: usize = 12;
+
+/// A term with cosines for its sines and sines for its cosines; nothing where it has none.
+fn arcs_exchanged(term: &Expr) -> Option<Expr> {
+    fn exchanged(e: &Expr) -> Expr {
+        match e.node() {
+            Node::Call(Function::Sin, x) => x.cos(),
+            Node::Call(Function::Cos, x) => x.sin(),
+            _ => e.map_parts(exchanged),
+        }
+    }
+    let other = exchanged(term);
+    (other != *term).then_some(other)
+}
 
 impl Desk<'_> {
     /// Notes what a wrong line implies: each of its names in turn is what it would have to be.
@@ -136,9 +155,10 @@ impl Desk<'_> {
         };
         let turned = self.turned(left, right);
         let mut found: Vec<Diagnosis> = turned
-            .or_else(|| self.own_value(left, right))
+            .or_else(|| self.own_value([left, right], true))
             .into_iter()
             .collect();
+        let sides = [left, right];
         let (left, right) = (self.with_own(left), self.with_own(right));
         let used: BTreeSet<Symbol> = left.symbols().union(&right.symbols()).cloned().collect();
         let names = used.into_iter().filter(|n| self.closed.contains_key(n));
@@ -151,6 +171,13 @@ impl Desk<'_> {
         if let Some((scene, named)) = asked.next().filter(|(_, named)| !named.is_empty()) {
             // Several beliefs that make one slip alike are evidence of one at most.
             found.extend(behind(scene, [&left, &right], &named).into_iter().take(1));
+        }
+        if found.is_empty() {
+            let kept = self.kept_energy(&(left - right), &names);
+            let sought = self.sought.iter().filter(|s| self.gives(s)).map(Some);
+            let mut sought = [None].into_iter().chain(sought);
+            let other = kept.or_else(|| sought.find_map(|s| self.other_term(sides, s)));
+            found.extend(other.or_else(|| self.own_value(sides, false)));
         }
         found
     }
@@ -172,23 +199,31 @@ impl Desk<'_> {
             let mut others = self.own.clone();
             let value = self.with_own(&others.remove(name)?);
             let rest = gap.substitute(&others).substitute(&self.closed);
-            let needed = solve_for(&rest, name, domains).filter(|needed| !needed.is_zero())?;
+            let needed = solve_for(&rest, name, domains).or_else(|| size_in(&rest, name, domains));
+            let needed = needed.filter(|needed| !needed.is_zero())?;
             Some((name.clone(), [value, needed]))
         });
         needed.collect()
     }
 
-    /// One of the student's own names whose value is off by a number where the equation is right, or the other way round.
-    fn own_value(&self, left: &Expr, right: &Expr) -> Option<Diagnosis> {
+    /// One of the student's own names whose value is off where the equation is right, or the other way round: by a `factor`, or
+    /// by more.
+    fn own_value(&self, [left, right]: [&Expr; 2], factor: bool) -> Option<Diagnosis> {
         let each = self.own_needed(&(left - right)).into_iter();
         let mut found = each.filter_map(|(name, [value, needed])| {
-            let share = self.share(&value.substitute(&self.closed), &needed)?;
+            let share = self.share(&value.substitute(&self.closed), &needed);
+            let rational = share.as_ref().is_some_and(|k| k.as_number().is_some());
+            let same = share.is_some_and(|k| k.is_one());
             let [value, needed] = [&value, &needed].map(formula::write_plain);
-            (!share.is_one()).then(|| {
+            let told = rational == factor && !same && needed.len() < LONGEST_VALUE;
+            told.then(|| {
                 Diagnosis::new(
                     "OWN_VALUE",
                     format!("this line holds with {name} = {needed}, where you have {value}"),
-                    "either that value or this line is off by a factor: check both",
+                    match factor {
+                        true => "either that value or this line is off by a factor: check both",
+                        false => "either that value or this line is wrong: check both",
+                    },
                 )
             })
         });
@@ -197,15 +232,8 @@ impl Desk<'_> {
 
     /// The term with whose other sign an equation holds.
     pub(super) fn turned(&self, left: &Expr, right: &Expr) -> Option<Diagnosis> {
-        let gap = left - right;
-        // On the left a term stands in the gap as it is, on the right with the other sign.
-        let all = [(left, -2), (right, 2)].into_iter();
-        let all = all.flat_map(|(side, k)| side.terms().iter().map(move |term| (term, k)));
-        let mut single = all.take(MOST_TERMS).filter(|(term, k)| {
-            let turned = &gap + &(*term * &Expr::from(*k));
-            self.all_zero(&[turned], &BTreeMap::new()) == Some(true)
-        });
-        let term = formula::write_plain(single.next()?.0);
+        let term = self.term([left, right], None, |term| Some(-term))?.0;
+        let term = formula::write_plain(term);
         Some(Diagnosis::new(
             "TERM_SIGN",
             format!(
@@ -213,6 +241,87 @@ impl Desk<'_> {
                 term.trim_start_matches('-')
             ),
             "check the sign of every term: which directions count as positive?",
+        ))
+    }
+
+    /// The term of an equation that holds with another one in its place, everywhere or for what is sought, and that other one.
+    fn term<'e>(
+        &self,
+        [left, right]: [&'e Expr; 2],
+        sought: Option<&Sought>,
+        other: impl Fn(&Expr) -> Option<Expr>,
+    ) -> Option<(&'e Expr, Expr)> {
+        let gap = left - right;
+        // On the left a term stands in the gap as it is, on the right with the other sign.
+        let all = [(left, 1), (right, -1)].into_iter();
+        let all = all.flat_map(|(side, k)| side.terms().iter().map(move |term| (term, k)));
+        let mut tried = all.take(MOST_TERMS).filter_map(|(term, k)| {
+            let other = other(term)?;
+            let meant = &gap + &(&other - term) * Expr::from(k);
+            let holds = match sought {
+                Some(s) => !self.vanishes(&meant, s) && self.is_zero_where(&[&meant], s),
+                None => self.all_zero(&[meant], &BTreeMap::new()) == Some(true),
+            };
+            holds.then_some((term, other))
+        });
+        tried.next()
+    }
+
+    /// A balance of energies from before a plastic impact to after it, also where it is to give what is sought.
+    fn kept_energy(&self, gap: &Expr, names: &[Symbol]) -> Option<Diagnosis> {
+        let questions = &self.sheet.scene.questions;
+        let is_energy = |q: &Question| {
+            matches!(q.ask, Ask::Energy { .. }) && names.iter().any(|name| *q.name == **name)
+        };
+        if questions.iter().any(is_energy) {
+            return None;
+        }
+        let gap = self.put_in(gap, &BTreeMap::new());
+        let sought = self.sought.iter().filter(|s| self.gives(s));
+        let there = sought.filter_map(|s| self.at_value(&gap, s));
+        let gaps: Vec<Expr> = there.chain([gap.clone()]).collect();
+        let scenes = std::iter::once(&self.sheet.scene).chain(&self.sheet.impacts);
+        let mut scenes = scenes.filter(|scene| scene.stages.is_empty());
+        scenes.find_map(|scene| gaps.iter().find_map(|gap| keeps_energy(scene, gap)))
+    }
+
+    /// The term of a law that is off by a factor 2 or has the name of another body's quantity, or a sine for a cosine.
+    fn other_term(&self, sides: [&Expr; 2], sought: Option<&Sought>) -> Option<Diagnosis> {
+        // A half is lost where none is written, and too much where one is.
+        let factor = |likely: bool| {
+            self.term(sides, sought, |term| {
+                let half = term.split_number().0.is_integer() == likely;
+                let [one, two] = if half { [1, 2] } else { [2, 1] };
+                Some(term * &Expr::ratio(one, two))
+            })
+        };
+        let scene = &self.sheet.scene;
+        let pairs = scene.parameters.iter().flat_map(|p| {
+            let others = scene.parameters.iter();
+            let others = others.filter(|q| q.dimension == p.dimension && q.name != p.name);
+            others.map(|q| [&p.name, &q.name].map(|name| Expr::symbol(name)))
+        });
+        // Of two bodies that move as one the mass of one alone, or the other way round.
+        let pairs = pairs.take(MOST_PAIRS).flat_map(|[p, q]| {
+            let both = &p + &q;
+            [(p.clone(), q), (p.clone(), both.clone()), (both, p)]
+        });
+        let named = |(p, q): (Expr, Expr)| {
+            self.term(sides, sought, |term| {
+                let other = term.replace(&p, &q);
+                (other != *term).then_some(other)
+            })
+        };
+        let mut pairs = pairs;
+        let (term, other) = factor(true)
+            .or_else(|| factor(false))
+            .or_else(|| pairs.find_map(named))
+            .or_else(|| self.term(sides, sought, arcs_exchanged))?;
+        let [term, other] = [term, &other].map(formula::write_plain);
+        Some(Diagnosis::new(
+            "TERM",
+            format!("this line holds with {other} in place of {term}"),
+            "compare this term with the law: its factor, whose quantities it has, and from where an angle is measured",
         ))
     }
 
