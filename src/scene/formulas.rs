@@ -178,7 +178,9 @@ impl Symbols {
             Ok(Some(found)) if found != quantity.dimension() => {
                 let message = format!("expected {}, found {found}", quantity.dimension());
                 let fault = Fault::new(formula.span, message);
-                faults.push(match named_like_its_unit(&formula.text, quantity) {
+                let of_its_names = named_like_its_unit(&formula.text, quantity)
+                    .or_else(|| without_unit(&e, &found, quantity));
+                faults.push(match of_its_names {
                     Some(hint) => fault.hint(hint),
                     None => fault.hint(quantity.hint),
                 });
@@ -318,6 +320,14 @@ fn scalar(content: Content, formula: &Formula, faults: &mut Vec<Fault>) -> Optio
 fn is_finite(e: &Expr) -> bool {
     let mut numbers = e.parts().filter_map(Expr::as_number);
     numbers.all(|value| to_f64(value).is_finite())
+}
+
+/// What to say of a parameter alone that should have had a unit.
+fn without_unit(e: &Expr, found: &Dimension, quantity: Quantity) -> Option<String> {
+    let name = e.as_symbol().filter(|_| found.is_none())?;
+    let unit = quantity.dimension().spoken();
+    let hint = format!("`{name}` has no unit: declare it as \"{name}\": {{\"unit\": \"{unit}\"}}");
+    Some(hint)
 }
 
 /// What to write for a number with a unit that is also the name of a parameter: `3 m` where m is a mass.
