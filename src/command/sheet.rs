@@ -1,7 +1,6 @@
 //! A scene as an answer sheet whose keys were proved before anything is judged by them.
 
 use crate::answer::Answer;
-use crate::derive::friction::table;
 use crate::formula::Sentence;
 use crate::grade::believed::Story;
 use crate::grade::sheet::Sheet;
@@ -16,7 +15,7 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
         Some((q.name.clone(), mu.as_symbol()?.clone(), relation))
     };
     let coefficients: Vec<_> = scene.questions.iter().filter_map(rough).collect();
-    let (scene, mut notes) = gradable(scene)?;
+    let (scene, mut notes) = gradable(scene);
     let worked = worked::out(&scene)?;
     let failed = worked.failed();
     if !failed.is_empty() {
@@ -34,6 +33,7 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
     let impacts = story::impacts(&worked.scene, &worked.told);
     let laws = story::lent(&worked.scene, &worked.told);
     let impacts: Vec<Scene> = impacts.into_iter().map(|(_, impact)| impact).collect();
+    let moments = story::moments(&worked.told);
     let story = worked.scene.has_stages().then(|| worked.scene.clone());
     let ways = worked.ways()?.into_iter().map(|way| Sheet {
         given: (way.given.iter().map(Sentence::not_negative))
@@ -41,6 +41,7 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
             .collect(),
         scene: way.scene,
         derivation: way.derivation,
+        moments: moments.clone(),
         all: all.clone(),
         impacts: impacts.clone(),
         laws: laws.clone(),
@@ -67,21 +68,16 @@ pub fn only_quantity(sheet: &Sheet) -> Option<String> {
     answered.next().is_none().then(|| one.name.clone())
 }
 
-/// The scene in the one case of friction it is in. Where several are left, what is the same in all of them can still be
-/// asked, and is told.
-fn gradable(scene: Scene) -> Result<(Scene, Vec<String>), String> {
-    let why = match verify::friction::settled(&scene) {
-        Ok(scene) => return Ok((scene, Vec::new())),
-        Err(why) => why,
-    };
-    let Ok(Some(mut table)) = table(&scene) else {
-        return Err(why);
-    };
-    if table.about.is_empty() || table.cases.is_empty() {
-        return Err(why);
+/// The scene in the one case of friction it is in. Where several are left each is a way it can go, which is told.
+fn gradable(scene: Scene) -> (Scene, Vec<String>) {
+    match verify::friction::settled(&scene) {
+        Ok(scene) => (scene, Vec::new()),
+        Err(why) if scene.has_stages() => (scene, vec![why]),
+        Err(why) => {
+            let note = format!(
+                "{why}\nan answer is right where it is in one of them, given that it goes this way"
+            );
+            (scene.staged(worked::IMPACT), vec![note])
+        }
     }
-    let note = format!("{why}\nwhat is the same in every case can be graded");
-    let mut common = table.cases.swap_remove(0).scene;
-    common.questions = table.about;
-    Ok((common, vec![note]))
 }

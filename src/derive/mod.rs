@@ -40,6 +40,9 @@ const LONGEST: usize = 160;
 /// The same where two free bodies meet: their answers are long by nature.
 const LONGEST_OF_TWO: usize = 1_200;
 
+/// A moment in words, and the values of velocities and impulses then by the names that derivations give them.
+pub type Moment = (String, BTreeMap<Symbol, Expr>);
+
 /// Everything found out about a scene, ready to be proved and printed.
 #[derive(Clone, Debug)]
 pub struct Derivation {
@@ -78,6 +81,17 @@ impl Derivation {
             Solved::Written(value) => value.clone(),
         });
         written.collect()
+    }
+
+    /// The motion just after and the impulses that are determined, each by the symbol that stands for it.
+    pub fn motion_by_name(&self) -> impl Iterator<Item = (Unknown, Symbol, Expr)> {
+        self.motion.iter().map(|(unknown, value)| {
+            let value = match self.names.is_reversed(*unknown) {
+                true => -value,
+                false => value.clone(),
+            };
+            (*unknown, Symbol::from(self.names.plain(*unknown)), value)
+        })
     }
 
     /// The answers, by name, in parameters alone.

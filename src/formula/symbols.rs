@@ -150,6 +150,19 @@ impl Symbols {
         });
     }
 
+    /// Declares a LaTeX spelling alone, beside a name that may stand for something else without it: `\\vec{v}`.
+    pub fn declare_typeset(&mut self, name: impl Into<Symbol>, latex: &str) {
+        if let Some(key) = super::name::key_of_latex(latex) {
+            let letters = key.bytes().take_while(u8::is_ascii_alphabetic).count();
+            self.add_base(&key[..letters]);
+            self.keys.entry(key.into()).or_insert(self.declared.len());
+            self.declared.push(Declared {
+                name: name.into(),
+                dimension: None,
+            });
+        }
+    }
+
     fn add_base(&mut self, base: &str) {
         if base.len() > 1 {
             self.longest_base = self.longest_base.max(base.len());

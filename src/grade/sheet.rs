@@ -7,7 +7,7 @@ mod rows;
 use super::believed::{self, Believed, Story, Written};
 use super::{Given, Key, Options, Question, key_of};
 use crate::answer::{Answer, Form};
-use crate::derive::{self, Derivation};
+use crate::derive::{self, Derivation, Moment};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Relation};
 use crate::scene::{self, Ask, Print, Scene};
@@ -20,6 +20,8 @@ pub struct Sheet {
     pub scene: Scene,
     /// Its derivation.
     pub derivation: Derivation,
+    /// The motion at the beginning and at the end of each stage, and when that is.
+    pub moments: Vec<Moment>,
     /// All answers: also those in words, places of largest values and further outcomes, which the derivation leaves out.
     pub all: Vec<Answer>,
     /// The impacts of a scene with stages, each with the motion that comes in and with its own questions.
@@ -82,6 +84,7 @@ pub fn sheet(scene: Scene) -> Result<Sheet, derive::Stop> {
     Ok(Sheet {
         scene,
         derivation,
+        moments: Vec::new(),
         all: Vec::new(),
         impacts: Vec::new(),
         laws: Vec::new(),

@@ -16,7 +16,7 @@ mod tending;
 mod text;
 mod why;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::sheet::{Sheet, judge};
 use super::{Diagnosis, Options, Verdict};
@@ -112,74 +112,103 @@ const MOST_CAUSES: usize = 4;
 
 /// Code of the remark that a line states the condition of a question.
 const CONDITION: &str = "CONDITION";
+/// Code of the remark that a line holds at another moment of the scene, or in another of its cases.
+const MOMENT: &str = "MOMENT";
 
 /// Longest worked solution, in lines.
 pub const MAX_LINES: usize = 400;
 
-/// Checks a worked solution. An acceleration that it speaks of and nobody asks for is the scene's, counted the way in which
-/// fewest of its lines are wrong; where there may be others and none fits better, it is whatever the solution says. So is a
-/// velocity against an axis by its letter alone, which may be meant as the speed, and a final answer with a prime, which may be
-/// its value after an earlier impact where it is right without.
-pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
-    let none = BTreeSet::new();
-    let worked = |meant| check_with(sheet, text, options, (meant, &none));
-    let slips = |worked: &Worked| {
-        let wrong = |line: &&Line| line.status == Status::Wrong;
-        worked.lines.iter().filter(wrong).count()
-    };
-    let meant = names::accelerations(sheet, text).into_iter();
-    let best = meant.map(worked).min_by_key(slips).expect("one at least");
-    if slips(&best) == 0 {
-        return best;
-    }
-    let speeds = Desk::new(sheet).speeds().into_iter();
-    let others = speeds.map(|speed| worked(Some(speed)));
-    let earlier = names::of_another_moment(sheet, text, true);
-    let is_right = |worked: &Worked, name: &Symbol| {
-        let mut finals = worked.finals.iter().filter(|(of, _)| *of == **name);
-        finals.any(|(_, found)| {
-            found
-                .as_ref()
-                .is_some_and(|f| f.verdict == Verdict::Equivalent)
-        })
-    };
-    let with_prime =
-        (!earlier.is_empty()).then(|| check_with(sheet, text, options, (None, &earlier)));
-    let with_prime = with_prime.filter(|worked| earlier.iter().all(|name| is_right(worked, name)));
-    [best]
-        .into_iter()
-        .chain(others)
-        .chain(with_prime)
-        .min_by_key(slips)
-        .expect("one at least")
+/// What a solution may mean by its names beside what it says of them.
+#[derive(Clone, Default)]
+struct Meant {
+    /// A name with its value.
+    value: Option<(Symbol, Expr)>,
+    /// Names of what is asked that are with a mark of another moment, and the mark.
+    marked: BTreeSet<(Symbol, &'static str)>,
+    /// Whether a name of the student's own may stand for something else further down, as W does for each way.
+    anew: bool,
 }
 
-fn check_with(
-    sheet: &Sheet,
-    text: &str,
-    options: &Options,
-    (meant, earlier): (Option<(Symbol, Expr)>, &BTreeSet<Symbol>),
-) -> Worked {
+/// Checks a worked solution. Where it may be meant in several ways it is read in the one in which fewest of its lines are wrong:
+/// an acceleration that it speaks of and nobody asks for is the scene's, counted either way, or, where there may be others,
+/// whatever the solution says; a velocity against an axis by its letter alone may be the speed, and a final answer that is right
+/// may be of another moment with a mark. An own name may get another meaning further down, but not to
+/// explain away why a final answer is wrong.
+pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
+    let worked = |meant: Meant| (check_with(sheet, text, options, &meant), meant);
+    let wrong = |line: &&Line| line.status == Status::Wrong;
+    let slips = |worked: &Worked| worked.lines.iter().filter(wrong).count();
+    let fewest = |(worked, _): &(Worked, Meant)| slips(worked);
+    let accelerations = names::accelerations(sheet, text).into_iter();
+    let plain = accelerations.map(|value| Meant {
+        value,
+        ..Meant::default()
+    });
+    let best = plain.map(worked).min_by_key(fewest).expect("one at least");
+    if fewest(&best) == 0 {
+        return best.0;
+    }
+    let speeds = Desk::new(sheet).speeds().into_iter();
+    let speeds = speeds.map(|speed| {
+        worked(Meant {
+            value: Some(speed),
+            ..Meant::default()
+        })
+    });
+    let is_right = |told: &Option<Final>| told.as_ref().map(|f| f.verdict == Verdict::Equivalent);
+    let marked = names::marked(sheet, text);
+    let with_marks = (!marked.is_empty()).then(|| {
+        worked(Meant {
+            marked: marked.clone(),
+            ..Meant::default()
+        })
+    });
+    let with_marks = with_marks.filter(|(worked, _)| {
+        let told = |name: &Symbol| worked.finals.iter().find(|(of, _)| *of == **name);
+        marked
+            .iter()
+            .all(|(name, _)| told(name).is_some_and(|(_, told)| is_right(told) == Some(true)))
+    });
+    let all = std::iter::once(best).chain(speeds).chain(with_marks);
+    let (best, meant) = all.min_by_key(fewest).expect("one at least");
+    let (anew, _) = worked(Meant {
+        anew: true,
+        ..meant
+    });
+    let is_explained = slips(&anew) > 0
+        || anew
+            .finals
+            .iter()
+            .all(|(_, told)| is_right(told) != Some(false));
+    match slips(&anew) < slips(&best) && is_explained {
+        true => anew,
+        false => best,
+    }
+}
+
+fn check_with(sheet: &Sheet, text: &str, options: &Options, meant: &Meant) -> Worked {
     let mut desk = Desk::new(sheet);
-    desk.closed.extend(meant);
-    let read = desk.in_names(text);
-    desk.ahead = names::definitions(&read);
+    desk.closed.extend(meant.value.clone());
+    let read = text::joined(text);
+    let read = desk.in_names(&read);
     desk.along_normal(&read);
     desk.solved_for = names::solved_for(&read);
-    desk.own_with_prime = names::of_another_moment(sheet, &read, false);
-    desk.own_with_prime.extend(earlier.iter().cloned());
+    desk.own_with_mark = names::of_a_later_moment(sheet, &read);
+    desk.own_with_mark.extend(meant.marked.iter().cloned());
+    desk.anew = meant.anew;
+    desk.ahead = names::definitions(&read, &desk.symbols(""));
     let mut before = String::new();
     let dashes = text::has_dashes(text);
     let lines = text
         .lines()
-        .zip(read.lines())
+        .zip(read.lines().chain(std::iter::repeat("")))
         .enumerate()
         .filter(|(_, (line, _))| !line.trim().is_empty())
         .take(MAX_LINES)
         .map(|(i, (line, read))| {
             let line = line.trim();
             let item = text::unlisted(read.trim(), dashes);
-            let whole = text::continued(&before, &text::unaligned(item));
+            let whole = text::continued(&before, item);
             let (status, diagnosis) = desk.line(i + 1, &whole, options);
             before = whole;
             Line {
@@ -302,8 +331,12 @@ impl Desk<'_> {
             return found;
         }
         let found = self.judged(number, text, &reading, options);
-        if found.1.iter().all(|d| d.code != CONDITION) {
-            self.note_final(number, text, &reading);
+        if found
+            .1
+            .iter()
+            .all(|d| ![CONDITION, MOMENT].contains(&d.code))
+        {
+            self.note_final(number, text, &reading, &BTreeMap::new());
         }
         found
     }
@@ -340,12 +373,23 @@ impl Desk<'_> {
             return (self.inequality(reading), Vec::new());
         };
         let weighed = self.weigh(text, &links);
+        if let (Weighed::Slip(_), Some(found)) = (&weighed, self.said_anew(number, text, options)) {
+            return found;
+        }
         let fails = matches!(weighed, Weighed::Slip(_) | Weighed::Carried(_));
         if fails && self.is_condition(&links, &weighed) {
             let all: Vec<Expr> = links.iter().flat_map(|l| l.differences.clone()).collect();
             self.state(None, &all);
             let words = "a condition the scene asks about, not a fact";
             let found = Diagnosis::new(CONDITION, words, words);
+            return (Status::Holds, vec![found]);
+        }
+        if let Weighed::Slip(_) = weighed
+            && let Some((when, there)) = self.at_another_moment(&links).cloned()
+        {
+            self.note_final(number, text, reading, &there);
+            let hint = "say which moment or case is meant";
+            let found = Diagnosis::new(MOMENT, format!("this holds {when}"), hint);
             return (Status::Holds, vec![found]);
         }
         if let Weighed::Slip(_) = weighed {

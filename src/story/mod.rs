@@ -25,7 +25,7 @@ use std::iter::successors;
 pub use lent::{accelerations, lent};
 pub(crate) use motion::by_coordinate;
 pub use second::held;
-pub use sheet::{Way, beginning, impact, impacts, is_clockwise, outcomes, sheet, ways};
+pub use sheet::{Way, beginning, impact, impacts, is_clockwise, moments, outcomes, sheet, ways};
 
 use crate::algebra::Sign;
 use crate::answer::calc::{at_least_zero, constant, tidy};

@@ -4,20 +4,26 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::sheet::Sheet;
+use super::names::MARKS;
 use super::sought::{self, Sought};
 use super::{Final, text};
 use crate::answer::Form;
+use crate::derive::Moment;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{self, Content, Reading, Symbols};
-use crate::laws;
 use crate::scene::{Ask, ContactLaw, Question, Scene};
+
+/// Most moments and ways whose values are tried on a line.
+const MOST_MOMENTS: usize = 48;
 
 /// What is known while a worked solution is read: the truth, what the student has said, and what wrong lines imply.
 pub(super) struct Desk<'a> {
     pub sheet: &'a Sheet,
     /// True values by name.
     pub closed: BTreeMap<Symbol, Expr>,
+    /// Values at other moments of the scene, and as it goes otherwise, with words that tell when and where.
+    pub moments: Vec<Moment>,
     /// What wrong lines imply: for each the value of one name, under all that came before.
     pub believed: Vec<(usize, BTreeMap<Symbol, Expr>)>,
     /// The wrong lines themselves, left minus right, with the student's own names put in.
@@ -35,8 +41,10 @@ pub(super) struct Desk<'a> {
     pub ahead: Vec<(Symbol, String)>,
     /// Names that some line solves for.
     pub solved_for: BTreeSet<Symbol>,
-    /// Names that stand for something else with a prime.
-    pub own_with_prime: BTreeSet<Symbol>,
+    /// Names that stand for something else with a mark, and the mark.
+    pub own_with_mark: BTreeSet<(Symbol, &'static str)>,
+    /// Whether own names may stand for something else further down.
+    pub anew: bool,
     /// Own names that were used before the line that says what they are.
     pub early: BTreeSet<Symbol>,
     /// Spins as vectors: the name with an arrow, the spin, and whether it counts clockwise.
@@ -57,40 +65,7 @@ pub(super) struct Desk<'a> {
 
 impl<'a> Desk<'a> {
     pub(super) fn new(sheet: &'a Sheet) -> Desk<'a> {
-        let mut closed = BTreeMap::new();
-        let mut moving = BTreeSet::new();
-        let d = &sheet.derivation;
-        for unknown in laws::unknowns(&sheet.scene) {
-            if let Some(value) = d.motion.get(&unknown) {
-                let value = if d.names.is_reversed(unknown) {
-                    -value
-                } else {
-                    value.clone()
-                };
-                let name = Symbol::from(d.names.plain(unknown));
-                if !unknown.is_impulse() {
-                    moving.insert(name.clone());
-                }
-                closed.insert(name, value);
-            }
-        }
-        for answer in &d.answers {
-            if let Form::Value { closed: value, .. } = &answer.form {
-                let mut asked = sheet.scene.asked_of_impact();
-                let question = asked.find(|q| q.name == answer.question);
-                if question
-                    .is_some_and(|q| matches!(q.ask, Ask::Velocity { .. } | Ask::Spin { .. }))
-                {
-                    moving.insert(Symbol::from(answer.name.as_str()));
-                }
-                // What is asked of a parameter under a condition is not what the parameter is.
-                let mut parameters = sheet.scene.parameters.iter();
-                if parameters.any(|p| *p.name == *answer.name) {
-                    continue;
-                }
-                closed.insert(Symbol::from(answer.name.as_str()), value.clone());
-            }
-        }
+        let (mut closed, moving) = true_values(sheet);
         // A vector along one axis may be written by its letter alone: `P = m (v_G + v)`.
         let axes = ["x", "y"].map(|axis| move |name: &str| Symbol::from(format!("{name}_{axis}")));
         for q in &sheet.scene.questions {
@@ -106,6 +81,7 @@ impl<'a> Desk<'a> {
         }
         Desk {
             sheet,
+            moments: moments(sheet, &closed),
             closed,
             believed: Vec::new(),
             wrong: Vec::new(),
@@ -119,7 +95,8 @@ impl<'a> Desk<'a> {
             slipped: Vec::new(),
             ahead: Vec::new(),
             solved_for: BTreeSet::new(),
-            own_with_prime: BTreeSet::new(),
+            own_with_mark: BTreeSet::new(),
+            anew: false,
             early: BTreeSet::new(),
             spins: spins(&sheet.scene),
             parts: parts(&sheet.scene),
@@ -139,17 +116,26 @@ impl<'a> Desk<'a> {
         let is_vector =
             |name: &Symbol| crossed && self.spins.values().any(|(spin, _)| spin == name);
         self.sheet.scene.declare_parameters(&mut symbols);
+        // The speed v_D that is given goes before a vector that is asked for and typeset otherwise.
+        let given = symbols.clone();
+        let is_given = |name: &str| {
+            let reading = formula::read(name, &given).ok();
+            let symbol = reading.as_ref().and_then(|r| r.expr()?.as_symbol());
+            symbol.is_some_and(|symbol| **symbol != *name)
+        };
         for q in &self.sheet.scene.questions {
             let known = self.closed.contains_key(q.name.as_str());
             let spin = is_vector(&Symbol::from(q.name.as_str()));
-            if !spin && (known || self.components(&q.name).is_some()) {
+            if !spin && (known || self.components(&q.name).is_some()) && !is_given(&q.name) {
                 symbols.declare_as(q.name.as_str(), q.latex.as_deref(), None);
             }
         }
-        self.closed
-            .keys()
-            .chain(self.own.keys())
-            .filter(|name| !is_vector(name))
+        let later = self.moments.iter().flat_map(|(_, values)| values.keys());
+        let later = later.filter(|name| !self.closed.contains_key(&**name));
+        let later: BTreeSet<&Symbol> = later.collect();
+        (self.closed.keys().chain(self.own.keys()))
+            .chain(later.iter().copied())
+            .filter(|name| !is_vector(name) && !is_given(name))
             .for_each(|name| symbols.declare(name));
         for (name, _) in self.sheet.scene.arms() {
             if let Some(arrow) = formula::with_arrow(&name) {
@@ -160,11 +146,11 @@ impl<'a> Desk<'a> {
         }
         // `ω⁺` and `ω'` are what is asked of the moment just after, and a vector may wear its arrow.
         let now = |name: &&Symbol| !name.contains('^') && !is_vector(name);
-        for name in self.closed.keys().filter(now) {
-            let marks = ["^{+}", "'"].into_iter();
-            for mark in marks.filter(|mark| *mark != "'" || !self.own_with_prime.contains(name)) {
+        for name in self.closed.keys().chain(later).filter(now) {
+            let own = |mark: &&str| self.own_with_mark.contains(&(name.clone(), *mark));
+            for mark in MARKS.into_iter().filter(|mark| !own(mark)) {
                 let after = format!("{}{mark}", formula::latex_name(name));
-                symbols.declare_as(name.clone(), Some(&after), None);
+                symbols.declare_typeset(name.clone(), &after);
             }
         }
         let vectors = self.sheet.scene.questions.iter().map(|q| q.name.as_str());
@@ -184,7 +170,7 @@ impl<'a> Desk<'a> {
             let (base, index) = latex.split_at(latex.find(['_', '^']).unwrap_or(latex.len()));
             for moment in ["", "^{+}"] {
                 let arrow = format!("\\vec{{{base}}}{index}{moment}");
-                symbols.declare_as(name, Some(&arrow), None);
+                symbols.declare_typeset(name, &arrow);
             }
         }
         symbols
@@ -269,6 +255,73 @@ impl<'a> Desk<'a> {
             .substitute(instead)
             .substitute(&self.closed)
     }
+}
+
+/// The true values of a scene by name, and which names are of velocities and spins that go in step where there is one freedom.
+fn true_values(sheet: &Sheet) -> (BTreeMap<Symbol, Expr>, BTreeSet<Symbol>) {
+    let mut closed = BTreeMap::new();
+    let mut moving = BTreeSet::new();
+    let d = &sheet.derivation;
+    for (unknown, name, value) in d.motion_by_name() {
+        if !unknown.is_impulse() {
+            moving.insert(name.clone());
+        }
+        closed.insert(name, value);
+    }
+    for answer in &d.answers {
+        if let Form::Value { closed: value, .. } = &answer.form {
+            let mut asked = sheet.scene.asked_of_impact();
+            let question = asked.find(|q| q.name == answer.question);
+            if question.is_some_and(|q| matches!(q.ask, Ask::Velocity { .. } | Ask::Spin { .. })) {
+                moving.insert(Symbol::from(answer.name.as_str()));
+            }
+            // What is asked of a parameter under a condition is not what the parameter is.
+            let mut parameters = sheet.scene.parameters.iter();
+            if parameters.any(|p| *p.name == *answer.name) {
+                continue;
+            }
+            closed.insert(Symbol::from(answer.name.as_str()), value.clone());
+        }
+    }
+    (closed, moving)
+}
+
+/// Values at other moments than those of the true values, and in other ways the scene can go.
+fn moments(sheet: &Sheet, closed: &BTreeMap<Symbol, Expr>) -> Vec<Moment> {
+    let differs = |values: &BTreeMap<Symbol, Expr>| {
+        let same = |(name, value): (&Symbol, &Expr)| closed.get(name) == Some(value);
+        !values.iter().all(same)
+    };
+    let own = sheet.moments.iter().cloned();
+    let others = sheet.otherwise.iter().flat_map(|way| {
+        let (answers, given) = (true_values(way).0, way.given.join(", "));
+        let later = way.moments.iter().map(|(when, values)| {
+            let mut all = answers.clone();
+            all.extend(values.clone());
+            (format!("{when}, where {given}"), all)
+        });
+        let later: Vec<Moment> = later.collect();
+        std::iter::once((format!("where {given}"), answers)).chain(later)
+    });
+    // What is asked with a parameter's value is told there: `with e = 1 the energy lost is 0`.
+    let asked = sheet.scene.questions.iter().map(|q| q.ask.with());
+    let asked = asked.filter(|with| !with.is_empty()).map(|with| {
+        let there: BTreeMap<Symbol, Expr> = with.iter().cloned().collect();
+        let mut all: BTreeMap<_, _> = (closed.iter())
+            .map(|(name, value)| (name.clone(), value.substitute(&there)))
+            .collect();
+        let words = there
+            .iter()
+            .map(|(name, value)| format!("{name} = {}", formula::write_plain(value)));
+        let words: Vec<String> = words.collect();
+        all.extend(there);
+        (format!("with {}", words.join(", ")), all)
+    });
+    let all = own
+        .chain(others)
+        .chain(asked)
+        .filter(|(_, values)| differs(values));
+    all.take(MOST_MOMENTS).collect()
 }
 
 /// Spins that are asked for, as vectors out of the page.

@@ -11,6 +11,7 @@ use super::text::supposition;
 use super::{Desk, Final, Status};
 use crate::algebra::{self, Sign};
 use crate::answer::limit;
+use crate::derive::Moment;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Function, Symbol, effort};
 use crate::formula::{self, Content, Reading, Relation};
@@ -126,10 +127,11 @@ impl Desk<'_> {
             return Some(status);
         }
         let (given, behind) = supposition(text)?;
-        let [read, then] = [given, behind].map(|part| formula::read(part, &self.symbols(part)));
-        let (Content::Relations(sides, signs), then) = (read.ok()?.content, then.ok()?) else {
+        let read = |part: &str| formula::read(part, &self.symbols(part)).ok();
+        let Content::Relations(sides, signs) = read(given)?.content else {
             return None;
         };
+        let then: Vec<Reading> = behind.into_iter().map(read).collect::<Option<_>>()?;
         let ([left, right], [Relation::Equal]) = (&sides[..], &signs[..]) else {
             // What holds where an inequality does is not known to hold.
             return Some(Status::Undecided);
@@ -144,7 +146,7 @@ impl Desk<'_> {
         };
         if self.sheet.scene.parameter(name).is_none() {
             // `s = d when u = √(2 μ g d)`: what is supposed, and what follows from it.
-            let (links, given) = (self.links(&then)?, self.link(&sides[0], &sides[1])?);
+            let (links, given) = (self.links(then.first()?)?, self.link(&sides[0], &sides[1])?);
             let mut all = self.sought.iter();
             let found = all.position(|s| self.states(&links, s) && self.holds_where(&given, s))?;
             self.supposed.push(found);
@@ -154,7 +156,11 @@ impl Desk<'_> {
             return None;
         }
         let there = BTreeMap::from([(name.clone(), value.clone())]);
-        let links = self.links(&then)?;
+        let links: Vec<Vec<Link>> = then
+            .iter()
+            .map(|then| self.links(then))
+            .collect::<Option<_>>()?;
+        let links: Vec<Link> = links.into_iter().flatten().collect();
         let differences = || links.iter().flat_map(|link| &link.differences);
         let zero = |instead: &BTreeMap<Symbol, Expr>| {
             // Without a value there, nothing is said.
@@ -205,6 +211,13 @@ impl Desk<'_> {
             (_, _, true) => Weighed::Rounded,
             _ => Weighed::Holds,
         }
+    }
+
+    /// When or where all links of a line hold that do not as the scene goes first: just after another impact, or in another case.
+    pub(super) fn at_another_moment(&self, links: &[Link]) -> Option<&Moment> {
+        let all: Vec<Expr> = links.iter().flat_map(|l| l.differences.clone()).collect();
+        let holds = |values| self.all_zero(&all, values) == Some(true);
+        self.moments.iter().find(|(_, values)| holds(values))
     }
 
     fn carried_on(&self, link: &Link) -> Option<usize> {
@@ -456,8 +469,15 @@ impl Desk<'_> {
         off.filter(|_| !open)
     }
 
-    /// Keeps what a line says of a quantity that is asked for, where it ends in what is given.
-    pub(super) fn note_final(&mut self, number: usize, text: &str, reading: &Reading) {
+    /// Keeps what a line says of a quantity that is asked for, where it ends in what is given; `there` are the values of another
+    /// moment or case of which it speaks.
+    pub(super) fn note_final(
+        &mut self,
+        number: usize,
+        text: &str,
+        reading: &Reading,
+        there: &BTreeMap<Symbol, Expr>,
+    ) {
         // What is a number in the unit that is asked for is one.
         let fits = |measured: &Reading| {
             let links = self.links(measured);
@@ -504,15 +524,14 @@ impl Desk<'_> {
         if !in_given || !whole || !(lent || answers.iter().any(asked)) {
             return;
         }
-        let none = BTreeMap::new();
         let end = &text[text.rfind(['=', '≈']).unwrap_or(0)..];
         let in_another_unit = self.in_another_unit(std::slice::from_ref(&ends)).is_some();
-        let verdict = match self.all_zero(&ends.differences, &none) {
+        let verdict = match self.all_zero(&ends.differences, there) {
             _ if in_another_unit => Verdict::Different,
             Some(true) => Verdict::Equivalent,
-            _ if self.is_rounded(end, &ends, &none) => Verdict::Equivalent,
+            _ if self.is_rounded(end, &ends, there) => Verdict::Equivalent,
             // What it was worked out from may be rounded more coarsely.
-            _ if self.is_rounded(text, &ends, &none) => Verdict::Equivalent,
+            _ if self.is_rounded(text, &ends, there) => Verdict::Equivalent,
             // What holds where a condition does is a step on the way to what the condition is for.
             Some(false) if self.follows_condition(&ends) => return,
             Some(false) => Verdict::Different,

@@ -13,7 +13,7 @@ use crate::domain::Domains;
 use crate::equality::{self};
 use crate::expr::{Expr, Function, Node, Symbol, dot, ratio};
 use crate::formula::{self, Content, Reading, Remark, Symbols};
-use crate::scene::{Ask, Body, Scene, StageKind};
+use crate::scene::{Ask, Body, Question, Scene, StageKind};
 
 /// Most names a student may introduce.
 const MOST_NAMES: usize = 100;
@@ -34,11 +34,16 @@ pub(super) fn named(text: &str) -> Option<(Symbol, &str)> {
     Some((name, right))
 }
 
-/// The definitions `name = …` of a worked solution, for lines that use a name before it is said.
-pub(super) fn definitions(text: &str) -> Vec<(Symbol, String)> {
+/// The definitions `name = …` of a worked solution, for lines that use a name before it is said; what the scene names in
+/// another spelling is none.
+pub(super) fn definitions(text: &str, scene: &Symbols) -> Vec<(Symbol, String)> {
     let lines = text.lines().take(super::MAX_LINES);
     let parts = lines.flat_map(super::text::equations);
-    let named = parts.filter_map(named);
+    let new = |part: &&str| {
+        let left = part.split('=').next().unwrap_or_default();
+        formula::read(left, scene).is_err()
+    };
+    let named = parts.filter(new).filter_map(named);
     named.map(|(n, right)| (n, right.to_string())).collect()
 }
 
@@ -97,20 +102,34 @@ fn readings(scene: &Scene, text: &str) -> Vec<Reading> {
     readings.collect()
 }
 
-/// Names of what is asked before the last impact that a worked solution writes with a prime as well: with it they are of a later
-/// moment. So may those be that are asked of the last of several impacts, with it of an earlier one.
-pub(super) fn of_another_moment(sheet: &Sheet, text: &str, of_last: bool) -> BTreeSet<Symbol> {
-    let (Some(last), false) = (sheet.impacts.last(), of_last && sheet.impacts.len() < 2) else {
-        return BTreeSet::new();
-    };
+/// Marks behind a name that tell the moment just after.
+pub(super) const MARKS: [&str; 2] = ["'", "^{+}"];
+
+/// What is asked that a worked solution writes with a mark as well, and the mark: it may be of another moment with it.
+pub(super) fn marked(sheet: &Sheet, text: &str) -> BTreeSet<(Symbol, &'static str)> {
     let readings = readings(&sheet.scene, text);
     let used: BTreeSet<Symbol> = readings.iter().flat_map(Reading::symbols).collect();
-    let both = |name: &Symbol| used.contains(name) && used.contains(&*format!("{name}'"));
-    let is_last = |name: &Symbol| last.questions.iter().any(|q| *q.name == **name);
-    let asked = sheet.scene.questions.iter();
-    let asked = asked.map(|q| Symbol::from(q.name.as_str()));
-    let wanted = asked.filter(|name| both(name) && is_last(name) == of_last);
-    wanted.collect()
+    let both =
+        |name: &Symbol, mark: &str| used.contains(name) && used.contains(&*format!("{name}{mark}"));
+    let asked = sheet.derivation.answers.iter();
+    let asked = asked.map(|answer| Symbol::from(answer.name.as_str()));
+    let all = asked.flat_map(|name| MARKS.map(|mark| (name.clone(), mark)));
+    all.filter(|(name, mark)| both(name, mark)).collect()
+}
+
+/// Those of them that are asked before the last impact: with a prime they are of a later moment.
+pub(super) fn of_a_later_moment(sheet: &Sheet, text: &str) -> BTreeSet<(Symbol, &'static str)> {
+    let Some(last) = sheet.impacts.last() else {
+        return BTreeSet::new();
+    };
+    let of = |q: &Question, name: &str| {
+        name.strip_prefix(&*q.name)
+            .is_some_and(|rest| ["", "_x", "_y"].contains(&rest))
+    };
+    let is_last = |name: &Symbol| last.questions.iter().any(|q| of(q, name));
+    let mut marked = marked(sheet, text);
+    marked.retain(|(name, mark)| *mark == "'" && !is_last(name));
+    marked
 }
 
 /// The accelerations that such a name in a worked solution may stand for, counted either way: those of the scene, where it
@@ -419,6 +438,42 @@ impl Desk<'_> {
         let (name, _) = named(text)?;
         self.early.remove(&name).then(|| self.own.remove(&name))?;
         self.definition(number, text, options)
+    }
+
+    /// A line that says anew what an own name stands for, where that may be: `W = …` of the next way. The name is said in so
+    /// many words more than once then.
+    pub(super) fn said_anew(
+        &mut self,
+        number: usize,
+        text: &str,
+        options: &Options,
+    ) -> Option<(Status, Vec<Diagnosis>)> {
+        if !self.anew {
+            return None;
+        }
+        let left = text.split('=').next()?;
+        let left = formula::read(left, &self.symbols(left)).ok()?;
+        let mut names = left
+            .symbols()
+            .into_iter()
+            .filter(|name| self.own.contains_key(name));
+        let (name, None) = (names.next()?, names.next()) else {
+            return None;
+        };
+        let said = self.ahead.iter().filter(|(other, _)| *other == name);
+        if said.count() < 2 {
+            return None;
+        }
+        let before = self.own.remove(&name);
+        let found = match named(text) {
+            Some(_) => self.definition(number, text, options),
+            None => self.new_name(text).map(|status| (status, Vec::new())),
+        };
+        let found = found.filter(|(status, _)| *status == Status::Defines);
+        if found.is_none() {
+            self.own.extend(before.map(|value| (name, value)));
+        }
+        found
     }
 
     /// A text with names that are said only further down.

@@ -37,6 +37,11 @@ pub(super) fn relates(text: &str) -> bool {
 /// The equations of a line one by one, without the words before, between and behind them: `AMB about C: …`, `so …`,
 /// `… => …`, `…, where I = …`.
 pub(super) fn equations(text: &str) -> Vec<&str> {
+    let lower = text.trim_start().to_ascii_lowercase();
+    // What is told of a root that is not taken is no step.
+    if DISCARDS.iter().any(|word| lower.starts_with(word)) {
+        return Vec::new();
+    }
     let mut out = Vec::new();
     let (mut start, mut at, mut depth) = (0, 0, 0i32);
     while at < text.len() {
@@ -71,6 +76,9 @@ pub(super) fn equations(text: &str) -> Vec<&str> {
     out.retain(|part| relates(part));
     out
 }
+
+/// First words of a line about a root that is not taken.
+const DISCARDS: [&str; 4] = ["discard", "reject", "not taken", "impossible"];
 
 /// Words that stand for a sign of equality behind a name.
 const VERBS: [&str; 4] = [" is equal to ", " is given by ", " equals ", " is "];
@@ -180,7 +188,7 @@ fn is_letters(word: &str) -> bool {
 const TRIALS: &str = "check|test|special case|in particular|especially|e.g.|for example|then";
 
 /// What a line supposes and what follows then: `For θ = 0: ω = 3v/(2l)`, `If e = 1, E = 0`, `Check: M = 0 gives a = g`.
-pub(super) fn supposition(text: &str) -> Option<(&str, &str)> {
+pub(super) fn supposition(text: &str) -> Option<(&str, Vec<&str>)> {
     let lower = text.to_ascii_lowercase();
     let tries = TRIALS.split('|').find(|words| {
         let behind = lower.strip_prefix(*words);
@@ -195,7 +203,7 @@ pub(super) fn supposition(text: &str) -> Option<(&str, &str)> {
         if let Some((said, given)) = words.filter_map(|word| text.split_once(word)).next() {
             let both = relates(said) && relates(given);
             let given = given.trim_end_matches('.').trim_matches([' ', '$']);
-            return both.then(|| (given, equation(said)));
+            return both.then(|| (given, equations(said)));
         }
     }
     let rest = &text[if supposes { lead.len() } else { 0 }..];
@@ -225,11 +233,36 @@ pub(super) fn supposition(text: &str) -> Option<(&str, &str)> {
     let (at, length) = end.or_else(second)?;
     let (given, behind) = (&rest[..at], &rest[at + length..]);
     let both = relates(given) && relates(behind);
-    both.then(|| (given.trim_matches([' ', '$']), equation(behind)))
+    both.then(|| (given.trim_matches([' ', '$']), equations(behind)))
+}
+
+/// A solution without what aligns its lines in LaTeX: a line that goes on with a further term, `& + …`, is put behind the one
+/// before it, and a heading is words.
+pub(super) fn joined(text: &str) -> String {
+    let mut out: Vec<String> = Vec::new();
+    let mut last = None;
+    for line in text.lines() {
+        let aligned = line.trim_start().strip_prefix('&').map(str::trim_start);
+        let goes_on = aligned.filter(|rest| rest.starts_with(['+', '-']));
+        match (goes_on, last) {
+            (Some(rest), Some(at)) => {
+                let line: &mut String = &mut out[at];
+                line.push(' ');
+                line.push_str(&unaligned(rest));
+                out.push(String::new());
+            }
+            _ if line.starts_with("#") => out.push(String::new()),
+            _ => {
+                last = Some(out.len());
+                out.push(unaligned(line.trim()));
+            }
+        }
+    }
+    out.join("\n")
 }
 
 /// A line without what aligns it with others in LaTeX: `ω &= 3v/(2ℓ) \\\\`.
-pub(super) fn unaligned(line: &str) -> String {
+fn unaligned(line: &str) -> String {
     let line = line.trim_end_matches("\\\\").trim_end();
     let line = line
         .trim_end_matches("\\\\")

@@ -10,7 +10,6 @@ use crate::derive::Derivation;
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol, dot, minus};
 use crate::formula::{self, Content, Reading, Relation, Symbols, write_unicode};
-use crate::laws;
 use crate::scene::{Ask, ContactLaw, FrictionEvent, Printed, Scene};
 
 /// What formulas are read and evaluated with.
@@ -72,15 +71,8 @@ impl<'a> Desk<'a> {
         let whole = |n: usize| Expr::from(n as i64);
         closed.insert("equations".into(), whole(derivation.counting.equations));
         closed.insert("unknowns".into(), whole(derivation.counting.unknowns));
-        for unknown in laws::unknowns(scene) {
-            if let Some(value) = derivation.motion.get(&unknown) {
-                let value = match derivation.names.is_reversed(unknown) {
-                    true => -value,
-                    false => value.clone(),
-                };
-                closed.insert(Symbol::from(derivation.names.plain(unknown)), value);
-            }
-        }
+        let motion = derivation.motion_by_name();
+        closed.extend(motion.map(|(_, name, value)| (name, value)));
         let mut vectors: BTreeMap<Symbol, [Expr; 2]> = BTreeMap::new();
         let mut bounds = BTreeMap::new();
         let mut open = BTreeMap::new();
