@@ -67,8 +67,22 @@ fn changes(
                 say,
             )
         }
-        Node::Sum(terms) => of_sum(e, terms, say),
-        Node::Product(factors) => of_product(factors, say),
+        Node::Sum(terms) => {
+            let mut out = of_sum(e, terms, say);
+            let kin = |a: &Symbol, b: &Symbol| a < b && kin(a, b) && e.mentions(a) && e.mentions(b);
+            let pairs = names.iter().flat_map(|a| names.iter().map(move |b| (a, b)));
+            out.extend(pairs.filter(|(a, b)| kin(a, b)).map(|(a, b)| {
+                let [x, y] = [a, b].map(|name| Expr::symbol(name));
+                let both = [(a.clone(), y.clone()), (b.clone(), x.clone())];
+                let [x, y, whole] = [&x, &y, e].map(say);
+                let words = format!("{x} and {y} are exchanged in {whole}");
+                (e.substitute(&both.into()), words)
+            }));
+            out
+        }
+        Node::Product(factors) => {
+            [of_product(factors, say), without_brackets(factors, say)].concat()
+        }
         Node::Power(base, k) => of_power(e, base, k, say),
         Node::Call(Function::Sin, x) => vec![(x.cos(), format!("cos stands for {}", say(e)))],
         Node::Call(Function::Cos, x) => vec![(x.sin(), format!("sin stands for {}", say(e)))],
@@ -157,6 +171,44 @@ fn of_product(factors: &[Expr], say: &dyn Fn(&Expr) -> String) -> Vec<(Expr, Str
         all[i] = factors[i].powi(-1);
         let words = format!("the factor {} stands upside down", say(&factors[i]));
         out.push((Expr::product(all), words));
+    }
+    out
+}
+
+/// `p (a + b)/q` without its brackets: p a + b/q, or with b first; and `p/(q (a + b))`: p/(q a) + b, or p/(q a + b).
+fn without_brackets(factors: &[Expr], say: &dyn Fn(&Expr) -> String) -> Vec<(Expr, String)> {
+    let below = |f: &Expr| match f.node() {
+        Node::Power(_, k) => k.as_number().is_some_and(Signed::is_negative),
+        _ => false,
+    };
+    let mut out = Vec::new();
+    for (i, factor) in factors.iter().enumerate() {
+        let (sum, k) = match factor.node() {
+            Node::Power(sum, k) => (sum, k.clone()),
+            _ => (factor, Expr::one()),
+        };
+        let Node::Sum(terms) = sum.node() else {
+            continue;
+        };
+        let others = factors.iter().enumerate().filter(|(j, _)| *j != i);
+        let (behind, before): (Vec<Expr>, Vec<Expr>) =
+            others.map(|(_, f)| f.clone()).partition(below);
+        let [behind, before] = [behind, before].map(Expr::product);
+        for head in terms {
+            let tail = sum - head;
+            let lost = match below(factor) {
+                true => vec![
+                    &before * &behind * head.power(k.clone()) + &tail,
+                    &before * (behind.powi(-1) * head + tail).power(k.clone()),
+                ],
+                false => vec![
+                    &before * &behind * head + tail.power(k.clone()),
+                    &before * head + &behind * tail.power(k.clone()),
+                ],
+            };
+            let words = format!("the brackets around {} are lost", say(sum));
+            out.extend(lost.into_iter().map(|e| (e, words.clone())));
+        }
     }
     out
 }

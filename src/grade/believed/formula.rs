@@ -22,7 +22,7 @@ pub(in crate::grade) fn formulas(written: &Written, slip: &Slip) -> Option<Vec<E
     }
     let values = match slip.change {
         Some(Change::EnergyKept) => {
-            outcome::energy_kept(written, slip, &point, |_| true, |s| solved(s, domains))?
+            outcome::energy_kept(written, slip, &point, |_, _| true, |s| solved(s, domains))?
         }
         _ => outcome::outcome(written, slip, &point, |s| solved(s, domains))?,
     };

@@ -289,7 +289,7 @@ pub(super) fn energy_kept<T: Number>(
     written: &Written,
     slip: &Slip,
     point: &Point<T>,
-    has_one_freedom: impl Fn(&System<T>) -> bool,
+    has_one_freedom: impl Fn(&System<T>, &Solution<T>) -> bool,
     solve: impl Fn(&System<T>) -> Option<Solution<T>>,
 ) -> Option<Vec<T>> {
     let given = numeric::given(&slip.scene, point).ok()?;
@@ -300,7 +300,7 @@ pub(super) fn energy_kept<T: Number>(
     let mut system = numeric::assemble(&given);
     // The shape of the motion: what the laws themselves give, which has the joints' freedom.
     let mut solution = solve(&system)?;
-    if !has_one_freedom(&system) {
+    if !has_one_freedom(&system, &solution) {
         return None;
     }
     let motion = numeric::motion(&given, &system, &solution);
@@ -324,9 +324,16 @@ pub(super) fn energy_kept<T: Number>(
     read_off(written, slip, point, given, &motion)
 }
 
-/// Whether hinges and sticking contacts leave the bodies one freedom.
-fn has_one_freedom(system: &System<f64>) -> bool {
-    let velocity = |u: &Unknown| matches!(u, Unknown::Velocity(..) | Unknown::Spin(_));
+/// Whether hinges and sticking contacts leave what moves one freedom: two lumps on a line have no other.
+fn has_one_freedom(system: &System<f64>, solution: &Solution<f64>) -> bool {
+    let fastest = solution.values.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+    let moves = |c: &usize| {
+        let velocity = matches!(
+            system.unknowns[*c],
+            Unknown::Velocity(..) | Unknown::Spin(_)
+        );
+        velocity && solution.values[*c].abs() > 1e-12 * fastest
+    };
     let n = system.unknowns.len();
     let kinematic: Vec<usize> = (0..system.laws.len())
         .filter(|i| {
@@ -334,7 +341,7 @@ fn has_one_freedom(system: &System<f64>) -> bool {
             matches!(system.laws[*i], Hinge(..) | Sticking(..))
         })
         .collect();
-    let columns: Vec<usize> = (0..n).filter(|c| velocity(&system.unknowns[*c])).collect();
+    let columns: Vec<usize> = (0..n).filter(moves).collect();
     let matrix =
         nalgebra::DMatrix::from_fn(kinematic.len().max(columns.len()), columns.len(), |i, j| {
             kinematic
