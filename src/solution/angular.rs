@@ -219,7 +219,7 @@ impl Writer<'_> {
         // I ω alone is the value already.
         let spins =
             |piece: &Vec<Math>| matches!(piece.as_slice(), [Math::Factor(_), Math::Brackets(_)]);
-        if system.len() == 1 && pieces.len() == 1 && pieces.iter().all(spins) {
+        if pieces.len() == 1 && pieces.iter().all(spins) {
             pieces.clear();
         }
         let mut math = set("{} =", [symbol]);

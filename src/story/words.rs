@@ -18,7 +18,7 @@ pub(super) fn active(case: &Case) -> String {
         [] if !case.rubs.is_empty() => return case.rubs.replace('`', ""),
         [] => String::from("no support or string acts"),
         [one] => format!("{one} acts"),
-        several => format!("{} act", several.join(" and ")),
+        several => format!("{} act", listed(several)),
     };
     match case.rubs.as_str() {
         "" => acts,
@@ -162,7 +162,7 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
                 1 => "moves",
                 _ => "move together",
             };
-            let lead = format!("{} {verb}", names.join(" and "));
+            let lead = format!("{} {verb}", listed(&names));
             let coordinate = Expr::symbol(&linkage.coordinate);
             let [from, to] = &linkage.ends;
             let is_angle =

@@ -159,8 +159,9 @@ impl Page<'_> {
         let stages = &self.told.stages;
         let mut others = stages.iter().filter(|s| !std::ptr::eq(*s, told));
         let is_other = others.any(|s| matches!(s.placed.kind, StageKind::Slide(_)));
-        let is_taken = self.scene.parameters.iter().any(|p| *p.name == *START)
-            || self.told.answers.iter().any(|a| a.name == START);
+        let is_start = |name: &str| name.replace('_', "") == "v0";
+        let is_taken = self.scene.parameters.iter().any(|p| is_start(&p.name))
+            || self.told.answers.iter().any(|a| is_start(&a.name));
         let serves = |s: &&Step| s.inertia.is_none() && self.serves(told, s);
         let mut steps = told.steps.iter().filter(serves);
         let is_used = steps.any(|s| replaced(&s.raw, &value, &symbol) != s.raw);

@@ -444,35 +444,34 @@ fn quantity(
     let mut number = 0;
     let mut out = Vec::new();
     for (i, told, way) in ways {
-        let outcomes = told.cases.iter();
         let name = (scene.stages.len() > 1).then_some(told.placed.name.as_str());
-        let outcomes = outcomes.flat_map(|case| of_case(question, (name, case), cases > 1));
-        let mut own = match told.cases.is_empty() {
-            true => motion::at_end(scene, question, told)?,
-            false => outcomes.collect(),
-        };
-        let per = own.len() / told.cases.len().max(1);
-        for (k, answer) in own.iter_mut().enumerate() {
-            let state = match told.cases.get(k / per.max(1)) {
-                Some(case) => &case.after,
-                None => &told.after,
-            };
+        let mut own: Vec<(usize, Answer)> = Vec::new();
+        if told.cases.is_empty() {
+            let at_end = motion::at_end(scene, question, told)?;
+            own.extend(at_end.into_iter().map(|a| (0, a)));
+        }
+        for k in 0..told.cases.len() {
+            let answers = of_case(question, (name, &told.cases), k, cases > 1);
+            own.extend(answers.into_iter().map(|a| (k, a)));
+        }
+        for (k, mut answer) in own {
+            let state = told.cases.get(k).map_or(&told.after, |case| &case.after);
             if let Some(why) = state.why_open(answer.form.formulas()) {
-                *answer = answer.clone().leave_open(why);
+                answer = answer.leave_open(why);
             }
             if matches!(answer.form, Form::Open(_) | Form::Words) {
                 answer.checks.clear();
             }
             let way = Way {
-                number: (cases > 1).then_some(number + k / per.max(1)),
+                number: (cases > 1).then_some(number + k),
                 words: way.words.clone(),
                 given: way.given.clone(),
             };
-            way.put(answer);
-            answer.told = Some((i, k / per.max(1)));
+            way.put(&mut answer);
+            answer.told = Some((i, k));
+            out.push(answer);
         }
         number += told.cases.len().max(1);
-        out.extend(own);
     }
     Ok(out)
 }
@@ -520,13 +519,33 @@ fn in_impact(words: &str, name: &str) -> String {
     format!("{what} in `{name}`{along}")
 }
 
-/// The answers of one outcome of an impact, which has a name where there are others.
-fn of_case(question: &Question, (name, case): (Option<&str>, &Case), several: bool) -> Vec<Answer> {
+/// The answers of outcome `k` of an impact, which has a name where there are others.
+fn of_case(
+    question: &Question,
+    (name, cases): (Option<&str>, &[Case]),
+    k: usize,
+    several: bool,
+) -> Vec<Answer> {
+    let case = &cases[k];
+    let asked = |case: &Case| {
+        let all = case.derivation.answers.iter().zip(&case.proof.answers);
+        let mine = all.filter(|(a, _)| a.question == question.name);
+        mine.map(|(a, checks)| (a.clone(), checks.clone()))
+            .collect::<Vec<_>>()
+    };
+    let mut mine = asked(case);
+    // What does not act here has the components that it has where it acts.
+    let acts = !mine.is_empty();
+    if !acts {
+        let mut others = cases.iter().map(asked);
+        mine = others.find(|all| !all.is_empty()).unwrap_or_else(|| {
+            let mut nowhere = Answer::blank(question, &question.name, "impulse");
+            nowhere.dimension = Dimension::new(1, 1, -1);
+            vec![(nowhere, Vec::new())]
+        });
+    }
     let mut out = Vec::new();
-    for (answer, checks) in case.derivation.answers.iter().zip(&case.proof.answers) {
-        if answer.question != question.name {
-            continue;
-        }
+    for (answer, checks) in mine {
         let said = name.map_or_else(
             || answer.words.clone(),
             |name| in_impact(&answer.words, name),
@@ -535,10 +554,22 @@ fn of_case(question: &Question, (name, case): (Option<&str>, &Case), several: bo
             true => format!("{said}, {}", words::active(case)),
             false => said,
         };
+        if !acts {
+            let mut a = Answer::blank(question, &answer.name, words);
+            a.form = Form::value(Expr::zero());
+            let why = words::active(case);
+            a.text
+                .push(sentence!("nothing is transmitted there: {}", why));
+            a.assumptions.extend(case.conditions.iter().map(supposed));
+            (a.latex, a.dimension) = (answer.latex, answer.dimension);
+            a.checks = case.identities().cloned().collect();
+            out.push(a);
+            continue;
+        }
         let mut a = Answer {
             words,
             form: case.form(&answer.form),
-            ..answer.clone()
+            ..answer
         };
         a.text.extend(a.left_open().map(Sentence::words));
         a.assumptions.extend(rests_on(case));
@@ -546,18 +577,7 @@ fn of_case(question: &Question, (name, case): (Option<&str>, &Case), several: bo
         let is_given = !matches!(a.form, Form::Open(_));
         let identities = case.identities().filter(|_| is_given);
         let identities = identities.map(|check| for_any(case, check));
-        a.checks = identities.chain(checks.iter().cloned()).collect();
-        out.push(a);
-    }
-    if out.is_empty() {
-        let mut a = Answer::blank(question, &question.name, words::active(case));
-        a.form = Form::value(Expr::zero());
-        let acts = words::active(case);
-        a.text
-            .push(sentence!("nothing is transmitted there: {}", acts));
-        a.assumptions.extend(case.conditions.iter().map(supposed));
-        a.dimension = Dimension::new(1, 1, -1);
-        a.checks = case.identities().cloned().collect();
+        a.checks = identities.chain(checks).collect();
         out.push(a);
     }
     out

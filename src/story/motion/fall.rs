@@ -246,7 +246,14 @@ fn duration(
             "look at the sign of `height` (counted downwards) or `range` (counted to the right)",
         ),
     };
-    supposed.not_negative(&time, comes_after, negative)?;
+    match &fall.until {
+        // A ball that comes off a wall with e v never gets there for e = 0.
+        FallEnd::Range(s) => {
+            let ahead = tidied(stage, &(s * vx))?;
+            supposed.positive(&ahead, format!("`{name}` gets there"), negative)?;
+        }
+        _ => supposed.not_negative(&time, comes_after, negative)?,
+    }
     Ok((time, down))
 }
 
