@@ -37,10 +37,12 @@ pub(super) fn relates(text: &str) -> bool {
 /// The equations of a line one by one, without the words before, between and behind them: `AMB about C: …`, `so …`,
 /// `… => …`, `…, where I = …`.
 pub(super) fn equations(text: &str) -> Vec<&str> {
-    let lower = text.trim_start().to_ascii_lowercase();
-    // What is told of a root that is not taken is no step.
-    if DISCARDS.iter().any(|word| lower.starts_with(word)) {
-        return Vec::new();
+    let lower = text.to_ascii_lowercase();
+    let asides = ASIDES.split('|').filter_map(|words| lower.find(words));
+    let aside = asides.filter(|at| ends_sentence(&text[..*at])).min();
+    let text = &text[..aside.unwrap_or(text.len())];
+    if let Some(formulas) = in_dollars(text) {
+        return formulas;
     }
     let mut out = Vec::new();
     let (mut start, mut at, mut depth) = (0, 0, 0i32);
@@ -77,8 +79,55 @@ pub(super) fn equations(text: &str) -> Vec<&str> {
     out
 }
 
-/// First words of a line about a root that is not taken.
-const DISCARDS: [&str; 4] = ["discard", "reject", "not taken", "impossible"];
+/// First words of what is no step: about a root that is not taken, or under which conditions results hold.
+const ASIDES: &str = "discard|reject|not taken|impossible|the results hold|the result holds|valid for|given that|assumed|\
+    assuming|provided";
+
+/// Whether nothing is open before a new sentence.
+fn ends_sentence(before: &str) -> bool {
+    let before = before.trim_end_matches([' ', '*', '-', '•']);
+    before.is_empty() || before.ends_with(['.', ';'])
+}
+
+/// The equations of a sentence whose formulas stand between dollar signs, without those behind words that suppose something:
+/// `No impulse acts along $x$, so $v_x = u$.`; nothing where a relation stands outside of them.
+fn in_dollars(text: &str) -> Option<Vec<&str>> {
+    const SUPPOSING: [&str; 10] = [
+        "for",
+        "at",
+        "where",
+        "when",
+        "if",
+        "with",
+        "until",
+        "than",
+        "normal",
+        "direction",
+    ];
+    let pieces: Vec<&str> = text.split('$').collect();
+    let is_formula = |k: usize| k % 2 == 1;
+    let outside = pieces.iter().step_by(2);
+    let mut words = outside.clone().flat_map(|piece| piece.split(' '));
+    let sentence = pieces.len() % 2 == 1 && pieces.len() > 1 && words.any(is_word);
+    if !sentence || outside.clone().any(|piece| relates(piece)) {
+        return None;
+    }
+    let supposes = |before: &str| {
+        let last = before.trim_end().rsplit(' ').next().unwrap_or_default();
+        SUPPOSING.contains(&&*last.to_ascii_lowercase())
+    };
+    let mut supposing = false;
+    let formulas = pieces.iter().enumerate().filter_map(|(k, piece)| {
+        if !is_formula(k) {
+            // `at $e = 1$ and $d = 0$` supposes both.
+            let goes_on = ["and", ",", ", and"].contains(&piece.trim());
+            supposing = supposes(piece) || supposing && goes_on;
+            return None;
+        }
+        (relates(piece) && !supposing).then(|| equation(piece))
+    });
+    Some(formulas.collect())
+}
 
 /// Words that stand for a sign of equality behind a name.
 const VERBS: [&str; 4] = [" is equal to ", " is given by ", " equals ", " is "];
@@ -447,7 +496,7 @@ fn equation(text: &str) -> &str {
 
 /// Words that turn a sign, or say which counts as positive: an equation beside them is not the one without.
 const SENSES: &str = "up upward upwards down downward downwards left leftward right rightward opposite negative positive \
-    backward backwards clockwise counterclockwise anticlockwise not no never wrong false";
+    backward backwards clockwise counterclockwise anticlockwise not never wrong false";
 
 fn turns_sign(word: &str) -> bool {
     SENSES
