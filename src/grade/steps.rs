@@ -137,53 +137,43 @@ struct Meant {
 pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
     let worked = |meant: Meant| (check_with(sheet, text, options, &meant), meant);
     let wrong = |line: &&Line| line.status == Status::Wrong;
-    let slips = |worked: &Worked| worked.lines.iter().filter(wrong).count();
-    let fewest = |(worked, _): &(Worked, Meant)| slips(worked);
-    let accelerations = names::accelerations(sheet, text).into_iter();
-    let plain = accelerations.map(|value| Meant {
+    let slips = |(worked, _): &(Worked, Meant)| worked.lines.iter().filter(wrong).count();
+    let accelerations = names::accelerations(sheet, text);
+    let whatever = accelerations.contains(&None).then(Meant::default);
+    let plain = accelerations.into_iter().map(|value| Meant {
         value,
         ..Meant::default()
     });
-    let best = plain.map(worked).min_by_key(fewest).expect("one at least");
-    if fewest(&best) == 0 {
+    let best = plain.map(worked).min_by_key(slips).expect("one at least");
+    if slips(&best) == 0 {
         return best.0;
     }
-    let speeds = Desk::new(sheet).speeds().into_iter();
-    let speeds = speeds.map(|speed| {
-        worked(Meant {
-            value: Some(speed),
-            ..Meant::default()
-        })
+    let speeds = Desk::new(sheet).speeds().into_iter().map(|speed| Meant {
+        value: Some(speed),
+        ..Meant::default()
     });
-    let is_right = |told: &Option<Final>| told.as_ref().map(|f| f.verdict == Verdict::Equivalent);
-    let marked = names::marked(sheet, text);
-    let with_marks = (!marked.is_empty()).then(|| {
-        worked(Meant {
-            marked: marked.clone(),
-            ..Meant::default()
-        })
+    let marked = Some(names::marked(sheet, text)).filter(|marked| !marked.is_empty());
+    let marked = marked.map(|marked| Meant {
+        marked,
+        ..best.1.clone()
     });
-    let with_marks = with_marks.filter(|(worked, _)| {
-        let told = |name: &Symbol| worked.finals.iter().find(|(of, _)| *of == **name);
-        marked
-            .iter()
-            .all(|(name, _)| told(name).is_some_and(|(_, told)| is_right(told) == Some(true)))
-    });
-    let all = std::iter::once(best).chain(speeds).chain(with_marks);
-    let (best, meant) = all.min_by_key(fewest).expect("one at least");
-    let (anew, _) = worked(Meant {
+    let with_own = [Some(best.1.clone()), whatever, marked.clone()];
+    let with_own = with_own.into_iter().flatten().map(|meant| Meant {
         anew: true,
         ..meant
     });
-    let is_explained = slips(&anew) > 0
-        || anew
-            .finals
-            .iter()
-            .all(|(_, told)| is_right(told) != Some(false));
-    match slips(&anew) < slips(&best) && is_explained {
-        true => anew,
-        false => best,
-    }
+    let others = speeds.chain(marked).chain(with_own).map(worked);
+    let others = others.filter(|other| {
+        let right = |told: &Option<Final>| Some(told.as_ref()?.verdict == Verdict::Equivalent);
+        let (Worked { finals, .. }, meant) = other;
+        let of = |name: &Symbol| finals.iter().find(|(of, _)| *of == **name);
+        let mut marked = meant.marked.iter();
+        let hides = slips(other) == 0 && finals.iter().any(|(_, told)| right(told) == Some(false));
+        marked.all(|(name, _)| of(name).is_some_and(|(_, told)| right(told) == Some(true)))
+            && !(meant.anew && hides)
+    });
+    let all = std::iter::once(best).chain(others);
+    all.min_by_key(slips).expect("one at least").0
 }
 
 fn check_with(sheet: &Sheet, text: &str, options: &Options, meant: &Meant) -> Worked {

@@ -7,7 +7,8 @@ use super::super::sheet::Entry;
 use super::super::{Diagnosis, Options, Verdict};
 use super::cause::{MOST_STEPS, size_in, under_root};
 use super::names::ACCELERATIONS;
-use super::text::supposition;
+use super::rounded::is_near;
+use super::text::{equations, supposition};
 use super::{Desk, Final, Status};
 use crate::algebra::{self, Sign};
 use crate::answer::limit;
@@ -128,52 +129,68 @@ impl Desk<'_> {
         }
         let (given, behind) = supposition(text)?;
         let read = |part: &str| formula::read(part, &self.symbols(part)).ok();
-        let Content::Relations(sides, signs) = read(given)?.content else {
-            return None;
-        };
         let then: Vec<Reading> = behind.into_iter().map(read).collect::<Option<_>>()?;
-        let ([left, right], [Relation::Equal]) = (&sides[..], &signs[..]) else {
-            // What holds where an inequality does is not known to hold.
-            return Some(Status::Undecided);
-        };
-        let is_parameter = |side: &Content| {
-            let name = side.expr().and_then(Expr::as_symbol);
-            name.is_some_and(|name| self.sheet.scene.parameter(name).is_some())
-        };
-        let (name, value) = match !is_parameter(left) && is_parameter(right) {
-            true => (right.expr()?.as_symbol()?, left.expr()?),
-            false => (left.expr()?.as_symbol()?, right.expr()?),
-        };
-        if self.sheet.scene.parameter(name).is_none() {
-            // `s = d when u = √(2 μ g d)`: what is supposed, and what follows from it.
-            let (links, given) = (self.links(then.first()?)?, self.link(&sides[0], &sides[1])?);
-            let mut all = self.sought.iter();
-            let found = all.position(|s| self.states(&links, s) && self.holds_where(&given, s))?;
-            self.supposed.push(found);
-            return Some(Status::Holds);
+        let is_parameter = |name: &Symbol| self.sheet.scene.parameter(name).is_some();
+        let symbol = |side: &Content| side.expr().and_then(Expr::as_symbol).cloned();
+        let mut there = BTreeMap::new();
+        for part in equations(given) {
+            let reading = read(part)?;
+            let reading = self.measured(part, &reading).unwrap_or(reading);
+            let Content::Relations(sides, signs) = reading.content else {
+                return None;
+            };
+            let ([left, right], [Relation::Equal]) = (&sides[..], &signs[..]) else {
+                // What holds where an inequality does is not known to hold.
+                return Some(Status::Undecided);
+            };
+            let (name, value) = match (symbol(left), symbol(right)) {
+                (Some(name), _) if is_parameter(&name) => (name, right.expr()?),
+                (_, Some(name)) if is_parameter(&name) => (name, left.expr()?),
+                // `s = d when u = √(2 μ g d)`: what is supposed, and what follows from it.
+                (Some(_), _) => {
+                    let (links, given) = (self.links(then.first()?)?, self.link(left, right)?);
+                    let mut all = self.sought.iter();
+                    let found =
+                        all.position(|s| self.states(&links, s) && self.holds_where(&given, s))?;
+                    self.supposed.push(found);
+                    return Some(Status::Holds);
+                }
+                _ => return None,
+            };
+            if value.symbols().contains(&name) {
+                return None;
+            }
+            there.insert(name, value.clone());
         }
-        if value.symbols().contains(name) {
-            return None;
-        }
-        let there = BTreeMap::from([(name.clone(), value.clone())]);
-        let links: Vec<Vec<Link>> = then
-            .iter()
-            .map(|then| self.links(then))
-            .collect::<Option<_>>()?;
-        let links: Vec<Link> = links.into_iter().flatten().collect();
-        let differences = || links.iter().flat_map(|link| &link.differences);
+        let links: Option<Vec<Vec<Link>>> = then.iter().map(|then| self.links(then)).collect();
+        let links: Vec<Link> = links?.into_iter().flatten().collect();
+        let domains = &self.sheet.scene.domains;
+        let at = |e: &Expr, instead: &BTreeMap<Symbol, Expr>| {
+            let value = self.put_in(e, instead).substitute(&there);
+            self.at_sought(value).substitute(&there)
+        };
+        let values = self.sheet.scene.values();
         let zero = |instead: &BTreeMap<Symbol, Expr>| {
             // Without a value there, nothing is said.
-            let domains = &self.sheet.scene.domains;
-            let zero = differences().map(|d| {
-                let left = self.put_in(d, instead).substitute(&there);
-                let left = self.at_sought(left).substitute(&there);
-                equality::decide(&left, &Expr::zero(), domains).equality
+            let zero = links.iter().map(|link| {
+                let number = |side: &Content| Some(at(side.expr()?, instead).substitute(&values));
+                let sides = link.sides.each_ref().map(number);
+                let rounded = matches!(&sides, [Some(a), Some(b)] if is_near(text, [a, b], &there));
+                let mut parts = link
+                    .differences
+                    .iter()
+                    .map(|d| equality::decide(&at(d, instead), &Expr::zero(), domains).equality);
+                match parts.find(|part| !matches!(part, Equality::Same { .. })) {
+                    None => Some(true),
+                    Some(_) if rounded => Some(true),
+                    Some(part) => part.is_different().then_some(false),
+                }
             });
-            let zero: Vec<Equality> = zero.collect();
-            let same = zero.iter().all(|z| matches!(z, Equality::Same { .. }));
-            let apart = zero.iter().any(Equality::is_different);
-            (same || apart).then_some(same)
+            let zero: Vec<Option<bool>> = zero.collect();
+            match zero.contains(&Some(false)) {
+                true => Some(false),
+                false => zero.iter().all(Option::is_some).then_some(true),
+            }
         };
         let mut implied = self.believed.iter().rev();
         Some(match zero(&BTreeMap::new()) {
@@ -349,7 +366,12 @@ impl Desk<'_> {
             }
             None => self.sheet.judge(&entry, text, options),
         };
-        let status = match grade.verdict {
+        // In numbers the values behind it are those of the scene.
+        let verdict = match grade.note {
+            "DIFF_ROUNDED" => Verdict::Equivalent,
+            _ => grade.verdict,
+        };
+        let status = match verdict {
             Verdict::Equivalent => Status::Holds,
             Verdict::Different => match self.link(sides.first()?, sides.last()?) {
                 Some(link) => {
@@ -362,8 +384,9 @@ impl Desk<'_> {
             Verdict::Invalid | Verdict::Undecided => return None,
         };
         self.finals
-            .insert(question, Final::new(number, text, grade.verdict));
-        Some((status, grade.diagnosis))
+            .insert(question, Final::new(number, text, verdict));
+        let found = Some(grade.diagnosis).filter(|_| grade.verdict == verdict);
+        Some((status, found.unwrap_or_default()))
     }
 
     /// A chain about a parameter without the sides that are the parameter whatever its value, such as `(m+M)/m u` in

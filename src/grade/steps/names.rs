@@ -109,8 +109,11 @@ pub(super) const MARKS: [&str; 2] = ["'", "^{+}"];
 pub(super) fn marked(sheet: &Sheet, text: &str) -> BTreeSet<(Symbol, &'static str)> {
     let readings = readings(&sheet.scene, text);
     let used: BTreeSet<Symbol> = readings.iter().flat_map(Reading::symbols).collect();
-    let both =
-        |name: &Symbol, mark: &str| used.contains(name) && used.contains(&*format!("{name}{mark}"));
+    let both = |name: &Symbol, mark: &str| {
+        let with = format!("{name}{mark}");
+        let short = with.replace(['{', '}'], "");
+        used.contains(name) && (used.contains(&*with) || used.contains(&*short))
+    };
     let asked = sheet.derivation.answers.iter();
     let asked = asked.map(|answer| Symbol::from(answer.name.as_str()));
     let all = asked.flat_map(|name| MARKS.map(|mark| (name.clone(), mark)));

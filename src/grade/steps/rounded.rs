@@ -69,6 +69,12 @@ impl Desk<'_> {
     }
 }
 
+/// Whether two numbers are the same as far as the digits of a line tell, beside values that are exact.
+pub(super) fn is_near(text: &str, [a, b]: [&Expr; 2], exact: &BTreeMap<Symbol, Expr>) -> bool {
+    let share = coarsest(text, exact).map(|(share, _)| Tolerance::Relative(share));
+    share.is_some_and(|room| number::within(b, a, &room) == Some(true))
+}
+
 /// How far numbers of a line may be off, as a share: half a unit in the last digit of the coarsest one. What stands last
 /// counts from two digits, what leads to it from three; values of the scene are exact. Also whether any has a decimal point.
 fn coarsest(text: &str, values: &BTreeMap<Symbol, Expr>) -> Option<(Rational, bool)> {
