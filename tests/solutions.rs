@@ -3,14 +3,16 @@
 
 use crate::shared;
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
+use carom::grade::steps::{self, Status};
 use carom::solution::{Detail, Solution};
 use carom::worked::{self, Worked};
-use carom::{check, figure, render, scene, solution};
+use carom::{check, figure, grade, render, scene, solution};
 use rayon::prelude::*;
 
 /// A scene, worked out once for all tests.
@@ -1510,4 +1512,34 @@ fn what_a_teacher_would_say_is_said_and_what_an_editor_would_strike_is_not() {
         }
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn a_solution_given_to_the_grader_has_no_wrong_line() {
+    let known = fs::read_to_string("tests/solutions/graded.tsv").expect("a table");
+    let known: BTreeSet<String> = known.lines().skip(1).map(str::to_string).collect();
+    let all: Vec<&Case> = all_cases().collect();
+    let judged = all.par_iter().flat_map_iter(|case| {
+        // Where laws contradict each other nothing is graded.
+        let sheet = carom::command::sheet(case.scene.clone()).ok();
+        let told = sheet.map(|(sheet, _)| {
+            let text = render::markdown::solution(case.solution(Detail::Normal), &[]);
+            steps::check(&sheet, &text, &grade::Options::default())
+        });
+        let lines = told.into_iter().flat_map(|told| told.lines);
+        let path = case.path.display();
+        lines.map(move |line| (format!("{path}\t{}", line.text), line.status))
+    });
+    let judged: Vec<(String, Status)> = judged.collect();
+    let count = |is: &dyn Fn(&Status) -> bool| judged.iter().filter(|(_, s)| is(s)).count();
+    let holds = count(&|s| matches!(s, Status::Holds | Status::Defines));
+    assert!(holds > 3_000, "only {holds} lines are judged");
+    let wrong = judged.iter().filter(|(_, status)| *status == Status::Wrong);
+    let wrong: BTreeSet<String> = wrong.map(|(line, _)| line.clone()).collect();
+    let fresh: Vec<&String> = wrong.difference(&known).collect();
+    let mended: Vec<&String> = known.difference(&wrong).collect();
+    assert!(
+        fresh.is_empty() && mended.is_empty(),
+        "called wrong: {fresh:#?}\nno longer called wrong: {mended:#?}"
+    );
 }

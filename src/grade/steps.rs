@@ -138,13 +138,17 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
     let worked = |meant: Meant| (check_with(sheet, text, options, &meant), meant);
     let wrong = |line: &&Line| line.status == Status::Wrong;
     let slips = |(worked, _): &(Worked, Meant)| worked.lines.iter().filter(wrong).count();
-    let accelerations = names::accelerations(sheet, text);
+    let plain = text::joined(text);
+    let accelerations = names::accelerations(sheet, &plain);
     let whatever = accelerations.contains(&None).then(Meant::default);
-    let plain = accelerations.into_iter().map(|value| Meant {
+    let by_acceleration = accelerations.into_iter().map(|value| Meant {
         value,
         ..Meant::default()
     });
-    let best = plain.map(worked).min_by_key(slips).expect("one at least");
+    let best = by_acceleration
+        .map(worked)
+        .min_by_key(slips)
+        .expect("one at least");
     if slips(&best) == 0 {
         return best.0;
     }
@@ -152,7 +156,7 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
         value: Some(speed),
         ..Meant::default()
     });
-    let marked = Some(names::marked(sheet, text)).filter(|marked| !marked.is_empty());
+    let marked = Some(names::marked(sheet, &plain)).filter(|marked| !marked.is_empty());
     let marked = marked.map(|marked| Meant {
         marked,
         ..best.1.clone()
@@ -179,6 +183,7 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
 fn check_with(sheet: &Sheet, text: &str, options: &Options, meant: &Meant) -> Worked {
     let mut desk = Desk::new(sheet);
     desk.closed.extend(meant.value.clone());
+    desk.know_accelerations(meant.value.as_ref());
     let read = text::joined(text);
     let read = desk.in_names(&read);
     desk.along_normal(&read);

@@ -128,15 +128,17 @@ impl Desk<'_> {
             return Some(status);
         }
         let (given, behind) = supposition(text)?;
-        let read = |part: &str| formula::read(part, &self.symbols(part)).ok();
+        // `2 m` is a number of meters, though m be a mass.
+        let read = |part: &str| {
+            let reading = formula::read(part, &self.symbols(part)).ok()?;
+            Some(self.measured(part, &reading).unwrap_or(reading))
+        };
         let then: Vec<Reading> = behind.into_iter().map(read).collect::<Option<_>>()?;
         let is_parameter = |name: &Symbol| self.sheet.scene.parameter(name).is_some();
         let symbol = |side: &Content| side.expr().and_then(Expr::as_symbol).cloned();
         let mut there = BTreeMap::new();
         for part in equations(given) {
-            let reading = read(part)?;
-            let reading = self.measured(part, &reading).unwrap_or(reading);
-            let Content::Relations(sides, signs) = reading.content else {
+            let Content::Relations(sides, signs) = read(part)?.content else {
                 return None;
             };
             let ([left, right], [Relation::Equal]) = (&sides[..], &signs[..]) else {

@@ -247,6 +247,24 @@ impl Desk<'_> {
         }
     }
 
+    /// The accelerations of the other motions, counted as the one that a letter stands for.
+    pub(super) fn know_accelerations(&mut self, meant: Option<&(Symbol, Expr)>) {
+        let Some((name, value)) = meant.filter(|(name, _)| ACCELERATIONS.contains(&&**name)) else {
+            return;
+        };
+        let all = &self.sheet.accelerations;
+        let turned = !all.contains(value);
+        let others = all
+            .iter()
+            .map(|other| if turned { -other } else { other.clone() });
+        let others = others.filter(|other| other != value).take(MOST_WAYS);
+        let moments = others.map(|other| {
+            let when = String::from("in another motion");
+            (when, BTreeMap::from([(name.clone(), other)]))
+        });
+        self.moments.extend(moments.collect::<Vec<_>>());
+    }
+
     /// Whether a name is the scene's or was introduced.
     fn is_known(&self, name: &Symbol) -> bool {
         let parameters = &self.sheet.scene.parameters;
