@@ -4,7 +4,9 @@ use num_traits::Signed;
 
 use super::compare;
 use super::{Diagnosis, Grade, Key, Options, Proof, Verdict, read, show};
+use crate::algebra;
 use crate::dimension;
+use crate::domain::Domains;
 use crate::expr::{Expr, Function, Node, Point, Symbol};
 use crate::formula::{self, Content, Fault, Note, Reading, Relation, Remark};
 
@@ -136,6 +138,31 @@ pub(super) fn imaginary(key: &Key, reading: &Reading, finding: &mut compare::Fin
         finding.note = "DIFF";
         finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
     }
+    let sides = [&key.reading.content, &reading.content].map(|content| content.answer().expr());
+    if let (Verdict::Different, false, [Some(a), Some(b)]) =
+        (finding.verdict, key.declares_i, sides)
+        && agree_as_complex(&(a - b), &key.question.domains)
+    {
+        let words = "i is read as a symbol; as the imaginary unit it would be right";
+        undecide(finding, words);
+        let hint = "complex numbers are not compared: ask for real and imaginary part";
+        finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
+    }
+}
+
+/// Whether a difference vanishes where i² = −1: its even and its odd part in i do, which stand on i² alone.
+fn agree_as_complex(difference: &Expr, domains: &Domains) -> bool {
+    let square = Expr::symbol("i^2");
+    let root = square.sqrt();
+    let [plus, minus] = [&root, &-&root].map(|root| difference.put("i", root));
+    let vanishes = |part: Expr| {
+        let part = algebra::tidy(&part, domains).ok();
+        let part = part.map(|part| part.replace(&root, &Expr::symbol("i")));
+        let part = part.filter(|part| !part.mentions("i"));
+        let there = part.map(|part| part.put("i^2", &Expr::from(-1)));
+        there.is_some_and(|there| algebra::tidy(&there, domains).is_ok_and(|e| e.is_zero()))
+    };
+    difference.mentions("i") && vanishes(&plus + &minus) && vanishes((&plus - &minus) * &root)
 }
 
 /// `x = n pi` for an equation in sines: its n may stand for any whole number, which is told of no symbol.
