@@ -1517,8 +1517,20 @@ fn what_a_teacher_would_say_is_said_and_what_an_editor_would_strike_is_not() {
 #[test]
 fn a_solution_given_to_the_grader_has_no_wrong_line() {
     let known = fs::read_to_string("tests/solutions/graded.tsv").expect("a table");
-    let known: BTreeSet<String> = known.lines().skip(1).map(str::to_string).collect();
-    let all: Vec<&Case> = all_cases().collect();
+    // The textbook's scenes; all others take minutes more.
+    let is_long = std::env::var_os("CAROM_CASES").is_some();
+    let folders = ["derivations/book", "derivations/problems"];
+    let is_quick = |case: &&Case| folders.iter().any(|folder| case.path.starts_with(folder));
+    let all: Vec<&Case> = match is_long {
+        true => all_cases().collect(),
+        false => cases().iter().filter(is_quick).collect(),
+    };
+    let is_judged = |line: &&str| {
+        all.iter()
+            .any(|case| line.starts_with(&*case.path.to_string_lossy()))
+    };
+    let known = known.lines().filter(is_judged).map(str::to_string);
+    let known: BTreeSet<String> = known.collect();
     let judged = all.par_iter().flat_map_iter(|case| {
         // Where laws contradict each other nothing is graded.
         let sheet = carom::command::sheet(case.scene.clone()).ok();
@@ -1533,7 +1545,7 @@ fn a_solution_given_to_the_grader_has_no_wrong_line() {
     let judged: Vec<(String, Status)> = judged.collect();
     let count = |is: &dyn Fn(&Status) -> bool| judged.iter().filter(|(_, s)| is(s)).count();
     let holds = count(&|s| matches!(s, Status::Holds | Status::Defines));
-    assert!(holds > 3_000, "only {holds} lines are judged");
+    assert!(holds > 500, "only {holds} lines are judged");
     let wrong = judged.iter().filter(|(_, status)| *status == Status::Wrong);
     let wrong: BTreeSet<String> = wrong.map(|(line, _)| line.clone()).collect();
     let fresh: Vec<&String> = wrong.difference(&known).collect();
