@@ -1545,7 +1545,7 @@ fn a_solution_given_to_the_grader_has_no_wrong_line() {
     let judged: Vec<(String, Status)> = judged.collect();
     let count = |is: &dyn Fn(&Status) -> bool| judged.iter().filter(|(_, s)| is(s)).count();
     let holds = count(&|s| matches!(s, Status::Holds | Status::Defines));
-    assert!(holds > 500, "only {holds} lines are judged");
+    assert!(holds > 400, "only {holds} lines are judged");
     let wrong = judged.iter().filter(|(_, status)| *status == Status::Wrong);
     let wrong: BTreeSet<String> = wrong.map(|(line, _)| line.clone()).collect();
     let fresh: Vec<&String> = wrong.difference(&known).collect();

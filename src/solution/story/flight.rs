@@ -100,13 +100,19 @@ impl Page<'_> {
             let why = "velocity at the end: v² = v₀² + 2 g h, or v = v₀ + g t";
             lines.push(self.defined(name("v", &index, "+", false), &raw, value, why));
         }
-        let needs_time = self.asked(told, |ask| matches!(ask, Ask::Position { .. }));
+        let letter = Symbol::from(TIME);
+        let needs_time = self.answered(told).any(|answer| {
+            let shown = self
+                .ask(answer)
+                .and_then(|ask| self.flown(told, ask, answer));
+            shown.is_some_and(|[shown, _]| shown.mentions(&letter))
+        });
         if needs_time
             && !self.asked(told, |ask| matches!(ask, Ask::Time))
             && self.letter(fall).is_some()
         {
             let raw = self.takes(told, fall, time);
-            let head = Math::Expr(Expr::symbol(TIME));
+            let head = Math::Expr(Expr::symbol(&letter));
             lines.push(self.defined(head, &raw, time, "the time of the flight"));
         }
         self.solution.display(lines);
