@@ -202,6 +202,9 @@ fn check_with(sheet: &Sheet, text: &str, options: &Options, meant: &Meant) -> Wo
         .take(MAX_LINES)
         .map(|(i, (line, read))| {
             let line = line.trim();
+            if text::is_heading(line) {
+                desk.of_earlier_parts = desk.own.keys().cloned().collect();
+            }
             let item = text::unlisted(read.trim(), dashes);
             let whole = text::continued(&before, item);
             let (status, diagnosis) = desk.line(i + 1, &whole, options);

@@ -43,6 +43,8 @@ pub(super) struct Desk<'a> {
     pub solved_for: BTreeSet<Symbol>,
     /// Names that stand for something else with a mark, and the mark.
     pub own_with_mark: BTreeSet<(Symbol, &'static str)>,
+    /// Own names that were said before the last heading.
+    pub of_earlier_parts: BTreeSet<Symbol>,
     /// Whether own names may stand for something else further down.
     pub anew: bool,
     /// Own names that were used before the line that says what they are.
@@ -96,6 +98,7 @@ impl<'a> Desk<'a> {
             ahead: Vec::new(),
             solved_for: BTreeSet::new(),
             own_with_mark: BTreeSet::new(),
+            of_earlier_parts: BTreeSet::new(),
             anew: false,
             early: BTreeSet::new(),
             spins: spins(&sheet.scene),

@@ -236,7 +236,14 @@ impl Desk<'_> {
     pub(super) fn at_another_moment(&self, links: &[Link]) -> Option<&Moment> {
         let all: Vec<Expr> = links.iter().flat_map(|l| l.differences.clone()).collect();
         let holds = |values| self.all_zero(&all, values) == Some(true);
-        self.moments.iter().find(|(_, values)| holds(values))
+        // What still speaks of a parameter is no line about one value of it.
+        let own: Vec<Expr> = all.iter().map(|d| self.with_own(d)).collect();
+        let is_open = |name: &Symbol| {
+            let parameter = self.sheet.scene.parameter(name);
+            parameter.is_some() && own.iter().any(|d| d.mentions(name))
+        };
+        let mut moments = self.moments.iter();
+        moments.find(|(_, values)| !values.keys().any(is_open) && holds(values))
     }
 
     fn carried_on(&self, link: &Link) -> Option<usize> {

@@ -461,8 +461,8 @@ impl Desk<'_> {
         self.definition(number, text, options)
     }
 
-    /// A line that says anew what an own name stands for, where that may be: `W = …` of the next way. The name is said in so
-    /// many words more than once then.
+    /// A line that says anew what an own name of an earlier part stands for, where that may be: `W = …` of the next way. The
+    /// name is said in so many words more than once then.
     pub(super) fn said_anew(
         &mut self,
         number: usize,
@@ -482,7 +482,7 @@ impl Desk<'_> {
             return None;
         };
         let said = self.ahead.iter().filter(|(other, _)| *other == name);
-        if said.count() < 2 {
+        if said.count() < 2 || !self.of_earlier_parts.contains(&name) {
             return None;
         }
         let before = self.own.remove(&name);
@@ -491,8 +491,9 @@ impl Desk<'_> {
             None => self.new_name(text).map(|status| (status, Vec::new())),
         };
         let found = found.filter(|(status, _)| *status == Status::Defines);
-        if found.is_none() {
-            self.own.extend(before.map(|value| (name, value)));
+        match found {
+            Some(_) => drop(self.of_earlier_parts.remove(&name)),
+            None => self.own.extend(before.map(|value| (name, value))),
         }
         found
     }

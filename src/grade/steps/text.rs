@@ -285,6 +285,15 @@ pub(super) fn supposition(text: &str) -> Option<(&str, Vec<&str>)> {
     both.then(|| (given.trim_matches([' ', '$']), equations(behind)))
 }
 
+/// Whether a line is the heading of a part: `## 2. Bounce`, `Second bounce:`, `(b) After the impact`.
+pub(super) fn is_heading(line: &str) -> bool {
+    const MOST: usize = 6;
+    let words = line.split_whitespace().count();
+    let is_sentence = line.ends_with([',', '.', ';']);
+    let says = line.chars().any(char::is_alphabetic) && !line.contains(['$', '\\', '&']);
+    line.starts_with('#') || says && words <= MOST && !is_sentence && !relates(line)
+}
+
 /// A solution without what aligns its lines in LaTeX: a line that goes on with a further term, `& + …`, is put behind the one
 /// before it, and a heading is words.
 pub(super) fn joined(text: &str) -> String {
