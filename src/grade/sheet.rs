@@ -20,7 +20,7 @@ pub struct Sheet {
     pub scene: Scene,
     /// Its derivation.
     pub derivation: Derivation,
-    /// The motion at the beginning and at the end of each stage, and when that is.
+    /// The motion just after each impact, in each of its cases, and when that is.
     pub moments: Vec<Moment>,
     /// All answers: also those in words, places of largest values and further outcomes, which the derivation leaves out.
     pub all: Vec<Answer>,

@@ -3,12 +3,11 @@
 //! In: a scene as it was told. Out: the scene of an impact with the motion handed on put in, and its derivation with
 //! the answers of the whole story in place of its own. Nothing is derived here.
 
-use super::{Case, StageTold, State, Told, line, worlds};
+use super::{Case, StageTold, Told, line, worlds};
 use crate::answer::calc::sign;
 use crate::answer::{Answer, Form};
 use crate::derive::{self, Derivation, Moment, Stop};
 use crate::expr::{Expr, cross, minus};
-use crate::laws::Unknown;
 use crate::scene::{ContactLaw, Question, Scene, StageKind};
 
 /// The scene of an impact, by name of its stage; the first one for `None`. `None` where there is no such impact. Of several
@@ -87,46 +86,20 @@ pub fn is_clockwise(told: &StageTold) -> bool {
     }
 }
 
-/// The motion at the beginning and at the end of each stage, of impacts in each case.
+/// The motion just after each impact, in each of its cases. What comes in is none of them: that a velocity stays as it was would
+/// hold there.
 pub fn moments(told: &Told) -> Vec<Moment> {
-    let cases = |stage: &StageTold| stage.cases.first().map(|case| case.derivation.clone());
-    let Some(first) = told.stages.iter().find_map(cases) else {
-        return Vec::new();
-    };
-    let mut out = Vec::new();
-    for stage in &told.stages {
-        let name = &stage.name;
-        let names = stage.cases.first().map_or(&first, |case| &case.derivation);
-        let asked = stage.placed.scene.questions.iter();
-        let asked: Vec<&str> = asked.map(|q| q.name.as_str()).collect();
-        // What is asked of the moment just after an impact has no name before it.
-        let at = |state: &State| {
-            let all = names.motion_by_name().filter_map(|(unknown, name, _)| {
-                let value = match unknown {
-                    Unknown::Velocity(b, axis) => state.velocity.get(b)?[axis].clone(),
-                    Unknown::Spin(b) => state.spin.get(b)?.clone(),
-                    _ => return None,
-                };
-                let is_asked = asked.iter().any(|asked| name.starts_with(asked));
-                (!is_asked && state.why_open([&value]).is_none()).then_some((name, value))
-            });
-            all.collect()
-        };
-        match stage.cases.as_slice() {
-            [] => out.push((format!("at the end of `{name}`"), at(&stage.after))),
-            cases => {
-                out.push((format!("just before `{name}`"), at(&stage.before)));
-                out.extend(cases.iter().enumerate().map(|(k, case)| {
-                    let motion = case.derivation.motion_by_name();
-                    let motion = motion.map(|(_, name, value)| (name, case.put_in(&value)));
-                    let number = (cases.len() > 1).then(|| format!(", case {}", k + 1));
-                    let number = number.unwrap_or_default();
-                    (format!("just after `{name}`{number}"), motion.collect())
-                }));
-            }
-        }
-    }
-    out
+    let cases = told.stages.iter().flat_map(|stage| {
+        let several = stage.cases.len() > 1;
+        stage.cases.iter().enumerate().map(move |(k, case)| {
+            let motion = case.derivation.motion_by_name();
+            let motion = motion.map(|(_, name, value)| (name, case.put_in(&value)));
+            let number = several.then(|| format!(", case {}", k + 1));
+            let when = format!("just after `{}`{}", stage.name, number.unwrap_or_default());
+            (when, motion.collect())
+        })
+    });
+    cases.collect()
 }
 
 /// One of the ways a told scene can go, as one scene and one derivation.
