@@ -15,6 +15,7 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
         Some((q.name.clone(), mu.as_symbol()?.clone(), relation))
     };
     let coefficients: Vec<_> = scene.questions.iter().filter_map(rough).collect();
+    let has_stages = scene.has_stages();
     let (scene, mut notes) = gradable(scene);
     let worked = worked::out(&scene)?;
     let failed = worked.failed();
@@ -34,7 +35,8 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
     let laws = story::lent(&worked.scene, &worked.told);
     let impacts: Vec<Scene> = impacts.into_iter().map(|(_, impact)| impact).collect();
     let moments = story::moments(&worked.told);
-    let story = worked.scene.has_stages().then(|| worked.scene.clone());
+    // Of one impact beliefs are tried on that alone, not on all that friction leaves.
+    let story = has_stages.then(|| worked.scene.clone());
     let ways = worked.ways()?.into_iter().map(|way| Sheet {
         given: (way.given.iter().map(Sentence::not_negative))
             .map(|given| given.to_string())
