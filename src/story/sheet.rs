@@ -94,8 +94,11 @@ pub fn moments(told: &Told) -> Vec<Moment> {
         stage.cases.iter().enumerate().map(move |(k, case)| {
             let motion = case.derivation.motion_by_name();
             let motion = motion.map(|(_, name, value)| (name, case.put_in(&value)));
-            let number = several.then(|| format!(", case {}", k + 1));
-            let when = format!("just after `{}`{}", stage.name, number.unwrap_or_default());
+            let which = several.then(|| match case.rubs.as_str() {
+                "" => format!(", case {}", k + 1),
+                rubs => format!(", where {rubs}"),
+            });
+            let when = format!("just after `{}`{}", stage.name, which.unwrap_or_default());
             (when, motion.collect())
         })
     });

@@ -177,7 +177,10 @@ impl Desk<'_> {
             let zero = links.iter().map(|link| {
                 let number = |side: &Content| Some(at(side.expr()?, instead).substitute(&values));
                 let sides = link.sides.each_ref().map(number);
-                let rounded = matches!(&sides, [Some(a), Some(b)] if is_near(text, [a, b], &there));
+                // Where both sides are formulas nothing is rounded.
+                let is_number = |side: &Content| side.symbols().is_empty();
+                let rounded = link.sides.iter().any(is_number)
+                    && matches!(&sides, [Some(a), Some(b)] if is_near(text, [a, b], &there));
                 let mut parts = link
                     .differences
                     .iter()
