@@ -80,8 +80,7 @@ pub(super) fn equations(text: &str) -> Vec<&str> {
 }
 
 /// First words of what is no step: about a root that is not taken, or under which conditions results hold.
-const ASIDES: &str = "discard|reject|not taken|impossible|the results hold|the result holds|valid for|given that|assumed|\
-    assuming|provided";
+const ASIDES: &str = "discarded:|rejected:|not taken:|impossible:|the results hold for|the result holds for|valid for|assumed:";
 
 /// Whether nothing is open before a new sentence.
 fn ends_sentence(before: &str) -> bool {
@@ -92,18 +91,7 @@ fn ends_sentence(before: &str) -> bool {
 /// The equations of a sentence whose formulas stand between dollar signs, without those behind words that suppose something:
 /// `No impulse acts along $x$, so $v_x = u$.`; nothing where a relation stands outside of them.
 fn in_dollars(text: &str) -> Option<Vec<&str>> {
-    const SUPPOSING: [&str; 10] = [
-        "for",
-        "at",
-        "where",
-        "when",
-        "if",
-        "with",
-        "until",
-        "than",
-        "normal",
-        "direction",
-    ];
+    const SUPPOSING: &str = "for at when if until than that normal direction";
     let pieces: Vec<&str> = text.split('$').collect();
     let is_formula = |k: usize| k % 2 == 1;
     let outside = pieces.iter().step_by(2);
@@ -112,19 +100,21 @@ fn in_dollars(text: &str) -> Option<Vec<&str>> {
     if !sentence || outside.clone().any(|piece| relates(piece)) {
         return None;
     }
-    let supposes = |before: &str| {
+    let ends_in = |before: &str, words: &str| {
         let last = before.trim_end().rsplit(' ').next().unwrap_or_default();
-        SUPPOSING.contains(&&*last.to_ascii_lowercase())
+        words.split(' ').any(|word| word.eq_ignore_ascii_case(last))
     };
-    let mut supposing = false;
+    let (mut supposing, mut of_range) = (false, false);
     let formulas = pieces.iter().enumerate().filter_map(|(k, piece)| {
         if !is_formula(k) {
-            // `at $e = 1$ and $d = 0$` supposes both.
+            // `at $e = 1$ and $d = 0$` supposes both; `where $I = m l^2/3$` says what I is, `where $a > b$` supposes.
             let goes_on = ["and", ",", ", and"].contains(&piece.trim());
-            supposing = supposes(piece) || supposing && goes_on;
+            supposing = ends_in(piece, SUPPOSING) || supposing && goes_on;
+            of_range = ends_in(piece, "where with") || of_range && goes_on;
             return None;
         }
-        (relates(piece) && !supposing).then(|| equation(piece))
+        let supposed = supposing || of_range && !piece.contains('=');
+        (relates(piece) && !supposed).then(|| equation(piece))
     });
     Some(formulas.collect())
 }
@@ -519,6 +509,10 @@ fn is_prose(text: &str) -> bool {
     !relates(text) && words.count() > 1
 }
 
+/// First words of a reason.
+const REASONING: &str =
+    "since |because |as |assuming |neglecting |ignoring |rejecting |discarding ";
+
 /// Whether words say something by themselves, so many at least: `The gate turns at a steady rate`, `Using (1) and (2)`.
 fn says(words: &str, least: usize) -> bool {
     let all = || words.trim().split([' ', '-']);
@@ -527,13 +521,13 @@ fn says(words: &str, least: usize) -> bool {
         inside.is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()))
     };
     // A reason turns no sign: `Since no torque acts about C, …`.
-    let reason = ["since ", "because ", "as "].iter().any(|lead| {
+    let reason = REASONING.split('|').any(|lead| {
         let start = words.trim().get(..lead.len());
         start.is_some_and(|start| start.eq_ignore_ascii_case(lead))
     });
     let is_said =
         |word: &str| word.chars().all(char::is_alphabetic) && (reason || !turns_sign(word));
-    all().count() >= least - usize::from(all().any(number))
+    all().count() + usize::from(all().any(number)) + usize::from(reason) >= least
         && all().all(|word| is_said(word) || number(word))
 }
 
