@@ -209,7 +209,7 @@ fn check_name(name: &Text, faults: &mut Vec<Fault>) {
 }
 
 /// `v_1` and `v1` are one symbol.
-fn spelling(name: &str) -> String {
+pub(super) fn spelling(name: &str) -> String {
     let mut out = String::new();
     let mut letters = name.chars().peekable();
     while let Some(c) = letters.next() {

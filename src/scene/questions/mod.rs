@@ -17,6 +17,7 @@ use answers::Reader;
 use super::fault::Fault;
 use super::file::SceneFile;
 use super::formulas::Symbols;
+use super::parameters::spelling;
 use super::question_file::QuestionFile;
 use super::record::{Formula, Map, Text, is_sound};
 use super::resolve::{Resolver, entries};
@@ -456,16 +457,22 @@ pub(super) fn name_centers(file: &SceneFile, scene: &mut Scene) {
     }
 }
 
-/// A question and a parameter need different names, unless that parameter is what is sought.
+/// A question and a parameter need different names, unless that parameter is what is sought; and no two names are one symbol.
 fn name_is_free(r: &mut Resolver<'_>, name: &Text, q: &QuestionFile) {
-    if !is_own(name, q) && answers::parameter_names(r.file).contains(&name.text.as_str()) {
-        let message = format!(
-            "the question `{0}` has the name of the parameter `{0}`",
-            name.text
-        );
-        let hint = "what is asked and what is given need different names; only a `solve` or `threshold` may bear the name of the parameter it seeks";
-        r.report(name.span, message, hint);
-    }
+    let asked = entries(r.file.questions.as_ref()).map(|(asked, _)| asked.text.as_str());
+    let before = asked.take_while(|asked| *asked != name.text);
+    let mut others = answers::parameter_names(r.file).into_iter().chain(before);
+    let is_same = |other: &&str| spelling(other) == spelling(&name.text);
+    let Some(other) = others.find(|o| is_same(o) && !(is_own(name, q) && *o == name.text)) else {
+        return;
+    };
+    let (name, span) = (&name.text, name.span);
+    let message = match other == name {
+        true => format!("the question `{name}` has the name of the parameter `{name}`"),
+        false => format!("`{name}` and `{other}` are one symbol in formulas"),
+    };
+    let hint = "what is asked and what is given need different names; only a `solve` or `threshold` may bear the name of the parameter it seeks";
+    r.report(span, message, hint);
 }
 
 /// Whether a question is answered by the parameter whose name it has: `"d": {"solve": "d", …}`. Its answer has no name for
