@@ -522,6 +522,11 @@ impl Slide {
         [&[self.body], self.with.as_slice()].concat()
     }
 
+    /// Whether the surface is told to be smooth, so that a round body keeps its spin on it.
+    pub fn is_smooth(&self) -> bool {
+        self.friction.as_ref().is_some_and(Expr::is_zero)
+    }
+
     /// The pulleys of all strings whose centers stay.
     pub fn pulleys(&self) -> impl Iterator<Item = usize> {
         self.strings.iter().flat_map(|s| s.over.iter().copied())

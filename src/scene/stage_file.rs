@@ -142,7 +142,8 @@ record! {
         gravity: Option<Formula>,
         /// Constant force in that direction, at the center of mass.
         force: Option<Formula>,
-        /// Coefficient of sliding friction of the surface below the body; a disk, ring or sphere turns on it.
+        /// Coefficient of sliding friction of the surface below the body; a disk, ring or sphere turns on it, and
+        /// keeps its spin where it is 0.
         friction: Option<Formula>,
         /// The body whose surface that is, such as a plank or a cart, where it moves too; the direction is then that in which the
         /// body slides along it; a disk, ring or sphere slips on it until it rolls.

@@ -295,10 +295,15 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
     let one = names.len() == 1;
     let is_round = one && !slide.level && stage.scene.bodies[slide.body].shape.radius().is_some();
     let slips = told.work.iter().any(|(what, _)| *what == "friction");
-    let grips = is_round && !slips && told.way.is_some();
+    let grips = is_round && !slips && told.way.is_some() && !slide.is_smooth();
     let how = match (grips, &slide.friction, one) {
         (true, Some(_), _) => " rolls without slipping",
         _ if slide.rolling => " rolls without slipping",
+        (_, Some(_), true) if is_round && slide.is_smooth() => {
+            " slides on a smooth surface, which leaves its spin as it is,"
+        }
+        (_, Some(_), true) if slide.is_smooth() => " slides on a smooth surface",
+        (_, Some(_), false) if slide.is_smooth() => " slide together on a smooth surface",
         (_, Some(_), true) if is_round => " slips on a rough surface, which turns it,",
         (_, Some(_), true) if slide.level => " slides on a rough level surface",
         (_, Some(_), false) if slide.level => " slide together on a rough level surface",

@@ -109,10 +109,14 @@ fn unfit(scene: &Scene, slide: &Slide) -> Option<(String, &'static str)> {
             String::from("a body that rolls takes as much friction as that needs"),
             "leave out `friction`, or leave out `rolling` and say where the slip ends with \"until\": \"rolls\"",
         ),
-        () if slide.friction.is_none() && matches!(slide.until, SlideEnd::Rolls) => (
-            String::from("without friction a body that slips never begins to roll"),
-            "add \"friction\": \"mu\"",
-        ),
+        () if slide.friction.as_ref().is_none_or(Expr::is_zero)
+            && matches!(slide.until, SlideEnd::Rolls) =>
+        {
+            (
+                String::from("without friction a body that slips never begins to roll"),
+                "add \"friction\": \"mu\"",
+            )
+        }
         () if slide.level && !goes_alone => (
             String::from(
                 "a scene seen from above has bodies that slide, and neither roll nor hang on strings",

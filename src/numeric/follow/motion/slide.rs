@@ -122,7 +122,8 @@ pub(in crate::numeric::follow) fn slide(
         mass,
     };
     let slip = acting.slip([u, v], spin);
-    let slips = acting.rough.is_some() && !(turns && slip.abs() <= ROUNDING * size.speed);
+    let grips = turns && slip.abs() <= ROUNDING * size.speed && !slide.is_smooth();
+    let slips = acting.rough.is_some() && !grips;
     if slide.rolling && slip.abs() > ROUNDING * size.speed {
         return Err(course.contradiction("it slips when it is to begin to roll"));
     }
@@ -154,7 +155,7 @@ pub(in crate::numeric::follow) fn slide(
     let rubbed = (way, rubs > 0.0);
     let run = to_the_end(course, slide, &acting, &units, mobile, &start, rubbed)?;
     let still = |y: &[f64]| way * slipping(&acting, &units, y) < -ROUNDING * size.speed;
-    if turns && slips && still(&run.end) {
+    if turns && slips && !slide.is_smooth() && still(&run.end) {
         return Err(course.never("it rolls before"));
     }
     let (after, samples) = movers.ended(course, &units, &run, &before);

@@ -100,7 +100,9 @@ pub(super) fn fits_line(
         let is_small = matches!(body.shape, Shape::Particle);
         if !may_turn && !is_small && is_zero(&before.spin[b], domains) == Some(false) {
             let hint = match is_alone && body.shape.radius().is_some() {
-                true => "a round body may turn where it slides with `friction` or is `rolling`",
+                true => {
+                    "a round body may turn where it is `rolling` or slides with `friction`, which is 0 where the surface is smooth"
+                }
                 false => "an impact before it may stop what does not fit",
             };
             return refuse("it turns, at", &before.spin[b], hint);

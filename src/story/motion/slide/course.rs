@@ -91,7 +91,7 @@ impl Line<'_> {
             (Some(_), Some(t)) => self.tidied(&self.spin_after(t))?,
             _ => self.spin.clone(),
         };
-        if let Some(round) = self.round.as_ref().filter(|_| self.slips())
+        if let Some(round) = self.round.as_ref().filter(|_| self.slips() && self.rubs())
             && !matches!(self.slide.until, SlideEnd::Rolls)
         {
             let end = &speed + &(&round.arm * &spin);

@@ -126,6 +126,10 @@ impl<'a> Line<'a> {
         let inertia = self.inertia();
         let arm = right * radius;
         let slip = self.tidied(&(&self.speed + &(&arm * &self.spin)))?;
+        if self.slide.is_smooth() {
+            self.round = Some(Round { arm, slip });
+            return Ok(());
+        }
         let way = proved(&slip, self.domains());
         if self.slide.rolling && way != Some(0) {
             return Err(self.refused(
@@ -176,13 +180,11 @@ impl<'a> Line<'a> {
         &self.stage.scene.bodies[self.slide.body].inertia
     }
 
-    /// Whether the lowest point slips.
+    /// Whether the lowest point slips, or may do so on a smooth surface.
     pub fn slips(&self) -> bool {
-        self.slide.friction.is_some()
-            && self
-                .round
-                .as_ref()
-                .is_none_or(|r| is_zero(&r.slip, self.domains()) != Some(true))
+        let slips = |r: &Round| is_zero(&r.slip, self.domains()) != Some(true);
+        self.slide.is_smooth()
+            || self.slide.friction.is_some() && self.round.as_ref().is_none_or(slips)
     }
 
     /// Forces and accelerations, as they follow from each other.
@@ -212,7 +214,7 @@ impl<'a> Line<'a> {
         };
         let sides = [&force, &inertia];
         out.push(Step::by_newton("a", sides, &self.acceleration, why));
-        if let Some(round) = self.round.as_ref().filter(|_| self.slips()) {
+        if let Some(round) = self.round.as_ref().filter(|_| self.slips() && self.rubs()) {
             let moment = &round.arm * &self.friction;
             let why = "the angular acceleration, by the moment of friction about the center";
             let sides = [&moment, self.inertia()];
@@ -267,7 +269,8 @@ impl<'a> Line<'a> {
 
     /// Whether friction does work.
     pub fn rubs(&self) -> bool {
-        self.slips() || self.strings.iter().any(|s| s.string.friction.is_some())
+        self.slips() && !self.slide.is_smooth()
+            || self.strings.iter().any(|s| s.string.friction.is_some())
     }
 
     pub fn energy_kept(&self) -> Kept {
@@ -295,7 +298,7 @@ impl<'a> Line<'a> {
                 true,
                 "the spring keeps what it takes, and weight has a potential",
             ),
-            () if self.round.is_some() => (
+            () if self.round.is_some() && !self.slide.is_smooth() => (
                 true,
                 "the lowest point is at rest, so that friction there does no work, and weight has a potential",
             ),
