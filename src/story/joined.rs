@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::{Refused, State};
 use crate::answer::calc::is_zero;
 use crate::expr::{Expr, minus};
-use crate::scene::{HINGED, Scene, Stage, joints, left_behind, unsaid};
+use crate::scene::{HINGED, Scene, Stage, StageKind, joints, left_behind, unsaid};
 
 /// What is joined to a body moves along with it.
 pub(super) fn all_move(scene: &Scene, stage: &Stage) -> Result<(), Refused> {
@@ -18,7 +18,15 @@ pub(super) fn all_move(scene: &Scene, stage: &Stage) -> Result<(), Refused> {
             "`{other}` {} `{body}` since `{}`, and is not said to move along",
             joint.how, joint.since
         );
-        let hint = format!("the motion takes it along with \"with\": [\"{other}\"]");
+        let hint = match &stage.kind {
+            StageKind::Wind(_) => format!(
+                "a rope that winds up has one body at its end: begin a scene there with the mass of both in `{body}`"
+            ),
+            StageKind::Linkage(_) => {
+                format!("give `{other}` a `center` by the coordinate of the linkage")
+            }
+            _ => format!("the motion takes it along with \"with\": [\"{other}\"]"),
+        };
         return Err(Refused::new(&stage.name, why, hint));
     }
     Ok(())

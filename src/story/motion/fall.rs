@@ -3,7 +3,7 @@
 use super::supposed::Supposed;
 use super::turn::{free_sense, rotated, sense_words};
 use super::{half, kept, meanwhile, tidied};
-use crate::answer::calc::is_zero;
+use crate::answer::calc::{Seen, is_zero, sign};
 use crate::expr::{Expr, Vector, dot, minus};
 use crate::formula::sentence;
 use crate::scene::{Fall, FallEnd, Stage};
@@ -213,7 +213,6 @@ fn duration(
             let time = tidied(stage, &(&(vy - &end) / g))?;
             if fall.rising {
                 rises(stage, fall, [h, vy], supposed)?;
-                return Ok((time, Some(end)));
             }
             (time, Some(end))
         }
@@ -252,9 +251,20 @@ fn duration(
             let ahead = tidied(stage, &(s * vx))?;
             supposed.positive(&ahead, format!("`{name}` gets there"), negative)?;
         }
+        FallEnd::Drop(h) if is_later(stage, fall, h) => {}
         _ => supposed.not_negative(&time, comes_after, negative)?,
     }
     Ok((time, down))
+}
+
+/// Whether the end comes after the beginning whatever the values: what falls comes below where it began, and what rises is
+/// held to that by itself.
+fn is_later(stage: &Stage, fall: &Fall, drop: &Expr) -> bool {
+    let is_below = || match sign(drop, &stage.scene.domains) {
+        Seen::Proved(sign) => sign.is_not_negative(),
+        _ => false,
+    };
+    fall.gravity.is_some() && (fall.rising || is_below())
 }
 
 /// What is still rising at the end began to rise, and ends above its beginning.

@@ -2,7 +2,7 @@
 
 use super::{arrival, balance, half, kept, meanwhile, pushed, tidied};
 use crate::algebra::Sign;
-use crate::answer::calc::{Seen, is_zero, sign};
+use crate::answer::calc::{Seen, at_least_zero, is_zero, sign};
 use crate::expr::{Expr, Point};
 use crate::formula::{Sentence, sentence, unicode_name, write_plain};
 use crate::scene::{Linkage, Stage};
@@ -314,6 +314,7 @@ fn sets_out(
     assumptions: &mut Vec<Sentence>,
 ) -> Result<(), Refused> {
     let domains = &stage.scene.domains;
+    let goes = if way > 0 { "grow" } else { "fall" };
     let way = Expr::from(way);
     let name = unicode_name(&linkage.coordinate);
     let ahead = &way * rate;
@@ -325,7 +326,13 @@ fn sets_out(
             return Err(Refused::new(&stage.name, why, hint));
         }
         _ => {
-            assumptions.push(Sentence::not_negative(&ahead));
+            let condition = at_least_zero(&ahead, domains);
+            assumptions.push(sentence!(
+                "{}, so that {} begins to {}",
+                condition,
+                &name,
+                goes
+            ));
             needs.push(ahead.clone());
         }
     }

@@ -2,7 +2,7 @@
 
 use super::super::tidied;
 use crate::algebra::Sign;
-use crate::answer::calc::{Seen, constant, is_zero, sign};
+use crate::answer::calc::{Seen, at_least_zero, constant, is_zero, sign};
 use crate::expr::{Expr, Vector, cross, dot, minus};
 use crate::formula::{Sentence, sentence};
 use crate::scene::{Stage, Turn};
@@ -29,14 +29,17 @@ pub(in crate::story) fn sense(
             "the motion handed on decides the sense; leave `clockwise` out, or look at the stage before",
         )),
         (Some(d), None) if begins == Seen::Proved(Sign::Zero) => from_rest(stage, turn, Some(d)),
-        (Some(d), _) => Ok((d, None)),
+        (Some(d), Some(_)) => Ok((d, None)),
         (None, Some(s)) => Ok((s, None)),
         (None, None) if begins == Seen::Proved(Sign::Zero) => from_rest(stage, turn, None),
         // A spin of either sign keeps it.
-        (None, None) => {
-            let way = supposed(stage, spin);
-            let words = sentence!("`{}` turns {}", body, sense_words(way));
-            Ok((way, Some((&Expr::from(way) * spin, words))))
+        (declared, None) => {
+            let way = declared.unwrap_or_else(|| supposed(stage, spin));
+            let need = &Expr::from(way) * spin;
+            let condition = at_least_zero(&need, domains);
+            let turns = sentence!("`{}` turns {}", body, sense_words(way));
+            let words = sentence!("{}, so that {}", condition, turns);
+            Ok((way, Some((need, words))))
         }
     }
 }
@@ -123,7 +126,7 @@ fn from_rest(
         },
     };
     let need = tidied(stage, &(&Expr::from(way) * &moment))?;
-    let condition = crate::answer::calc::at_least_zero(&need, &stage.scene.domains);
+    let condition = at_least_zero(&need, &stage.scene.domains);
     let words = match declared {
         Some(_) => sentence!(
             "{}, so that `{}` begins to turn {}",
