@@ -260,9 +260,19 @@ pub fn above_zero(e: &Expr, domains: &Domains) -> Sentence {
 /// `e > 0` where zero is excluded, else `e ≥ 0`.
 pub(super) fn beyond_zero(e: &Expr, domains: &Domains, open: bool) -> Sentence {
     let e = essential(e, domains);
-    // A root that has a value is positive where what stands under it is.
-    if let Some(inside) = e.under_root().filter(|_| open) {
-        return beyond_zero(inside, domains, open);
+    // A root that has a value is positive where what stands under it is; so is the square of what is not negative.
+    let square = |e: &Expr| match e.node() {
+        Node::Power(base, k) if *k == Expr::from(2) => Some(base.clone()),
+        _ => None,
+    };
+    let is_size =
+        |base: &Expr| matches!(sign(base, domains), Seen::Proved(s) if s.is_not_negative());
+    let inside = e
+        .under_root()
+        .cloned()
+        .or_else(|| square(&e).filter(is_size));
+    if let Some(inside) = inside.filter(|_| open) {
+        return beyond_zero(&inside, domains, open);
     }
     let e = squared(&e, domains).unwrap_or(e);
     match open {

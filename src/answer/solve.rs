@@ -273,12 +273,10 @@ pub(super) fn placed(
             Seen::Proved(Sign::Zero) => limit.open,
             _ => false,
         };
-        if seen == Seen::Mixed {
-            given.push(sentence!(
-                "{}, so that {} lies within its domain",
-                beyond_zero(&gap, domains, limit.open),
-                symbol
-            ));
+        // At a bound of what it is made of it may be an end that does not belong to the domain.
+        let at_end = seen == Seen::Proved(Sign::NotNegative) && limit.open;
+        if seen == Seen::Mixed || at_end {
+            given.push(beyond_zero(&gap, domains, limit.open));
             within = within.given(&essential(&gap, domains), !limit.open);
         }
         let how = if seen == Seen::Proved(Sign::NotPositive) && !limit.open {
@@ -298,7 +296,9 @@ pub(super) fn placed(
             ));
         }
     }
-    Ok((given, within))
+    let so = sentence!(", so that {} lies within its domain", symbol);
+    let told = (!given.is_empty()).then(|| sentence!("{}{}", Sentence::join(given, " and "), so));
+    Ok((told.into_iter().collect(), within))
 }
 
 /// What must hold for something to vanish in which a root came out as the size of what may have either sign; `None` where it
