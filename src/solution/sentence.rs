@@ -5,6 +5,7 @@ use super::{Inline, Math};
 use crate::expr::Expr;
 use crate::formula::{Piece, Sentence};
 use crate::scene::Scene;
+use crate::story;
 
 /// A sentence with its formulas set, what stands around a relation in one piece with it, and bodies called as in the rest of
 /// a solution.
@@ -70,10 +71,16 @@ pub(super) fn symbols(piece: &Inline) -> impl Iterator<Item = crate::expr::Symbo
 /// Names between backquotes: bodies get their article, stages their quotation marks, and points what a sentence needs.
 pub(super) fn called(scene: &Scene, words: &str) -> String {
     let mut out = String::new();
+    // A stage may have the name of a body: `wall`.
+    let of_stages = words.contains(story::NO_TIME);
     for (i, part) in words.split('`').enumerate() {
         if i % 2 == 0 {
             out.push_str(part);
-        } else if let Some(b) = scene.bodies.iter().position(|b| b.name == part) {
+        } else if let Some(b) = scene
+            .bodies
+            .iter()
+            .position(|b| b.name == part && !of_stages)
+        {
             out.push_str(&words::body(scene, b));
         } else if scene.stages.iter().any(|s| s.name == part) {
             out.push_str(&words::stage(part));

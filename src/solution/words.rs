@@ -3,7 +3,7 @@
 use super::{Inline, Math, Meaning, Name};
 use crate::derive::Derivation;
 use crate::dimension;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Point, Symbol};
 pub use crate::formula::{capital, either, listed};
 use crate::laws::{Place, Unknown};
 use crate::scene::{Parameter, Scene, with_noun};
@@ -158,6 +158,15 @@ pub fn value(p: &Parameter) -> Option<Inline> {
             say(format!("{} {}", digits(number), p.unit))
         }
         Some(number) => say(p.dimension.measured(&digits(number))),
+        // Degrees and turns hold π, which their numbers do not.
+        None if !p.scale().is_one() => {
+            let at = Point::<f64>::default();
+            let number = digits(value.evaluate(&at)? / p.scale().evaluate(&at)?);
+            match p.unit.starts_with("deg") {
+                true => say(format!("{number}°")),
+                false => say(format!("{number} {}", p.unit)),
+            }
+        }
         None => formula(value),
     })
 }

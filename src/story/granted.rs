@@ -4,6 +4,10 @@ use super::StageTold;
 use crate::formula::{Sentence, listed, sentence};
 use crate::scene::StageKind;
 
+/// What is told of impacts.
+pub(crate) const NO_TIME: &str =
+    "no time: nothing moves while velocities jump, and finite forces have no impulse";
+
 /// Everything the story takes for granted.
 pub(super) fn assumed(readings: &[String], stages: &[StageTold]) -> Vec<Sentence> {
     let mut out: Vec<Sentence> = readings.iter().map(Sentence::from).collect();
@@ -25,11 +29,7 @@ pub(super) fn assumed(readings: &[String], stages: &[StageTold]) -> Vec<Sentence
     let impacts = named(|kind| matches!(kind, StageKind::Impact { .. }));
     if !impacts.is_empty() {
         let takes = if impacts.len() == 1 { "takes" } else { "take" };
-        out.push(sentence!(
-            "{} {} no time: nothing moves while velocities jump, and finite forces have no impulse",
-            listed(&impacts),
-            takes
-        ));
+        out.push(sentence!("{} {} {}", listed(&impacts), takes, NO_TIME));
     }
     let falls = named(|kind| matches!(kind, StageKind::Fall(_)));
     if !falls.is_empty() {

@@ -22,6 +22,7 @@ mod worlds;
 use std::collections::BTreeMap;
 use std::iter::successors;
 
+pub(crate) use granted::NO_TIME;
 pub use lent::{accelerations, lent};
 pub(crate) use motion::by_coordinate;
 pub use second::held;
