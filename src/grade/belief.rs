@@ -249,6 +249,13 @@ pub const BELIEFS: &[Belief] = &[
         slips: |s| {
             let all = frictionless(s).flat_map(|c| s.contacts[c].bodies.map(|b| (c, b)));
             let free = all.filter(|(_, body)| !s.bodies[*body].is_fixed());
+            // What comes along the normal has no other part.
+            let along = |c: usize, v: &Vector| {
+                let part = |a: &Expr, b: &Expr| (!a.is_zero() && !b.is_zero()).then(|| a * b);
+                let normal = s.contacts[c].normal.as_ref();
+                normal.is_some_and(|[x, y]| part(x, &v[1]) == part(y, &v[0]))
+            };
+            let free = free.filter(|(c, body)| !along(*c, &s.bodies[*body].velocity));
             let whole = |(contact, body)| Change::WholeBounce { contact, body };
             free.map(|(c, b)| changed(s, whole((c, b)), of(s, b)))
                 .collect()

@@ -276,8 +276,10 @@ impl Desk<'_> {
                 let unit = names::behind(text, &reading).and_then(|(from, to)| text.get(from..to));
                 // `v² = 2 a s` speaks of a way, `t = v/(μ g) s` of seconds.
                 let solved = names::named(text).is_some();
-                let letter = unit
-                    .is_some_and(|unit| names::is_quantity_first(unit) || unit == "s" && !solved);
+                let letter = self.is_misfit(text, &reading)
+                    || unit.is_some_and(|unit| {
+                        names::is_quantity_first(unit) || unit == "s" && !solved
+                    });
                 match self.looked_ahead(text) {
                     Some(reading) => reading,
                     None if letter && self.new_name(text).is_some() => {

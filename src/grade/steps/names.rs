@@ -10,7 +10,7 @@ use super::link::Weighed;
 use super::{Desk, Diagnosis, Options, Status};
 use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
-use crate::equality::{self};
+use crate::equality::{self, Equality};
 use crate::expr::{Expr, Function, Node, Symbol, dot, ratio};
 use crate::formula::{self, Content, Reading, Remark, Symbols};
 use crate::scene::{Ask, Body, Question, Scene, StageKind};
@@ -19,6 +19,8 @@ use crate::scene::{Ask, Body, Question, Scene, StageKind};
 const MOST_NAMES: usize = 100;
 /// Most accelerations that one letter is tried as.
 const MOST_WAYS: usize = 6;
+/// Most points about which a moment of inertia is tried.
+const MOST_POINTS: usize = 8;
 /// Most bodies whose moments of inertia are added.
 const MOST_BODIES: usize = 4;
 
@@ -181,10 +183,13 @@ pub(super) fn accelerations(sheet: &Sheet, text: &str) -> Vec<Option<(Symbol, Ex
         .collect()
 }
 
-/// Whether a letter behind a formula is a quantity first: a speed V rather than volts, a time t rather than tonnes.
+/// Whether a letter behind a formula is a quantity first: a speed V rather than volts, also in `½ M V²`, a
+/// time t rather than tonnes.
 pub(super) fn is_quantity_first(unit: &str) -> bool {
+    let power = ["²", "^2", "^{2}"].into_iter();
+    let letter = power.filter_map(|p| unit.trim().strip_suffix(p)).next();
     matches!(
-        unit.trim(),
+        letter.unwrap_or(unit.trim()),
         "V" | "h" | "t" | "A" | "C" | "F" | "H" | "K" | "L" | "T" | "l" | "d" | "W"
     )
 }
@@ -217,6 +222,15 @@ pub(super) fn angle_in(line: &Expr, name: &Symbol, domains: &Domains) -> Option<
 fn about(body: &Body, at: &[Expr; 2]) -> Expr {
     let [x, y] = [0, 1].map(|k| &at[k] - &body.center[k]);
     &body.inertia + &(&body.mass * &(x.powi(2) + y.powi(2)))
+}
+
+/// The sums of some of them, or all.
+fn together(each: &[Expr]) -> impl Iterator<Item = Expr> {
+    (1..1usize << each.len()).map(|chosen| {
+        let parts = each.iter().enumerate();
+        let parts = parts.filter(|(k, _)| chosen >> k & 1 == 1);
+        Expr::sum(parts.map(|(_, e)| e.clone()).collect::<Vec<_>>())
+    })
 }
 
 impl Desk<'_> {
@@ -385,16 +399,26 @@ impl Desk<'_> {
             let none = each.iter().all(|e| is(e) == Some(false));
             return none.then(|| each.into_iter().next()).flatten();
         }
-        let others = (1..1usize << each.len()).all(|chosen| {
-            let parts = each
-                .iter()
-                .enumerate()
-                .filter(|(k, _)| chosen >> k & 1 == 1);
-            let total = Expr::sum(parts.map(|(_, e)| e.clone()).collect::<Vec<_>>());
+        let others = together(&each).all(|total| {
             let decision = equality::decide(&value, &total, &scene.domains);
             decision.equality.is_different()
         });
         others.then(|| each.into_iter().next()).flatten()
+    }
+
+    /// Whether a value is the moment of inertia of bodies of the scene about the center of one or a point that the scene names.
+    pub(super) fn is_inertia(&self, value: &Expr) -> bool {
+        let scene = &self.sheet.scene;
+        let free = || scene.bodies.iter().filter(|b| !b.is_fixed());
+        let hinges = scene.hinges.iter().map(|h| &h.at);
+        let centers = free().map(|b| &b.center).chain(hinges);
+        let points = scene.points.iter().map(|p| &p.at).chain(centers);
+        let value = self.with_own(value);
+        points.take(MOST_POINTS).any(|point| {
+            let each: Vec<Expr> = free().map(|b| about(b, point)).take(MOST_BODIES).collect();
+            let same = |total| equality::decide(&value, &total, &scene.domains).equality;
+            together(&each).any(|total| matches!(same(total), Equality::Same { .. }))
+        })
     }
 
     /// A chain such as `I_C = I_G + m d^2 = m l^2/12 + m d^2`, where a side has a new name: the other sides say what it is.
@@ -425,15 +449,26 @@ impl Desk<'_> {
 
     /// Whether what was read as newtons is a force by its letter: behind what has no dimension, as in `μ N`.
     pub(super) fn has_normal(&self, text: &str, reading: &Reading) -> bool {
-        let Some((from, _)) = behind(text, reading).filter(|(from, to)| &text[*from..*to] == "N")
-        else {
-            return false;
-        };
-        let before = text[..from].rsplit(['=', '≈']).next().unwrap_or_default();
-        let factor = formula::read(before, &self.symbols(before)).ok();
+        let force = behind(text, reading).filter(|(from, to)| &text[*from..*to] == "N");
+        let measured = force.and_then(|(from, _)| self.measures(text, from));
+        measured.is_some_and(|dimension| dimension.is_none())
+    }
+
+    /// Whether what was read as a unit behind a formula is a letter: joules measure no length, as in `r J`.
+    pub(super) fn is_misfit(&self, text: &str, reading: &Reading) -> bool {
+        let unit = behind(text, reading).and_then(|(from, to)| {
+            let unit = dimension::unit(text[from..to].trim()).ok()?;
+            Some((unit, self.measures(text, from)?))
+        });
+        unit.is_some_and(|(unit, measured)| unit.dimension != measured)
+    }
+
+    /// What the formula before a place measures, back to the sign of equality.
+    fn measures(&self, text: &str, to: usize) -> Option<Dimension> {
+        let before = text[..to].rsplit(['=', '≈']).next().unwrap_or_default();
+        let factor = formula::read(before, &self.symbols(before)).ok()?;
         let of = |name: &str| Some(self.sheet.scene.parameter(name)?.dimension.clone());
-        let found = factor.and_then(|f| dimension::of(f.expr()?, &of).ok()?);
-        found.is_some_and(|dimension| dimension.is_none())
+        dimension::of(factor.expr()?, &of).ok()?
     }
 
     /// Whether a line only says that something stays what it is, in names that it never gives: `H_C = H_C'`, `E_1 = E_2`.

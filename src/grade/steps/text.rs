@@ -129,6 +129,9 @@ const WHICH: [&str; 6] = ["before", "after", "lost", "gained", "initially", "fin
 /// What is `asked` of the moment just after is its own name then.
 pub(super) fn in_names(line: &str, asked: &dyn Fn(&str) -> bool) -> String {
     let line = line.replace("K.E.", "KE").replace("P.E.", "PE");
+    // `After the 1st bounce v = …`
+    let line = line.replace(" the 1st ", " the first ");
+    let line = line.replace(" the 2nd ", " the second ");
     let line = moment_first(&line, asked).unwrap_or(line);
     let words: Vec<&str> = line.split(' ').collect();
     let sign = |word: &str| word.ends_with(['=', '+', '-', '−', '≈', ':', ',']);

@@ -17,6 +17,8 @@ use crate::scene::{Ask, Question, Scene};
 
 /// Longest value, in letters, that an own name is said to need.
 const LONGEST_VALUE: usize = 80;
+/// Most values of the scene that an own name may stand for.
+const MOST_VALUES: usize = 48;
 /// Most pairs of parameters of one kind that are tried for one another.
 const MOST_PAIRS: usize = 12;
 
@@ -211,16 +213,26 @@ impl Desk<'_> {
     fn own_value(&self, [left, right]: [&Expr; 2], factor: bool) -> Option<Diagnosis> {
         let each = self.own_needed(&(left - right)).into_iter();
         let mut found = each.filter_map(|(name, [value, needed])| {
+            // A moment of inertia of the scene, or a velocity in it, is no slip, unless another such is needed.
+            let [mine, theirs] = [&value, &needed].map(|e| self.of_scene(e));
+            if mine.is_some() && theirs.is_none() {
+                return None;
+            }
             let share = self.share(&value.substitute(&self.closed), &needed);
             let rational = share.as_ref().is_some_and(|k| k.as_number().is_some());
             let same = share.is_some_and(|k| k.is_one());
-            let [value, needed] = [&value, &needed].map(formula::write_plain);
-            let told = rational == factor && !same && needed.len() < LONGEST_VALUE;
+            let needed = theirs.as_ref().unwrap_or(&needed);
+            let [value, needed] = [&value, needed].map(formula::write_plain);
+            let likely = theirs.is_some() || rational == factor;
+            let told = likely && !same && needed.len() < LONGEST_VALUE;
             told.then(|| {
                 Diagnosis::new(
                     "OWN_VALUE",
                     format!("this line holds with {name} = {needed}, where you have {value}"),
                     match factor {
+                        _ if theirs.is_some() => {
+                            "this line may well be right: check the one that gives that value"
+                        }
                         true => "either that value or this line is off by a factor: check both",
                         false => "either that value or this line is wrong: check both",
                     },
@@ -228,6 +240,22 @@ impl Desk<'_> {
             })
         });
         found.next()
+    }
+
+    /// What the scene has that a value is: a moment of inertia, or a velocity or spin, also as it comes into an impact.
+    fn of_scene(&self, value: &Expr) -> Option<Expr> {
+        let none = BTreeMap::new();
+        let value = self.put_in(value, &none);
+        if self.is_inertia(&value) {
+            return Some(value);
+        }
+        let moments = self.moments.iter().map(|(_, values)| values);
+        let all = moments.chain([&self.closed]).flat_map(BTreeMap::values);
+        let bodies = self.sheet.impacts.iter().flat_map(|scene| &scene.bodies);
+        let before = bodies.flat_map(|b| b.velocity.iter().chain([&b.spin]));
+        let all: BTreeSet<&Expr> = all.chain(before).filter(|e| !e.is_zero()).collect();
+        let same = |truth: &&Expr| self.all_zero(&[&value - *truth], &none) == Some(true);
+        all.into_iter().take(MOST_VALUES).find(same).cloned()
     }
 
     /// The term with whose other sign an equation holds.
