@@ -8,6 +8,7 @@ use super::believed::{self, Believed, Story, Written};
 use super::{Given, Key, Options, Question, key_of};
 use crate::answer::{Answer, Form};
 use crate::derive::{self, Derivation, Moment};
+use crate::equality;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Relation};
 use crate::scene::{self, Ask, Print, Scene};
@@ -137,6 +138,15 @@ impl Sheet {
             })
         });
         self.all.iter().filter_map(bound).chain(friction)
+    }
+
+    /// Whether a point of the domain is found: what a way supposes may hold nowhere.
+    pub fn has_points(&self) -> bool {
+        let names = self.scene.parameters.iter().map(|p| Expr::symbol(&p.name));
+        let sum = Expr::sum(names.collect::<Vec<_>>());
+        let twice = &sum + &sum;
+        let compared = equality::decide(&sum, &twice, &self.scene.domains);
+        compared.equality.is_different()
     }
 
     /// The questions that have an answer.

@@ -342,6 +342,10 @@ fn has_one_freedom(system: &System<f64>, solution: &Solution<f64>) -> bool {
         })
         .collect();
     let columns: Vec<usize> = (0..n).filter(moves).collect();
+    // What does not move has none.
+    if columns.is_empty() {
+        return false;
+    }
     let matrix =
         nalgebra::DMatrix::from_fn(kinematic.len().max(columns.len()), columns.len(), |i, j| {
             kinematic

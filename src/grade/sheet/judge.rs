@@ -3,8 +3,8 @@
 use super::super::believed::{self, Written};
 use super::super::worked::worked;
 use super::super::{
-    Diagnosis, Grade, Key, Options, Strength, Tolerance, Verdict, fraction, judge_against, key_of,
-    number, read,
+    Diagnosis, Grade, Key, Options, Proof, Strength, Tolerance, Verdict, fraction, judge_against,
+    key_of, number, read,
 };
 use super::{Entry, Sheet, rows};
 use crate::answer::Answer;
@@ -44,18 +44,30 @@ impl Sheet {
                     grade.assumed.extend(self.given.iter().cloned());
                 }
             }
-            // What leads one way may keep to no point of the domain, though nobody proved that.
             Verdict::Different | Verdict::Undecided => {
+                let mut unseen = None;
                 for (way, other) in others {
                     let mut right = way.judge_one_way(&other, answer, options);
-                    if right.verdict == Verdict::Equivalent {
+                    if right.verdict == Verdict::Equivalent && way.has_points() {
                         right.assumed.extend(way.given.iter().cloned());
                         return right;
+                    }
+                    if right.verdict == Verdict::Equivalent {
+                        let given = way.given.join(", ");
+                        let words = format!("right where {given}, of which no point was found");
+                        unseen = Some((right, words));
+                        continue;
                     }
                     let is_open = grade.verdict == Verdict::Undecided;
                     if is_open && right.verdict == Verdict::Different && same(&other) {
                         return right;
                     }
+                }
+                if let Some((mut right, words)) = unseen {
+                    right.verdict = Verdict::Undecided;
+                    right.note = "UNDECIDED_POINT";
+                    right.proof = Proof::of("none", words);
+                    return right;
                 }
             }
             Verdict::Invalid => {}
