@@ -3,7 +3,7 @@
 mod named;
 mod scalar;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::{
     Apart, Diagnosis, Key, Options, Proof, Strength, Verdict, partial, relation, several, show,
@@ -184,15 +184,31 @@ fn claim(content: &Content) -> Claim<'_> {
     }
 }
 
+/// The names that stand alone left of an equality sign in relations that are joined.
+fn solved_for(content: &Content) -> BTreeSet<Symbol> {
+    match content {
+        Content::Relations(sides, signs) if signs[..] == [Relation::Equal] => sides[0]
+            .expr()
+            .and_then(Expr::as_symbol)
+            .cloned()
+            .into_iter()
+            .collect(),
+        Content::Joined(_, parts) => parts.iter().flat_map(solved_for).collect(),
+        _ => BTreeSet::new(),
+    }
+}
+
 fn compare(ctx: &Context, answer: &Reading) -> Finding {
-    // Values of one name are a list of which each will do, unless the other side says that they are all the same.
+    // Values of one name are a list of which each will do, unless the other side says that they are all the same, or speaks of
+    // several: `y = x² and y = x` beside `x = 1 and y = 1`.
     let expected = &ctx.key.reading.content;
     let is_chain =
         |content: &Content| matches!(content, Content::Relations(sides, _) if sides.len() > 2);
-    if let (false, Some(list)) = (is_chain(expected), formula::values_of_one(&answer.content)) {
+    let is_system = |content: &Content| is_chain(content) || solved_for(content).len() > 1;
+    if let (false, Some(list)) = (is_system(expected), formula::values_of_one(&answer.content)) {
         return compare(ctx, &answer.with(list));
     }
-    if let (false, Some(list)) = (is_chain(&answer.content), formula::values_of_one(expected)) {
+    if let (false, Some(list)) = (is_system(&answer.content), formula::values_of_one(expected)) {
         let key = Key {
             reading: ctx.key.reading.with(list),
             ..ctx.key.clone()

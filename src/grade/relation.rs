@@ -78,7 +78,9 @@ pub(crate) fn compare(
         _ => system::compare(ctx, &expected, &answer, domains),
     };
     match found.verdict {
-        Verdict::Undecided => system::scaled(ctx, &expected, &answer, domains).unwrap_or(found),
+        Verdict::Undecided => system::scaled(ctx, &expected, &answer, domains)
+            .or_else(|| system::with_one_given(ctx, &[expected], &[answer], domains))
+            .unwrap_or(found),
         _ => found,
     }
 }
@@ -143,8 +145,11 @@ pub(crate) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Fin
                 ([e], [a]) if either => alternatives(ctx, &e.difference, &a.difference),
                 _ => system::compare(ctx, mine, theirs, domains),
             };
+            let left = || system::with_one_given(ctx, from_ref(mine), from_ref(theirs), domains);
             match found.verdict {
-                Verdict::Undecided => apart_at_points(ctx, mine, theirs).unwrap_or(found),
+                Verdict::Undecided => {
+                    (left().or_else(|| apart_at_points(ctx, mine, theirs))).unwrap_or(found)
+                }
                 _ => found,
             }
         }
@@ -163,7 +168,8 @@ pub(crate) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Fin
             {
                 return same_solutions("none of the cases holds at the same points");
             }
-            let apart = apart_in_cases(ctx, &mine, &theirs);
+            let apart = system::with_one_given(ctx, &mine, &theirs, domains)
+                .or_else(|| apart_in_cases(ctx, &mine, &theirs));
             apart.unwrap_or_else(|| undecided("cases in several symbols are compared one by one"))
         }
     }

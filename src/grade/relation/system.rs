@@ -114,6 +114,78 @@ pub(super) fn scaled(
     Some(finding)
 }
 
+/// The verdict on relations in two real symbols, one of which an equation of one side gives by the other, where every case of
+/// the other side gives it as well: what is left is about one symbol.
+pub(super) fn with_one_given(
+    ctx: &Context,
+    expected: &Cases,
+    answer: &Cases,
+    domains: &Domains,
+) -> Option<Finding> {
+    let all = differences(expected.iter().flatten(), answer.iter().flatten());
+    let uses = roles(&all);
+    let real = |name: &Symbol| domains.symbols.get(name) == Some(&Domain::real());
+    let plain = domains.relations.is_empty() && uses.symbols.keys().all(real);
+    if uses.symbols.len() != 2 || !plain {
+        return None;
+    }
+    let ([one], others) = (match expected {
+        [_] => (expected, answer),
+        _ => (answer, expected),
+    }) else {
+        return None;
+    };
+    // The value has to exist wherever the other symbol has one.
+    let everywhere = |part: &Expr| match part.node() {
+        Node::Call(..) => false,
+        Node::Power(_, k) => k
+            .as_number()
+            .is_some_and(|k| k.is_integer() && k.is_positive()),
+        _ => true,
+    };
+    let fixed = |n: &Normal, name: &Symbol| {
+        let slope = n.difference.derivative(name);
+        let linear = slope.as_number().is_some_and(|k| !k.is_zero());
+        let root = (n.relation == Relation::Equal && linear)
+            .then(|| solve_for(&n.difference, name, domains))??;
+        let exists = root.parts().all(everywhere);
+        exists.then_some(root)
+    };
+    let names = || uses.symbols.keys();
+    let mut found = one.iter().flat_map(|n| names().map(move |name| (n, name)));
+    let (name, root) = found.find_map(|(n, name)| Some((name, fixed(n, name)?)))?;
+    let gap = Expr::symbol(name) - &root;
+    let gives = |case: &Vec<Normal>| {
+        let numbers = case.iter().flat_map(|n| names().map(move |name| (n, name)));
+        let numbers = numbers.filter_map(|(n, name)| {
+            let value = fixed(n, name)?;
+            value.as_number().is_some().then(|| (name.clone(), value))
+        });
+        let there = gap.substitute(&numbers.collect());
+        let same = |n: &Normal| {
+            fixed(n, name).is_some() && equality::vanishes(&n.difference.put(name, &root), domains)
+        };
+        equality::vanishes(&there, domains) || case.iter().any(same)
+    };
+    if !others.iter().all(gives) {
+        return None;
+    }
+    let left = |case: &Vec<Normal>| {
+        let put = case.iter().map(|n| n.of(n.difference.put(name, &root)));
+        let says = |n: &Normal| {
+            n.relation != Relation::Equal || !equality::vanishes(&n.difference, domains)
+        };
+        put.filter(says).collect::<Vec<_>>()
+    };
+    let [expected, answer] =
+        [expected, answer].map(|cases| cases.iter().map(left).collect::<Vec<_>>());
+    let mut finding = in_one_symbol(ctx, &expected, &answer, domains)?;
+    if let Some(apart) = &mut finding.counterexample {
+        apart.at = format!("{name} = {}, {}", write_plain(&root), apart.at);
+    }
+    matches!(finding.verdict, Verdict::Equivalent | Verdict::Different).then_some(finding)
+}
+
 /// The finding for relations in one symbol that part at a number.
 fn apart(ctx: &Context, expected: &Cases, answer: &Cases, along: &Along) -> Finding {
     let equation = |n: &Normal| n.relation == Relation::Equal;
