@@ -274,6 +274,7 @@ impl Lexer<'_> {
         let word = &self.text[start..start + length];
         let behind = &self.text[start + length..];
         let known = match word {
+            "mod" if behind.starts_with(' ') => self.before != Before::Nothing,
             "max" | "min" | "hypot" | "floor" | "ceil" | "round" | "trunc" | "erf" | "erfc"
             | "gcd" | "lcm" | "mod" | "sinc" | "mean" | "avg" | "sum" => behind.starts_with('('),
             "atan" | "exp" => behind.starts_with("2("),

@@ -1,6 +1,7 @@
 //! Where a text could mean something else: other readings, an e that nobody declared, and what the reader decided.
 
 use num_traits::Signed;
+use std::collections::BTreeMap;
 
 use super::compare;
 use super::{Diagnosis, Grade, Key, Options, Proof, Verdict, read, show};
@@ -48,7 +49,10 @@ pub(super) fn euler(
     let (expected, answer) = (&key.reading.content, &reading.content);
     let mut logarithm = false;
     for content in [expected, answer] {
-        let is_ln = |part: &Expr| matches!(part.node(), Node::Call(Function::Ln, _));
+        let is_ln = |part: &Expr| {
+            use Function::{Cosh, Ln, Sinh, Tanh};
+            matches!(part.node(), Node::Call(Ln | Sinh | Cosh | Tanh, _))
+        };
         content.each(&mut |e| logarithm |= e.parts().any(is_ln));
     }
     let is_e = |e: &Expr| e.as_symbol().is_some_and(|s| &**s == "e");
@@ -60,7 +64,7 @@ pub(super) fn euler(
             _ => e.map_parts(|part| number(part, is_e, alone)),
         }
     }
-    // Alone it is a number beside a logarithm only: `ln x = 1` and `x = e`.
+    // Alone it is a number beside a logarithm or a hyperbolic function only: `ln x = 1` and `x = e`.
     let number = |e: &Expr| number(e, &is_e, logarithm);
     let occurs = |content: &Content| {
         let mut found = false;
@@ -115,6 +119,36 @@ pub(super) fn euler(
     undecide(finding, words);
     let hint = "write exp(x) for the exponential function";
     finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
+}
+
+/// `y'` for `dy/dx`, which would be right if it is that: a prime does not say by what.
+pub(super) fn primes(
+    key: &Key,
+    reading: &Reading,
+    options: &Options,
+    finding: &mut compare::Finding,
+) {
+    let primed = |name: &Symbol| {
+        let (of, _) = name.strip_prefix('d')?.split_once("/d")?;
+        Some((name.clone(), Expr::symbol(&Symbol::from(format!("{of}'")))))
+    };
+    let sides = [&key.reading.content, &reading.content];
+    let names = sides.into_iter().flat_map(Content::symbols);
+    let primed: BTreeMap<Symbol, Expr> = names.filter_map(|name| primed(&name)).collect();
+    if finding.verdict != Verdict::Different || primed.is_empty() {
+        return;
+    }
+    let [expected, mine] = sides.map(|content| content.map(&|e| e.substitute(&primed)));
+    let other = Key {
+        reading: key.reading.with(expected),
+        ..key.clone()
+    };
+    if compare::contents(&other, &reading.with(mine), options).verdict == Verdict::Equivalent {
+        let words = "a prime does not say by what is differentiated; it would be right as the derivative that is asked for";
+        undecide(finding, words);
+        let hint = "write the derivative as a quotient, as in dy/dx";
+        finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
+    }
 }
 
 /// `e^(i theta)` with an i that the question does not know: what sets the two apart is told of a symbol, and is no belief

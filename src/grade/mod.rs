@@ -399,6 +399,7 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
     if options.strength == Strength::Identity {
         doubt::raised(key, answer, options, &mut finding);
     }
+    doubt::primes(key, &reading, options, &mut finding);
     doubt::imaginary(key, &reading, &mut finding);
     doubt::any_whole_number(key, &reading, &mut finding);
     doubt::backwards(key, &reading, &mut finding);
