@@ -311,6 +311,12 @@ pub(crate) fn is_component(name: &str) -> bool {
     stem.is_some_and(has_arrow)
 }
 
+/// The letter, the index and the mark of a name with an arrow: v, `C,rod` and `^+`.
+pub(crate) fn vector_name(name: &str) -> Option<(String, String, String)> {
+    let parts = super::symbols::parts_of(name);
+    (parts.accent == "vec").then_some((parts.base, parts.index, parts.marks))
+}
+
 /// The name with an arrow over it; nothing where it has an accent.
 pub(crate) fn with_arrow(name: &str) -> Option<String> {
     let mut parts = super::symbols::parts_of(name);

@@ -14,6 +14,7 @@ mod said;
 mod sought;
 mod tending;
 mod text;
+mod vectors;
 mod why;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -187,6 +188,7 @@ fn check_with(sheet: &Sheet, text: &str, options: &Options, meant: &Meant) -> Wo
     let read = text::joined(text);
     let read = desk.in_names(&read);
     desk.along_normal(&read);
+    desk.know_vectors(&read);
     desk.solved_for = names::solved_for(&read);
     desk.own_with_mark = names::of_a_later_moment(sheet, &read);
     desk.own_with_mark.extend(meant.marked.iter().cloned());
@@ -205,7 +207,8 @@ fn check_with(sheet: &Sheet, text: &str, options: &Options, meant: &Meant) -> Wo
             if text::is_heading(line) {
                 desk.of_earlier_parts = desk.own.keys().cloned().collect();
             }
-            let item = text::unlisted(read.trim(), dashes);
+            // What is aligned may begin with a minus sign.
+            let item = text::unlisted(read.trim(), dashes && !line.contains('&'));
             let whole = text::continued(&before, item);
             let (status, diagnosis) = desk.line(i + 1, &whole, options);
             before = whole;
@@ -387,7 +390,11 @@ impl Desk<'_> {
         if let Weighed::Slip(_) = weighed
             && let Some((when, there)) = self.at_another_moment(&links).cloned()
         {
-            self.note_final(number, text, reading, &there);
+            let mut sides = links.iter().map(|link| &link.sides[0]);
+            let said = sides.next().and_then(|side| side.expr()?.as_symbol());
+            if !said.is_some_and(|name| formula::has_arrow(name)) {
+                self.note_final(number, text, reading, &there);
+            }
             let hint = "say which moment or case is meant";
             let found = Diagnosis::new(MOMENT, format!("this holds {when}"), hint);
             return (Status::Holds, vec![found]);
@@ -396,6 +403,11 @@ impl Desk<'_> {
             // `v(t) = v − μ g t` tells a motion in time, of which the scene knows the end.
             if text::is_of_time(text) {
                 return (Status::Undecided, Vec::new());
+            }
+            if self.is_of_a_motion(&links) {
+                let words = "which moment of the motion this tells of is not known";
+                let hint = "say which moment is meant";
+                return (Status::Undecided, vec![Diagnosis::new(MOMENT, words, hint)]);
             }
             // The student may have meant the other reading of a slash, or m u by `mu`.
             let symbols = self.symbols(text);

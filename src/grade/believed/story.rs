@@ -12,7 +12,7 @@ use super::{COINCIDENCE, FACTORS, MOST_STEPS, NAMED, in_decade, words};
 use crate::answer::{Answer, Form};
 use crate::equality::identical;
 use crate::expr::{Expr, Point, effort};
-use crate::scene::Scene;
+use crate::scene::{Scene, StageKind};
 
 /// Stories told at most for one question; most take milliseconds.
 const TOLD: usize = 32;
@@ -44,6 +44,12 @@ impl Story {
             tell,
             believed: Arc::default(),
         }
+    }
+
+    /// Whether bodies move between its impacts.
+    pub fn has_motions(&self) -> bool {
+        let mut stages = self.scene.stages.iter();
+        stages.any(|stage| !matches!(stage.kind, StageKind::Impact { .. }))
     }
 
     /// The scene with one question, and those whose answers it needs.

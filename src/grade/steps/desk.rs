@@ -24,6 +24,8 @@ pub(super) struct Desk<'a> {
     pub closed: BTreeMap<Symbol, Expr>,
     /// Values at other moments of the scene, and as it goes otherwise, with words that tell when and where.
     pub moments: Vec<Moment>,
+    /// The vectors with arrows that the solution names: at other moments, and of other systems of bodies.
+    pub vectors: Vec<Moment>,
     /// What wrong lines imply: for each the value of one name, under all that came before.
     pub believed: Vec<(usize, BTreeMap<Symbol, Expr>)>,
     /// The wrong lines themselves, left minus right, with the student's own names put in.
@@ -85,6 +87,7 @@ impl<'a> Desk<'a> {
             sheet,
             moments: moments(sheet, &closed),
             closed,
+            vectors: Vec::new(),
             believed: Vec::new(),
             wrong: Vec::new(),
             stated: Vec::new(),
@@ -147,6 +150,21 @@ impl<'a> Desk<'a> {
                 symbols.declare_as(&*arrow, Some(&arrowed), None);
             }
         }
+        // In a product of vectors what is asked for is one by its arrow; alone on the left it is what is said.
+        let multiplied = ["×", "\\times", "·", "\\cdot"]
+            .iter()
+            .any(|sign| text.contains(sign));
+        let left = text.split('=').next().filter(|_| multiplied);
+        let left = left.and_then(|left| formula::read(left, &Symbols::open()).ok());
+        let left = left.as_ref().and_then(|left| left.expr()?.as_symbol());
+        let asked = self.sheet.scene.questions.iter();
+        let asked: Vec<String> = asked.filter_map(|q| formula::with_arrow(&q.name)).collect();
+        let vectors = self.parts.keys().filter_map(|name| name.strip_suffix("_z"));
+        let free = |name: &&str| match asked.iter().any(|asked| asked == name) {
+            true => multiplied && left.is_none_or(|left| **left != **name),
+            false => true,
+        };
+        vectors.filter(free).for_each(|name| symbols.declare(name));
         // `ω⁺` and `ω'` are what is asked of the moment just after, and a vector may wear its arrow.
         let now = |name: &&Symbol| !name.contains('^') && !is_vector(name);
         for name in self.closed.keys().chain(later).filter(now) {
@@ -254,7 +272,12 @@ impl<'a> Desk<'a> {
     }
 
     pub(super) fn put_in(&self, e: &Expr, instead: &BTreeMap<Symbol, Expr>) -> Expr {
-        self.magnitudes(&self.with_own(e))
+        // A vector of another moment goes before the one that is known first.
+        let vectors = instead
+            .iter()
+            .filter(|(name, _)| formula::is_component(name));
+        let vectors: BTreeMap<_, _> = vectors.map(|(n, v)| (n.clone(), v.clone())).collect();
+        self.magnitudes(&self.with_own(&e.substitute(&vectors)))
             .substitute(instead)
             .substitute(&self.closed)
     }

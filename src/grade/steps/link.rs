@@ -47,6 +47,11 @@ fn equal(sign: Relation) -> bool {
 impl Desk<'_> {
     /// The components of a vector that is asked for, or of a spin as a vector out of the page.
     pub(super) fn components(&self, name: &str) -> Option<[Expr; 3]> {
+        // At another moment the vector may be another one.
+        let over = |values: &BTreeMap<Symbol, Expr>| values.contains_key(&*format!("{name}_z"));
+        if self.vectors.iter().any(|(_, values)| over(values)) {
+            return Some(["x", "y", "z"].map(|axis| Expr::symbol(&format!("{name}_{axis}"))));
+        }
         if let Some((spin, clockwise)) = self.spins.get(name) {
             let along = Expr::symbol(spin);
             let along = if *clockwise { -along } else { along };
@@ -59,7 +64,8 @@ impl Desk<'_> {
         }
         let part = |axis: &str| {
             let component = Symbol::from(format!("{name}_{axis}").as_str());
-            let known = self.closed.contains_key(&component) || self.own.contains_key(&component);
+            let maps = [&self.closed, &self.own, &self.parts];
+            let known = maps.iter().any(|map| map.contains_key(&component));
             known.then(|| Expr::symbol(&component))
         };
         Some([part("x")?, part("y")?, part("z").unwrap_or(Expr::zero())])
@@ -79,18 +85,31 @@ impl Desk<'_> {
         along.collect()
     }
 
-    pub(super) fn vector(&self, side: &Content) -> Option<[Expr; 3]> {
+    /// The components of a side; of names that are asked for only where a vector with an arrow stands `beside`.
+    pub(super) fn vector(&self, side: &Content, beside: bool) -> Option<[Expr; 3]> {
         match side {
             Content::Vector(v) => Some(v.clone()),
-            other => self.components(other.expr()?.as_symbol()?),
+            other => {
+                let side = other.expr()?;
+                let named = side.as_symbol().and_then(|name| self.components(name));
+                named.or_else(|| self.by_components(side, beside))
+            }
         }
     }
 
     /// The equality of two sides.
     pub(super) fn link(&self, a: &Content, b: &Content) -> Option<Link> {
         let mut sides = [a.clone(), b.clone()];
-        let differences = match (self.vector(a), self.vector(b)) {
+        let beside = mentions_vectors(&sides);
+        let differences = match (self.vector(a, beside), self.vector(b, beside)) {
             (Some(a), Some(b)) => a.iter().zip(&b).map(|(a, b)| a - b).collect(),
+            (Some(v), None) | (None, Some(v))
+                if [a, b]
+                    .iter()
+                    .any(|side| side.expr().is_some_and(Expr::is_zero)) =>
+            {
+                v.to_vec()
+            }
             // A velocity that is put equal to a number is meant as the speed, unless it has one component and is that.
             (Some(_), None) if !b.expr()?.is_zero() && !self.is_along(a.expr()?, b.expr()?) => {
                 let speed = Expr::call(Function::Abs, a.expr()?.clone());
@@ -245,8 +264,14 @@ impl Desk<'_> {
             let parameter = self.sheet.scene.parameter(name);
             parameter.is_some() && own.iter().any(|d| d.mentions(name))
         };
-        let mut moments = self.moments.iter();
-        moments.find(|(_, values)| !values.keys().any(is_open) && holds(values))
+        let vectors = all
+            .iter()
+            .any(|d| d.symbols().iter().any(|n| formula::is_component(n)));
+        let vectors = self.vectors.iter().filter(|_| vectors);
+        let mut moments = self.moments.iter().chain(vectors);
+        moments.find(|(_, values)| {
+            !values.keys().any(is_open) && holds(values) && self.says_enough(links, values)
+        })
     }
 
     fn carried_on(&self, link: &Link) -> Option<usize> {
@@ -341,7 +366,7 @@ impl Desk<'_> {
             match links.iter().position(|link| !self.holds_where(link, place)) {
                 None if !links.is_empty() => return Some((Status::Holds, Vec::new())),
                 Some(at @ 1..) => {
-                    let broken = self.broken(reading, at).into_iter().collect();
+                    let broken = self.broken(reading, at, text).into_iter().collect();
                     return Some((Status::Wrong, broken));
                 }
                 _ => {}
@@ -555,7 +580,7 @@ impl Desk<'_> {
             return;
         };
         // A speed is no answer where a velocity is asked for.
-        let whole = self.vector(first).is_some() == self.vector(last).is_some();
+        let whole = self.vector(first, false).is_some() == self.vector(last, false).is_some();
         if !in_given || !whole || !(lent || answers.iter().any(asked)) {
             return;
         }
@@ -595,14 +620,27 @@ impl Desk<'_> {
     }
 
     /// The finding about the link of a chain that does not hold.
-    pub(super) fn broken(&self, reading: &Reading, at: usize) -> Option<Diagnosis> {
+    pub(super) fn broken(&self, reading: &Reading, at: usize, text: &str) -> Option<Diagnosis> {
         let links = self.links(reading)?;
         let link = links.get(at)?;
-        let [a, b] = link.sides.each_ref().map(super::super::show);
+        // Vectors as they are written rather than by the names of their components.
+        let pieces: Vec<&str> = text.split(['=', '≈']).map(str::trim).collect();
+        let [a, b] = match pieces.get(at..at + 2) {
+            Some([a, b]) if pieces.len() == links.len() + 1 && mentions_vectors(&link.sides) => {
+                [(*a).to_string(), (*b).to_string()]
+            }
+            _ => link.sides.each_ref().map(super::super::show),
+        };
         Some(Diagnosis::new(
             "LINK",
             format!("of this chain {a} = {b} does not hold"),
             "compare the two sides of this equality sign",
         ))
     }
+}
+
+/// Whether vectors with an arrow stand in it, whole or by their components.
+fn mentions_vectors(sides: &[Content]) -> bool {
+    let is_one = |name: &Symbol| formula::has_arrow(name) || formula::is_component(name);
+    sides.iter().any(|side| side.symbols().iter().any(is_one))
 }

@@ -95,7 +95,7 @@ pub(super) const ACCELERATIONS: [&str; 9] = [
 ];
 
 /// The equations of a worked solution that can be read by themselves.
-fn readings(scene: &Scene, text: &str) -> Vec<Reading> {
+pub(super) fn readings(scene: &Scene, text: &str) -> Vec<Reading> {
     let mut symbols = Symbols::open();
     scene.declare_parameters(&mut symbols);
     let lines = text.lines().take(super::MAX_LINES);
@@ -284,6 +284,7 @@ impl Desk<'_> {
         let parameters = &self.sheet.scene.parameters;
         self.closed.contains_key(name)
             || self.own.contains_key(name)
+            || self.parts.contains_key(&*format!("{name}_z"))
             || parameters.iter().any(|p| p.name == *name)
     }
 
@@ -373,7 +374,8 @@ impl Desk<'_> {
             }
             Weighed::Slip(at) => {
                 self.slipped.push((number, name, first));
-                (Status::Wrong, self.broken(&right, at).into_iter().collect())
+                let broken = self.broken(&right, at, text);
+                (Status::Wrong, broken.into_iter().collect())
             }
         })
     }
@@ -581,14 +583,22 @@ impl Desk<'_> {
         found
     }
 
-    /// What I_G and I_A stand for where nobody says it and only one body moves.
+    /// What I_G and I_A stand for where nobody says it and only one body moves, and I with the name of a body.
     fn lone_inertia(&self, name: &Symbol) -> Option<Expr> {
         let scene = &self.sheet.scene;
+        let place = name.strip_prefix("I_")?;
+        if let Some(body) = scene
+            .bodies
+            .iter()
+            .find(|b| b.name == place && !b.is_fixed())
+        {
+            return Some(body.inertia.clone());
+        }
         let mut free = scene.bodies.iter().filter(|b| !b.is_fixed());
         let (Some(body), None) = (free.next(), free.next()) else {
             return None;
         };
-        match name.strip_prefix("I_")? {
+        match place {
             "G" => Some(body.inertia.clone()),
             place => {
                 let point = scene.points.iter().find(|p| p.name == place)?;

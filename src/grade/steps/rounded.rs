@@ -22,7 +22,10 @@ impl Desk<'_> {
     ) -> bool {
         let values = self.sheet.scene.values();
         let exact = |e: &Expr| self.put_in(e, instead).substitute(&values);
-        let sides = match (self.vector(&link.sides[0]), self.vector(&link.sides[1])) {
+        let sides = match (
+            self.vector(&link.sides[0], true),
+            self.vector(&link.sides[1], true),
+        ) {
             (Some(a), Some(b)) => a.into_iter().zip(b).collect(),
             _ => match (link.sides[0].expr(), link.sides[1].expr()) {
                 (Some(a), Some(b)) => vec![(a.clone(), b.clone())],

@@ -287,14 +287,15 @@ pub(super) fn is_heading(line: &str) -> bool {
     line.starts_with('#') || says && words <= MOST && !is_sentence && !relates(line)
 }
 
-/// A solution without what aligns its lines in LaTeX: a line that goes on with a further term, `& + …`, is put behind the one
-/// before it, and a heading is words.
+/// A solution without what aligns its lines in LaTeX: a line that goes on with a further term or factor, `& + …`, is put behind
+/// the one before it, and a heading is words.
 pub(super) fn joined(text: &str) -> String {
     let mut out: Vec<String> = Vec::new();
     let mut last = None;
     for line in text.lines() {
         let aligned = line.trim_start().strip_prefix('&').map(str::trim_start);
-        let goes_on = aligned.filter(|rest| rest.starts_with(['+', '-']));
+        let signs = ["+", "-", "\\times", "\\cdot"];
+        let goes_on = aligned.filter(|rest| signs.iter().any(|sign| rest.starts_with(sign)));
         match (goes_on, last) {
             (Some(rest), Some(at)) => {
                 let line: &mut String = &mut out[at];

@@ -100,7 +100,7 @@ impl Desk<'_> {
         options: &Options,
     ) -> Vec<Diagnosis> {
         let chain = matches!(&reading.content, Content::Relations(sides, _) if sides.len() > 2);
-        let broken = chain.then(|| self.broken(reading, at)).flatten();
+        let broken = chain.then(|| self.broken(reading, at, text)).flatten();
         let mut found: Vec<Diagnosis> = broken.into_iter().collect();
         found.extend(self.behind_line(reading, at, text, options));
         found

@@ -1,0 +1,453 @@
+//! Vectors as a page writes them, `\vec{v}_B^{+}`, `\vec{H}_C^{-}` or `\vec{r}_{B/C}`: their components in the scene.
+//!
+//! A letter says what it is of the point or body in its index: v its velocity, r its place, P the impulse there, H the
+//! angular momentum about it, n the normal at it, ω the spin of the body. The mark says when; without one it is just after,
+//! or else just before. H and P are of a system of bodies, first of all that move.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::super::believed::Story;
+use super::Desk;
+use super::link::Link;
+use super::names::readings;
+use crate::derive::{Moment, Names};
+use crate::equality;
+use crate::expr::{Expr, Node, Symbol, Vector, cross, minus};
+use crate::formula::{self, Content, Reading};
+use crate::laws::{self, Affine, Geometry, Kinematics, Place, Unknown};
+use crate::scene::Scene;
+
+/// Most vectors that a page may name.
+const MOST_VECTORS: usize = 60;
+/// Most bodies of which each pair is a system, too.
+const MOST_PAIRED: usize = 3;
+
+/// An impact, with what its unknowns stand for.
+struct Impact<'a> {
+    scene: &'a Scene,
+    geometry: Geometry<Expr>,
+    after: Kinematics<Expr>,
+    names: &'a Names,
+    value: &'a dyn Fn(&Symbol) -> Option<Expr>,
+}
+
+/// What names leave open.
+struct Meant {
+    /// The bodies of which H and P are.
+    system: Vec<usize>,
+    /// Which of the two bodies at a joint an impulse is counted on; by the system where it is not said.
+    on: Option<usize>,
+    /// Whether a vector without a mark is of the moment just after, rather than just before.
+    after: bool,
+}
+
+/// A point of a scene and the bodies that are there, those that can move first.
+struct Point {
+    at: Vector,
+    bodies: Vec<usize>,
+}
+
+impl<'a> Impact<'a> {
+    fn new(
+        scene: &'a Scene,
+        names: &'a Names,
+        value: &'a dyn Fn(&Symbol) -> Option<Expr>,
+    ) -> Impact<'a> {
+        let geometry = Geometry::symbolic(scene);
+        let after = Kinematics::full(scene, &geometry);
+        Impact {
+            scene,
+            geometry,
+            after,
+            names,
+            value,
+        }
+    }
+
+    /// What a form in the unknowns comes to; nothing where one of them has no value.
+    fn put_in(&self, form: &Affine<Expr>) -> Option<Expr> {
+        let term = |(unknown, factor): &(Unknown, Expr)| {
+            let value = (self.value)(&Symbol::from(self.names.plain(*unknown)))?;
+            let value = if self.names.is_reversed(*unknown) {
+                -value
+            } else {
+                value
+            };
+            Some(factor * &value)
+        };
+        let terms: Option<Vec<Expr>> = form.terms.iter().map(term).collect();
+        Some(&form.constant + &Expr::sum(terms?))
+    }
+
+    fn moving(&self) -> Vec<usize> {
+        let bodies = self.scene.bodies.iter().enumerate();
+        let free = bodies.filter(|(_, body)| !body.is_fixed());
+        free.map(|(b, _)| b).collect()
+    }
+
+    /// All that moves, then each body alone, then pairs where there are few.
+    fn systems(&self) -> Vec<Vec<usize>> {
+        let all = self.moving();
+        let mut systems = vec![all.clone()];
+        if all.len() > 1 {
+            systems.extend(all.iter().map(|&b| vec![b]));
+        }
+        if all.len() == MOST_PAIRED {
+            systems.extend((0..MOST_PAIRED).map(|out| [&all[..out], &all[out + 1..]].concat()));
+        }
+        systems
+    }
+
+    fn body(&self, index: &str) -> Option<usize> {
+        let moving = self.moving();
+        let mut bodies = self.scene.bodies.iter();
+        match (bodies.position(|body| is_index(&body.name, index)), index) {
+            (Some(b), "G") if !self.scene.bodies[b].is_fixed() => Some(b),
+            (_, "G" | "") if moving.len() == 1 => Some(moving[0]),
+            (found, _) => found,
+        }
+    }
+
+    /// The place a label names, with the bodies there; `C,rod` is C on the rod.
+    fn point(&self, index: &str) -> Option<Point> {
+        if let Some((index, body)) = index.split_once(',') {
+            let point = self.point(index)?;
+            let body = self.body(body).filter(|b| point.bodies.contains(b))?;
+            return Some(Point {
+                bodies: vec![body],
+                ..point
+            });
+        }
+        let scene = self.scene;
+        let contacts = scene.contacts.iter();
+        let contacts = contacts.map(|c| (&c.name, &c.at, c.bodies.to_vec()));
+        let hinges = scene.hinges.iter();
+        let hinges = hinges.map(|h| (&h.name, &h.at, h.bodies.to_vec()));
+        let blows = scene.blows.iter().map(|b| (&b.name, &b.at, vec![b.body]));
+        let mut places = contacts.chain(hinges).chain(blows);
+        if let Some((_, at, mut bodies)) = places.find(|(name, ..)| is_index(name, index)) {
+            bodies.sort_by_key(|&b| scene.bodies[b].is_fixed());
+            let at = at.clone();
+            return Some(Point { at, bodies });
+        }
+        if let Some(b) = self.body(index) {
+            let at = scene.bodies[b].center.clone();
+            return Some(Point {
+                at,
+                bodies: vec![b],
+            });
+        }
+        let mut points = scene.points.iter();
+        let point = points.find(|point| is_index(&point.name, index))?;
+        Some(Point {
+            at: point.at.clone(),
+            bodies: self
+                .moving()
+                .into_iter()
+                .take(1)
+                .filter(|_| self.moving().len() == 1)
+                .collect(),
+        })
+    }
+
+    fn velocity(&self, b: usize, at: &Vector, after: bool) -> Option<Vector> {
+        if !after {
+            return Some(self.geometry.velocity_before(b, at));
+        }
+        let [x, y] = self.after.velocity_of(&self.geometry, b, at);
+        Some([self.put_in(&x)?, self.put_in(&y)?])
+    }
+
+    fn spin(&self, b: usize, after: bool) -> Option<Expr> {
+        match after {
+            true => self.put_in(&self.after.spin[b]),
+            false => Some(self.geometry.before(b).1.clone()),
+        }
+    }
+
+    /// Angular momentum of a system about a point, Σ r × m v + I ω.
+    fn angular_momentum(&self, system: &[usize], about: &Vector, after: bool) -> Option<Expr> {
+        let of = |&b: &usize| {
+            let body = &self.scene.bodies[b];
+            let velocity = self.velocity(b, &body.center, after)?;
+            let orbital = &body.mass * &cross(&minus(&body.center, about), &velocity);
+            if body.is_particle() {
+                return Some(orbital);
+            }
+            Some(orbital + &(&body.inertia * &self.spin(b, after)?))
+        };
+        let all: Option<Vec<Expr>> = system.iter().map(of).collect();
+        Some(Expr::sum(all?))
+    }
+
+    /// The impulse at a point: on one of the two bodies there that can move, else on a system that it is not inside of.
+    fn impulse(&self, index: &str, meant: &Meant) -> Option<Vector> {
+        let scene = self.scene;
+        let named = |name: &str| is_index(name, index);
+        let contact = scene.contacts.iter().position(|c| named(&c.name));
+        let hinge = scene.hinges.iter().position(|h| named(&h.name));
+        let blow = scene.blows.iter().position(|b| named(&b.name));
+        let (place, bodies) = match (contact, hinge, blow) {
+            (Some(c), ..) => (Place::Contact(c), scene.contacts[c].bodies),
+            (_, Some(h), _) => (Place::Hinge(h), scene.hinges[h].bodies),
+            (_, _, Some(b)) => (Place::Blow(b), [scene.blows[b].body; 2]),
+            _ => return None,
+        };
+        let on_second = match meant.on {
+            Some(k) => {
+                let acts = bodies[0] != bodies[1] && !scene.bodies[bodies[k]].is_fixed();
+                acts.then_some(k == 1)?
+            }
+            None => match bodies.map(|b| meant.system.contains(&b)) {
+                [true, false] => false,
+                [false, true] => true,
+                [inside, _] => Some(true).filter(|_| inside && bodies[0] == bodies[1])?,
+            },
+        };
+        let [x, y] = laws::impulse_at(scene, &self.geometry, place);
+        let impulse = [self.put_in(&x)?, self.put_in(&y)?];
+        Some(match on_second {
+            true => impulse,
+            false => impulse.map(|p| -p),
+        })
+    }
+
+    /// The vector that a name stands for, of a system of bodies.
+    fn vector(&self, name: &Symbol, meant: &Meant) -> Option<[Expr; 3]> {
+        let system = &meant.system;
+        let (base, index, mark) = formula::vector_name(name)?;
+        let after = match &*mark {
+            "" => meant.after,
+            "'" | "^+" => true,
+            "^-" => false,
+            _ => return None,
+        };
+        let flat = |[x, y]: Vector| [x, y, Expr::zero()];
+        let out_of_page = |z: Expr| [Expr::zero(), Expr::zero(), z];
+        match &*base {
+            "v" => {
+                let point = self.point(&index)?;
+                let mut bodies = point.bodies.iter();
+                let b = bodies
+                    .find(|b| system.contains(b))
+                    .or(point.bodies.first())?;
+                self.velocity(*b, &point.at, after).map(flat)
+            }
+            "omega" => self.spin(self.body(&index)?, after).map(out_of_page),
+            "r" => {
+                let (to, from) = index.split_once('/')?;
+                let [to, from] = [self.point(to)?, self.point(from)?];
+                Some(flat(minus(&to.at, &from.at)))
+            }
+            "H" => {
+                let (about, only) = match index.split_once(',') {
+                    Some((about, body)) => (about, vec![self.body(body)?]),
+                    None => (&*index, system.to_vec()),
+                };
+                let about = self.point(about)?.at;
+                self.angular_momentum(&only, &about, after).map(out_of_page)
+            }
+            "P" => self.impulse(&index, meant).map(flat),
+            "n" => {
+                let mut contacts = self.scene.contacts.iter();
+                let contacts: Vec<_> = contacts.by_ref().filter(|c| c.normal.is_some()).collect();
+                let named = contacts.iter().find(|c| is_index(&c.name, &index));
+                let only = contacts
+                    .first()
+                    .filter(|_| index.is_empty() && contacts.len() == 1);
+                named.or(only)?.normal.clone().map(flat)
+            }
+            _ => None,
+        }
+    }
+
+    /// The vectors of each system by what they are read as, without a mark just after and just before, and words for which they are.
+    fn moments(&self, names: &[(Symbol, Symbol)], impact: &str) -> Vec<Moment> {
+        let mut all: Vec<Moment> = Vec::new();
+        let whole = self.moving();
+        for system in self.systems() {
+            let bodies = system
+                .iter()
+                .map(|&b| format!("`{}`", self.scene.bodies[b].name));
+            let bodies: Vec<String> = bodies.collect();
+            let of = match system == whole {
+                true => String::new(),
+                false => format!(", of {} alone", formula::listed(&bodies)),
+            };
+            for (on, after) in [None, Some(1), Some(0)]
+                .into_iter()
+                .flat_map(|on| [(on, true), (on, false)])
+            {
+                let when = if after { "after" } else { "before" };
+                let system = system.clone();
+                let values = self.components(names, &Meant { system, on, after });
+                if !all.iter().any(|(_, other)| *other == values) {
+                    all.push((format!("just {when} {impact}{of}"), values));
+                }
+            }
+        }
+        all
+    }
+
+    /// The components of all that have a value.
+    fn components(&self, names: &[(Symbol, Symbol)], meant: &Meant) -> BTreeMap<Symbol, Expr> {
+        let known = names.iter().filter_map(|(name, key)| {
+            let vector = self.vector(name, meant)?;
+            let along = |axis: &str| Symbol::from(format!("{key}_{axis}"));
+            Some(["x", "y", "z"].map(along).into_iter().zip(vector))
+        });
+        known.flatten().collect()
+    }
+}
+
+/// Whether an index is this name, written without what cannot stand in one.
+fn is_index(name: &str, index: &str) -> bool {
+    name.chars()
+        .filter(|c| *c != '_')
+        .eq(index.chars().filter(|c| *c != '_'))
+}
+
+/// The vector with an arrow that a name is, or is a component of.
+fn arrowed(name: &Symbol) -> Option<Symbol> {
+    let axes = ["_x", "_y", "_z"];
+    let stem = axes.iter().find_map(|axis| name.strip_suffix(axis));
+    let whole = stem.filter(|_| formula::is_component(name));
+    let whole = whole.map(Symbol::from);
+    whole.or_else(|| formula::has_arrow(name).then(|| name.clone()))
+}
+
+/// Whether a form is a sum of multiples of what `is_one` says are vectors.
+fn is_vector(e: &Expr, is_one: &impl Fn(&Symbol) -> bool) -> bool {
+    match e.node() {
+        Node::Symbol(name) => is_one(name),
+        Node::Sum(_) => e.terms().iter().all(|term| is_vector(term, is_one)),
+        Node::Product(factors) => {
+            let (vectors, others): (Vec<&Expr>, Vec<&Expr>) =
+                factors.iter().partition(|factor| is_vector(factor, is_one));
+            vectors.len() == 1 && !others.iter().any(|e| e.symbols().iter().any(is_one))
+        }
+        _ => false,
+    }
+}
+
+impl Desk<'_> {
+    /// The vectors that a solution names, where the scene has a value for them: as it goes first, and at other moments and of
+    /// other systems.
+    pub(super) fn know_vectors(&mut self, text: &str) {
+        let sheet = self.sheet;
+        let asked = sheet.scene.questions.iter().map(|q| q.name.as_str());
+        let asked: Vec<_> = asked
+            .filter_map(|name| Some((formula::with_arrow(name)?, self.components(name)?)))
+            .collect();
+        for (arrow, vector) in asked {
+            let axes = ["x", "y", "z"].into_iter().zip(vector);
+            let along = axes.map(|(axis, value)| (Symbol::from(format!("{arrow}_{axis}")), value));
+            self.parts.extend(along);
+        }
+        let readings = readings(&sheet.scene, text);
+        let used = readings.iter().flat_map(Reading::symbols);
+        let symbols = self.symbols(text);
+        // Places and spins are others at other moments, though the scene has names for them.
+        let read_as = |name: Symbol| {
+            let reading = formula::read(&formula::latex_name(&name), &symbols).ok();
+            let found = reading
+                .as_ref()
+                .and_then(|r| r.expr()?.as_symbol())
+                .cloned();
+            let (base, ..) = formula::vector_name(&name)?;
+            let changes = ["r", "omega"].contains(&&*base);
+            match found {
+                None => Some((name.clone(), name)),
+                Some(found) => (changes && formula::has_arrow(&found)).then_some((name, found)),
+            }
+        };
+        let names: BTreeSet<Symbol> = used.filter_map(|name| arrowed(&name)).collect();
+        let names: Vec<(Symbol, Symbol)> = names.into_iter().filter_map(read_as).collect();
+        let no_impact = sheet.story.is_some() && sheet.impacts.is_empty();
+        if names.is_empty() || names.len() > MOST_VECTORS || no_impact {
+            return;
+        }
+        let closed = self.closed.clone();
+        let name_of = |name: &Symbol| closed.contains_key(name).then(|| Expr::symbol(name));
+        let first = Impact::new(&sheet.scene, &sheet.derivation.names, &name_of);
+        for (when, values) in first.moments(&names, "the impact") {
+            for (name, value) in &values {
+                let told = self.parts.entry(name.clone());
+                told.or_insert_with(|| value.clone());
+            }
+            self.vectors.push((when, values));
+        }
+        for (scene, (when, motion)) in sheet.impacts.iter().zip(&sheet.moments) {
+            let value = |name: &Symbol| motion.get(name).cloned();
+            let names_there = Names::of(scene);
+            let impact = Impact::new(scene, &names_there, &value);
+            let which = when.trim_start_matches("just after ");
+            for (when, values) in impact.moments(&names, which) {
+                let all = motion.clone().into_iter().chain(values);
+                self.vectors.push((when, all.collect()));
+            }
+        }
+    }
+
+    /// Whether a line tells velocities and places in vectors, which may be of a moment in a motion.
+    pub(super) fn is_of_a_motion(&self, links: &[Link]) -> bool {
+        let vectors = links.iter().flat_map(|link| &link.sides);
+        let vectors = vectors.flat_map(Content::symbols);
+        let vectors: Vec<Symbol> = vectors.filter_map(|name| arrowed(&name)).collect();
+        let moves = |name: &Symbol| {
+            let base = formula::vector_name(name).map(|(base, ..)| base);
+            base.is_some_and(|base| ["v", "r", "omega"].contains(&&*base))
+        };
+        let story = self.sheet.story.as_ref();
+        story.is_some_and(Story::has_motions) && !vectors.is_empty() && vectors.iter().all(moves)
+    }
+
+    /// Whether none of the velocities without a mark vanishes beside others at a moment: a term with it could be any.
+    pub(super) fn says_enough(&self, links: &[Link], values: &BTreeMap<Symbol, Expr>) -> bool {
+        let sides = links.iter().flat_map(|link| &link.sides);
+        let unmarked = |(base, _, mark): (String, String, String)| {
+            ["v", "omega"].contains(&&*base) && mark.is_empty()
+        };
+        let names: BTreeSet<Symbol> = (sides.flat_map(Content::symbols))
+            .filter_map(|name| arrowed(&name))
+            .filter(|name| formula::vector_name(name).is_some_and(unmarked))
+            .collect();
+        let vanishes = |name: &Symbol| {
+            let along = ["x", "y", "z"].map(|axis| Expr::symbol(&format!("{name}_{axis}")));
+            self.all_zero(&along, values) == Some(true)
+        };
+        let (gone, left): (Vec<Symbol>, Vec<Symbol>) = names.into_iter().partition(vanishes);
+        let nothing = |side: &Content| side.expr().is_some_and(Expr::is_zero);
+        let told = links.iter().any(|link| link.sides.iter().any(nothing));
+        let domains = &self.sheet.scene.domains;
+        // What holds of whatever motion, as H = r × m v + I ω, says it all the same.
+        let differences = links.iter().flat_map(|link| &link.differences);
+        let mut differences = differences.map(|d| self.with_own(&d.substitute(values)));
+        gone.is_empty()
+            || left.is_empty() && (gone.len() == 1 || told)
+            || differences.all(|d| equality::identical(&d, &Expr::zero(), domains))
+    }
+
+    /// The components of a sum of multiples of vectors: of those with arrows, and where these stand beside them of those that
+    /// are asked for.
+    pub(super) fn by_components(&self, e: &Expr, beside: bool) -> Option<[Expr; 3]> {
+        let is_one = |name: &Symbol| match formula::has_arrow(name) {
+            true => self.components(name).is_some(),
+            false => beside && self.components(name).is_some(),
+        };
+        if !is_vector(e, &is_one) {
+            return None;
+        }
+        let names = e.symbols();
+        let vectors = names.iter().filter(|name| is_one(name));
+        let vectors: Vec<_> = vectors
+            .filter_map(|name| Some((name, self.components(name)?)))
+            .collect();
+        Some([0, 1, 2].map(|k| {
+            let along = vectors
+                .iter()
+                .map(|(name, v)| ((*name).clone(), v[k].clone()));
+            e.substitute(&along.collect())
+        }))
+    }
+}
