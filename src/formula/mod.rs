@@ -39,7 +39,7 @@ mod written;
 
 use std::collections::BTreeSet;
 
-use crate::dimension::Unit;
+use crate::dimension::{self, Unit};
 use crate::expr::{Expr, Symbol};
 pub use component::with_subscript;
 pub use content::{Content, Join, Quantity, Relation};
@@ -152,6 +152,12 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     {
         return Ok(bound);
     }
+    if let Err(fault) = &usual
+        && held.any("/")
+        && let Some(text) = unit_behind(text, fault.start)
+    {
+        return read(&text, symbols);
+    }
     if worded && let Some(reading) = read_behind_words(text, symbols) {
         return Ok(reading);
     }
@@ -167,6 +173,15 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
         return Err(*fault.hint("values and bounds are joined by words, as in x = 1 or x = 2"));
     }
     usual.map_err(|fault| *fault)
+}
+
+/// A text whose last word, `m/s` or `[m/s]`, is set as a unit where a fault lies in it: m may be a mass as well.
+fn unit_behind(text: &str, fault: usize) -> Option<String> {
+    let (before, word) = text.trim_end().rsplit_once(' ')?;
+    let inside = word.strip_prefix('[').and_then(|w| w.strip_suffix(']'));
+    let unit = inside.unwrap_or(word);
+    let is_unit = unit.contains('/') && dimension::unit(unit).is_ok();
+    (is_unit && fault > before.len()).then(|| format!("{before} \\text{{{unit}}}"))
 }
 
 /// A text with ` \rm{m}` for `{\rm m}`, which is as long; an index and a d stay.

@@ -146,7 +146,7 @@ impl Sheet {
         let sum = Expr::sum(names.collect::<Vec<_>>());
         let twice = &sum + &sum;
         let compared = equality::decide(&sum, &twice, &self.scene.domains);
-        compared.equality.is_different()
+        sum.is_zero() || compared.equality.is_different()
     }
 
     /// The questions that have an answer.
