@@ -1515,6 +1515,26 @@ fn what_a_teacher_would_say_is_said_and_what_an_editor_would_strike_is_not() {
 }
 
 #[test]
+fn what_follows_from_a_line_stands_in_one_row_with_its_name() {
+    let torn = all_cases().flat_map(|case| {
+        let text = render::markdown::solution(case.solution(Detail::Normal), &[]);
+        let rows = text
+            .lines()
+            .filter_map(|row| row.rsplit_once("\\Rightarrow\\quad"));
+        let has_sign = |row: &str| {
+            ["=", "\\l", "\\g", "\\approx"]
+                .iter()
+                .any(|sign| row.contains(sign))
+        };
+        let torn = rows.filter(|(_, behind)| !has_sign(behind));
+        let name = |(row, behind): (&str, &str)| format!("{}: {row} {behind}", case.path.display());
+        torn.map(name).collect::<Vec<_>>()
+    });
+    let torn: Vec<String> = torn.collect();
+    assert!(torn.is_empty(), "{torn:#?}");
+}
+
+#[test]
 fn a_solution_given_to_the_grader_has_no_wrong_line() {
     let known = fs::read_to_string("tests/solutions/graded.tsv").expect("a table");
     // The textbook's scenes; all others take minutes more.

@@ -84,6 +84,18 @@ fn broken(solution: &Solution, math: &[Math], wide: usize) -> Vec<Cells> {
     if width(solution, math) <= wide {
         return vec![[left.to_vec(), rest.to_vec()]];
     }
+    // What follows begins its own row, with its name and its value together.
+    if let Some(at) = math
+        .iter()
+        .rposition(|m| *m == Math::Op("⇒"))
+        .filter(|at| *at > 0)
+    {
+        let (said, follows) = math.split_at(at);
+        let mut out = broken(solution, said, wide);
+        let rows = filled(solution, follows, wide - width(solution, left));
+        out.extend(rows.into_iter().map(|row| [Vec::new(), row]));
+        return out;
+    }
     let mut out: Vec<Cells> = Vec::new();
     let mut left = left.to_vec();
     let beside = width(solution, &left);

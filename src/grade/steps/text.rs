@@ -122,6 +122,31 @@ fn in_dollars(text: &str) -> Option<Vec<&str>> {
 /// Words that stand for a sign of equality behind a name.
 const VERBS: [&str; 4] = [" is equal to ", " is given by ", " equals ", " is "];
 
+/// `$\omega$ is negative: …` with a relation for the words, where they end a clause: `θ is positive counterclockwise` tells how
+/// it is counted.
+fn signs_in_words(line: &str, asked: &dyn Fn(&str) -> bool) -> Option<String> {
+    const SIGNED: [(&str, &str); 3] = [
+        (" is positive", " > 0"),
+        (" is negative", " < 0"),
+        (" is zero", " = 0"),
+    ];
+    SIGNED.iter().find_map(|(words, relation)| {
+        let (before, behind) = line.split_once(words)?;
+        if !behind.is_empty() && !behind.starts_with([':', '.', ',', ';']) {
+            return None;
+        }
+        if let Some(formula) = before.strip_suffix('$') {
+            let inside = formula
+                .rsplit('$')
+                .next()
+                .is_some_and(|inside| !relates(inside));
+            return inside.then(|| format!("{formula}{relation}$ {behind}"));
+        }
+        let name = before.rsplit([' ', ',']).next()?;
+        (asked(name) && !relates(before)).then(|| format!("{name}{relation}{behind}"))
+    })
+}
+
 /// Words behind the letters of a quantity that tell which value of it is meant.
 const WHICH: [&str; 6] = ["before", "after", "lost", "gained", "initially", "finally"];
 
@@ -132,6 +157,7 @@ pub(super) fn in_names(line: &str, asked: &dyn Fn(&str) -> bool) -> String {
     // `After the 1st bounce v = …`
     let line = line.replace(" the 1st ", " the first ");
     let line = line.replace(" the 2nd ", " the second ");
+    let line = signs_in_words(&line, asked).unwrap_or(line);
     let line = moment_first(&line, asked).unwrap_or(line);
     let words: Vec<&str> = line.split(' ').collect();
     let sign = |word: &str| word.ends_with(['=', '+', '-', '−', '≈', ':', ',']);
