@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::expr::{Expr, Vector};
 use crate::laws::{self, Unknown};
 use crate::scene::{Ask, BlowImpulse, ImpulseAt, Scene};
 
@@ -21,8 +22,16 @@ impl Names {
             .used
             .extend(scene.parameters.iter().map(|p| p.name.to_string()));
         for unknown in laws::unknowns(scene) {
-            let (plain, latex) =
-                asked_name(scene, unknown).unwrap_or_else(|| made_name(scene, unknown));
+            let (plain, latex) = asked_name(scene, unknown).unwrap_or_else(|| {
+                // A question of that name may ask for the opposite, or for something else.
+                let is_free = |(plain, _): &(String, String)| {
+                    named(scene, plain).is_none_or(|ask| is_along(scene, ask, unknown))
+                };
+                let letters = LETTERS.iter();
+                let mut made = letters.map(|letters| made_name(scene, unknown, letters));
+                let found = made.find(is_free);
+                found.unwrap_or_else(|| made_name(scene, unknown, &LETTERS[0]))
+            });
             let plain = names.fresh(&plain);
             names.of.insert(unknown, (plain, latex));
             if asked_reversed(scene, unknown) {
@@ -61,6 +70,52 @@ impl Names {
 }
 
 const AXES: [&str; 2] = ["x", "y"];
+
+/// Letters of velocities, spins, impulses and reactions, and those that stand for them where a question has such a name for
+/// something else.
+const LETTERS: [[&str; 4]; 2] = [["v", "omega", "P", "R"], ["V", "Omega", "J", "J"]];
+
+/// What the question of this name asks for.
+fn named<'s>(scene: &'s Scene, plain: &str) -> Option<&'s Ask> {
+    let mut asked = scene.asked_of_impact().filter(|q| !q.hidden);
+    let found = asked.find(|q| {
+        let axis = plain.strip_prefix(q.name.as_str());
+        axis.is_some_and(|axis| ["", "_x", "_y"].contains(&axis))
+    });
+    found.map(|q| &q.ask)
+}
+
+/// Whether a question asks for an unknown, counted as the laws count it.
+fn is_along(scene: &Scene, ask: &Ask, unknown: Unknown) -> bool {
+    let is_unit = |d: &Vector, axis: usize| *d == [0, 1].map(|k| Expr::from(i64::from(k == axis)));
+    match (ask, unknown) {
+        (
+            Ask::Velocity {
+                body,
+                point: None,
+                along: Some(d),
+            },
+            Unknown::Velocity(b, axis),
+        ) => *body == b && is_unit(d, axis),
+        (
+            Ask::Impulse {
+                from: ImpulseAt::Contact(c),
+                on,
+                along: Some(d),
+            },
+            Unknown::Contact(i, axis),
+        ) => *c == i && is_unit(d, axis) && scene.contacts[i].bodies[1] == *on,
+        (
+            Ask::Impulse {
+                from: ImpulseAt::Hinge(h),
+                on,
+                along: Some(d),
+            },
+            Unknown::Hinge(i, axis),
+        ) => *h == i && is_unit(d, axis) && scene.hinges[i].bodies[1] == *on,
+        _ => asks_for(scene, ask, unknown).is_some_and(|(_, reversed)| !reversed),
+    }
+}
 
 /// The name a question gives to an unknown, if one asks for exactly it or its opposite.
 fn asked_name(scene: &Scene, unknown: Unknown) -> Option<(String, String)> {
@@ -147,7 +202,9 @@ fn asks_for(scene: &Scene, ask: &Ask, unknown: Unknown) -> Option<(Option<usize>
     }
 }
 
-fn made_name(scene: &Scene, unknown: Unknown) -> (String, String) {
+fn made_name(scene: &Scene, unknown: Unknown, letters: &[&str; 4]) -> (String, String) {
+    let [v, omega, p, r] = *letters;
+    let turning = format!("\\{omega}");
     let body = |b: usize| identifier(&scene.bodies[b].name);
     let made = |letter: &str, latex_letter: &str, of: &str, axis: Option<usize>, after: bool| {
         let plus = if after { "^{+}" } else { "" };
@@ -171,24 +228,24 @@ fn made_name(scene: &Scene, unknown: Unknown) -> (String, String) {
         }
     };
     match unknown {
-        Unknown::Velocity(b, axis) => made("v", "v", &body(b), Some(axis), true),
-        Unknown::Spin(b) => made("omega", "\\omega", &body(b), None, true),
+        Unknown::Velocity(b, axis) => made(v, v, &body(b), Some(axis), true),
+        Unknown::Spin(b) => made(omega, &turning, &body(b), None, true),
         Unknown::Contact(c, axis) => made(
-            "P",
-            "P",
+            p,
+            p,
             &identifier(&scene.contacts[c].name),
             Some(axis),
             false,
         ),
-        Unknown::Normal(c) => made("P", "P", &identifier(&scene.contacts[c].name), None, false),
+        Unknown::Normal(c) => made(p, p, &identifier(&scene.contacts[c].name), None, false),
         Unknown::Hinge(h, axis) => {
             // A reaction, unless a radius has that letter.
             let is_taken = scene.parameters.iter().any(|p| &*p.name == "R");
-            let letter = if is_taken { "P" } else { "R" };
+            let letter = if is_taken { p } else { r };
             let of = identifier(&scene.hinges[h].name);
             made(letter, letter, &of, Some(axis), false)
         }
-        Unknown::Blow(i) => made("P", "P", &identifier(&scene.blows[i].name), None, false),
+        Unknown::Blow(i) => made(p, p, &identifier(&scene.blows[i].name), None, false),
     }
 }
 

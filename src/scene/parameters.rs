@@ -197,7 +197,9 @@ fn check_name(name: &Text, faults: &mut Vec<Fault>) {
     let is_identifier = letters.next().is_some_and(is_letter)
         && letters.all(|c| is_letter(c) || c.is_ascii_digit() || c == '_');
     let is_function = Function::ALL.iter().any(|f| f.name() == text);
-    let (what, hint) = if is_function || ["pi", "π", "sqrt"].contains(&text) {
+    // `π2` is twice π.
+    let is_pi = text == "pi" || text.starts_with('π');
+    let (what, hint) = if is_function || is_pi || text == "sqrt" {
         ("has a meaning in formulas already", "choose another name")
     } else if !is_identifier || text.len() > 60 {
         let hint = "a symbol is a letter followed by letters, digits and _, such as m1, v_G or theta; `latex` says how it looks";

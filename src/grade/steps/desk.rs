@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::super::sheet::Sheet;
 use super::names::MARKS;
 use super::sought::{self, Sought};
-use super::{Final, text};
+use super::{Final, text, vectors};
 use crate::answer::Form;
 use crate::derive::Moment;
 use crate::equality::{self, Equality};
@@ -117,8 +117,9 @@ impl<'a> Desk<'a> {
     /// The names a line may use; around the cross of `ω × r_{B/C}` letters are vectors without their arrows.
     pub(super) fn symbols(&self, text: &str) -> Symbols {
         let mut symbols = Symbols::strict();
-        let crossed =
-            ["×", "\\times"].iter().any(|sign| text.contains(sign)) && text.contains("r_");
+        // `\vec r_{B/C}` has its arrow.
+        let arms = text.matches("r_").count() > text.matches("\\vec r_").count();
+        let crossed = ["×", "\\times"].iter().any(|sign| text.contains(sign)) && arms;
         let is_vector =
             |name: &Symbol| crossed && self.spins.values().any(|(spin, _)| spin == name);
         self.sheet.scene.declare_parameters(&mut symbols);
@@ -129,11 +130,23 @@ impl<'a> Desk<'a> {
             let symbol = reading.as_ref().and_then(|r| r.expr()?.as_symbol());
             symbol.is_some_and(|symbol| **symbol != *name)
         };
+        // In a product of vectors what is asked for is one by its arrow; alone on the left it is what is said.
+        let in_product = in_products(text);
+        // Beside `v'` a v without a mark is the one before.
+        let marked = marked_after(text);
+        let asked = self.sheet.scene.questions.iter();
+        let asked: Vec<(String, &Question)> = asked
+            .filter_map(|q| Some((formula::with_arrow(&q.name)?, q)))
+            .filter(|(arrow, _)| self.parts.contains_key(&*format!("{arrow}_z")))
+            .collect();
         for q in &self.sheet.scene.questions {
             let known = self.closed.contains_key(q.name.as_str());
             let spin = is_vector(&Symbol::from(q.name.as_str()));
+            let mut vectors = asked.iter().filter(|(_, other)| other.name == q.name);
+            let crossed = vectors.any(|(arrow, _)| in_product(arrow) || is_marked(&marked, arrow));
             if !spin && (known || self.components(&q.name).is_some()) && !is_given(&q.name) {
-                symbols.declare_as(q.name.as_str(), q.latex.as_deref(), None);
+                let latex = q.latex.as_deref().filter(|_| !crossed);
+                symbols.declare_as(q.name.as_str(), latex, None);
             }
         }
         let later = self.moments.iter().flat_map(|(_, values)| values.keys());
@@ -150,21 +163,22 @@ impl<'a> Desk<'a> {
                 symbols.declare_as(&*arrow, Some(&arrowed), None);
             }
         }
-        // In a product of vectors what is asked for is one by its arrow; alone on the left it is what is said.
-        let multiplied = ["×", "\\times", "·", "\\cdot"]
-            .iter()
-            .any(|sign| text.contains(sign));
-        let left = text.split('=').next().filter(|_| multiplied);
-        let left = left.and_then(|left| formula::read(left, &Symbols::open()).ok());
-        let left = left.as_ref().and_then(|left| left.expr()?.as_symbol());
-        let asked = self.sheet.scene.questions.iter();
-        let asked: Vec<String> = asked.filter_map(|q| formula::with_arrow(&q.name)).collect();
-        let vectors = self.parts.keys().filter_map(|name| name.strip_suffix("_z"));
-        let free = |name: &&str| match asked.iter().any(|asked| asked == name) {
-            true => multiplied && left.is_none_or(|left| **left != **name),
-            false => true,
-        };
-        vectors.filter(free).for_each(|name| symbols.declare(name));
+        for name in self.parts.keys().filter_map(|name| name.strip_suffix("_z")) {
+            let asked = asked.iter().any(|(arrow, _)| arrow == name);
+            let before = format!("{name}^-");
+            let beside = is_marked(&marked, name);
+            if asked && (in_product(name) || beside) {
+                for mark in MARKS {
+                    let after = format!("{}{mark}", formula::latex_name(name));
+                    symbols.declare_typeset(name, &after);
+                }
+            }
+            if beside && self.parts.contains_key(&*format!("{before}_z")) {
+                symbols.declare_typeset(before.as_str(), &formula::latex_name(name));
+            } else if !asked || in_product(name) {
+                symbols.declare(name);
+            }
+        }
         // `ω⁺` and `ω'` are what is asked of the moment just after, and a vector may wear its arrow.
         let now = |name: &&Symbol| !name.contains('^') && !is_vector(name);
         for name in self.closed.keys().chain(later).filter(now) {
@@ -280,6 +294,49 @@ impl<'a> Desk<'a> {
         self.magnitudes(&self.with_own(&e.substitute(&vectors)))
             .substitute(instead)
             .substitute(&self.closed)
+    }
+}
+
+/// Letters of vectors of which one has the mark of the moment after and none that of the moment before.
+fn marked_after(text: &str) -> BTreeSet<String> {
+    let reading = text
+        .contains("vec")
+        .then(|| formula::read(text, &Symbols::open()));
+    let Some(Ok(reading)) = reading else {
+        return BTreeSet::new();
+    };
+    let arrows = reading.symbols().into_iter();
+    let names: Vec<_> = arrows
+        .filter_map(|name| formula::vector_name(vectors::arrowed(&name)?.as_ref()))
+        .collect();
+    let after = names
+        .iter()
+        .filter(|(.., mark)| ["'", "^+"].contains(&&**mark));
+    let before = |base: &String| names.iter().any(|(b, _, mark)| b == base && mark == "^-");
+    let after = after.map(|(base, ..)| base.clone());
+    after
+        .filter(|base| ["v", "omega", "H"].contains(&&**base) && !before(base))
+        .collect()
+}
+
+/// Whether a vector without a mark has a letter of these.
+fn is_marked(letters: &BTreeSet<String>, name: &str) -> bool {
+    let unmarked = formula::vector_name(name).filter(|(.., mark)| mark.is_empty());
+    unmarked.is_some_and(|(base, ..)| letters.contains(&base))
+}
+
+/// Whether a name with an arrow stands in a product of vectors, rather than alone left of a sign of equality.
+fn in_products(text: &str) -> impl Fn(&str) -> bool {
+    let signs = ["×", "\\times", "·", "\\cdot"];
+    let multiplied = signs.iter().any(|sign| text.contains(sign));
+    let left = text.split('=').next().filter(|_| multiplied);
+    let left = left.filter(|left| !signs.iter().any(|sign| left.contains(sign)));
+    let left = left.and_then(|left| formula::read(left, &Symbols::open()).ok());
+    let left = left.and_then(|left| formula::vector_name(left.expr()?.as_symbol()?));
+    let alone = left.map(|(base, index, _)| (base, index));
+    move |name| {
+        let here = || formula::vector_name(name).map(|(base, index, _)| (base, index));
+        multiplied && (alone.is_none() || alone != here())
     }
 }
 

@@ -15,7 +15,7 @@ use crate::equality;
 use crate::expr::{Expr, Node, Symbol, Vector, cross, minus};
 use crate::formula::{self, Content, Reading};
 use crate::laws::{self, Affine, Geometry, Kinematics, Place, Unknown};
-use crate::scene::Scene;
+use crate::scene::{Ask, Scene};
 
 /// Most vectors that a page may name.
 const MOST_VECTORS: usize = 60;
@@ -150,6 +150,22 @@ impl<'a> Impact<'a> {
         })
     }
 
+    /// The center of the body whose velocity a question of this name asks for, as `v1` does.
+    fn asked_of(&self, name: &str) -> Option<Point> {
+        let mut asked = self.scene.questions.iter();
+        asked.find_map(|q| match q.ask {
+            Ask::Velocity {
+                body,
+                point: None,
+                along: None,
+            } if is_index(&q.name, name) => Some(Point {
+                at: self.scene.bodies[body].center.clone(),
+                bodies: vec![body],
+            }),
+            _ => None,
+        })
+    }
+
     fn velocity(&self, b: usize, at: &Vector, after: bool) -> Option<Vector> {
         if !after {
             return Some(self.geometry.velocity_before(b, at));
@@ -226,7 +242,8 @@ impl<'a> Impact<'a> {
         let out_of_page = |z: Expr| [Expr::zero(), Expr::zero(), z];
         match &*base {
             "v" => {
-                let point = self.point(&index)?;
+                let asked = || self.asked_of(&format!("v{index}"));
+                let point = self.point(&index).or_else(asked)?;
                 let mut bodies = point.bodies.iter();
                 let b = bodies
                     .find(|b| system.contains(b))
@@ -308,7 +325,7 @@ fn is_index(name: &str, index: &str) -> bool {
 }
 
 /// The vector with an arrow that a name is, or is a component of.
-fn arrowed(name: &Symbol) -> Option<Symbol> {
+pub(super) fn arrowed(name: &Symbol) -> Option<Symbol> {
     let axes = ["_x", "_y", "_z"];
     let stem = axes.iter().find_map(|axis| name.strip_suffix(axis));
     let whole = stem.filter(|_| formula::is_component(name));
@@ -362,6 +379,13 @@ impl Desk<'_> {
             }
         };
         let names: BTreeSet<Symbol> = used.filter_map(|name| arrowed(&name)).collect();
+        // Beside `v'` a v without a mark is the one before.
+        let before = names.iter().filter_map(|name| {
+            let (base, _, mark) = formula::vector_name(name)?;
+            let has_moment = ["v", "omega", "H"].contains(&&*base) && mark.is_empty();
+            has_moment.then(|| Symbol::from(format!("{name}^-")))
+        });
+        let names: BTreeSet<Symbol> = before.chain(names.iter().cloned()).collect();
         let names: Vec<(Symbol, Symbol)> = names.into_iter().filter_map(read_as).collect();
         let no_impact = sheet.story.is_some() && sheet.impacts.is_empty();
         if names.is_empty() || names.len() > MOST_VECTORS || no_impact {
@@ -423,9 +447,18 @@ impl Desk<'_> {
         // What holds of whatever motion, as H = r × m v + I ω, says it all the same.
         let differences = links.iter().flat_map(|link| &link.differences);
         let mut differences = differences.map(|d| self.with_own(&d.substitute(values)));
+        let literal = |name: &Symbol| {
+            let along = |axis: &&str| {
+                values
+                    .get(&*format!("{name}_{axis}"))
+                    .is_none_or(Expr::is_zero)
+            };
+            ["x", "y", "z"].iter().all(along)
+        };
         gone.is_empty()
             || left.is_empty() && (gone.len() == 1 || told)
-            || differences.all(|d| equality::identical(&d, &Expr::zero(), domains))
+            || !gone.iter().any(literal)
+                && differences.all(|d| equality::identical(&d, &Expr::zero(), domains))
     }
 
     /// The components of a sum of multiples of vectors: of those with arrows, and where these stand beside them of those that

@@ -103,6 +103,8 @@ impl Desk<'_> {
         let broken = chain.then(|| self.broken(reading, at, text)).flatten();
         let mut found: Vec<Diagnosis> = broken.into_iter().collect();
         found.extend(self.behind_line(reading, at, text, options));
+        // The components of vectors have names that nobody wrote.
+        found.retain(|d| !d.message.contains("_vec_"));
         found
     }
 
