@@ -250,14 +250,31 @@ impl<'a> Desk<'a> {
         (found && texts.len() == sides.len()).then_some(other)
     }
 
-    /// |v| of a vector that is asked for, as the root of the squares of its components.
+    /// |v| of a vector as the root of the squares of its components, and |v|² without a root.
     fn magnitudes(&self, e: &Expr) -> Expr {
-        if let Node::Call(Function::Abs, inner) = e.node()
-            && let Some([x, y, _]) = inner.as_symbol().and_then(|name| self.components(name))
+        let squares = |e: &Expr| match e.node() {
+            Node::Call(Function::Abs, inner) => {
+                let [x, y, _] = self.components(inner.as_symbol()?)?;
+                Some(x.powi(2) + y.powi(2))
+            }
+            _ => {
+                let inside = e.under_root()?;
+                let mut names = inside.symbols().into_iter();
+                names
+                    .any(|name| formula::is_component(&name))
+                    .then(|| inside.clone())
+            }
+        };
+        if let Node::Power(base, two) = e.node()
+            && *two == Expr::from(2)
+            && let Some(squares) = squares(base)
         {
-            return (x.powi(2) + y.powi(2)).sqrt();
+            return squares;
         }
-        e.map_parts(|part| self.magnitudes(part))
+        match squares(e) {
+            Some(squares) => squares.sqrt(),
+            None => e.map_parts(|part| self.magnitudes(part)),
+        }
     }
 
     /// An expression with the student's own names put in.

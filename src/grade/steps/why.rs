@@ -6,11 +6,11 @@ use super::super::behind::{Named, behind, keeps_energy};
 use super::super::belief::BELIEFS;
 use super::super::relation::solve_for;
 use super::super::{Diagnosis, Options};
-use super::cause::size_in;
+use super::cause::{MOST_STEPS, size_in};
 use super::sought::Sought;
 use super::{Desk, MOST_TERMS};
 use crate::algebra::{Sign, sign};
-use crate::expr::{Expr, Function, Node, Symbol};
+use crate::expr::{Expr, Function, Node, Symbol, effort};
 use crate::formula::{self, Content, Reading};
 use crate::laws;
 use crate::scene::{Ask, Question, Scene};
@@ -102,7 +102,9 @@ impl Desk<'_> {
         let chain = matches!(&reading.content, Content::Relations(sides, _) if sides.len() > 2);
         let broken = chain.then(|| self.broken(reading, at, text)).flatten();
         let mut found: Vec<Diagnosis> = broken.into_iter().collect();
-        found.extend(self.behind_line(reading, at, text, options));
+        found.extend(effort::within(MOST_STEPS, || {
+            self.behind_line(reading, at, text, options)
+        }));
         // The components of vectors have names that nobody wrote.
         found.retain(|d| !d.message.contains("_vec_"));
         found
