@@ -642,6 +642,24 @@ fn the_formula_in_the_comment_is_what_the_independent_solver_finds() {
     assert!(compared > 60, "{compared}");
 }
 
+/// The arguments of all functions of a case from the k-th point of each, where all have values there.
+fn joint_point(case: &Case, k: usize) -> Option<Vec<(String, f64)>> {
+    let mut given: Vec<(String, f64)> = Vec::new();
+    for (f, points) in case.functions.iter().zip(&case.arguments) {
+        for (argument, value) in f.arguments.iter().zip(&points[k]) {
+            if given.iter().all(|(name, _)| *name != *argument.symbol) {
+                given.push((argument.symbol.to_string(), *value));
+            }
+        }
+    }
+    let value = |name: &str| given.iter().find(|(n, _)| n == name).expect("given").1;
+    let has_value = |f: &Function| {
+        let x: Vec<f64> = f.arguments.iter().map(|a| value(&a.symbol)).collect();
+        truth(f, &formula(f), &x).is_some()
+    };
+    case.functions.iter().all(has_value).then_some(given)
+}
+
 /// A program that takes all arguments in one struct and prints every value it gets back, one a line.
 fn by_struct(case: &Case, language: Language) -> (String, String) {
     let style = Style {
@@ -650,14 +668,8 @@ fn by_struct(case: &Case, language: Language) -> (String, String) {
         record: true,
     };
     let text = file(&style, &Heading::default(), &case.functions);
-    let mut given: Vec<(String, f64)> = Vec::new();
-    for (f, points) in case.functions.iter().zip(&case.arguments) {
-        for (argument, value) in f.arguments.iter().zip(&points[0]) {
-            if given.iter().all(|(name, _)| *name != *argument.symbol) {
-                given.push((argument.symbol.to_string(), *value));
-            }
-        }
-    }
+    let given = (0..USUAL).find_map(|k| joint_point(case, k));
+    let given = given.expect("a point at which all functions have values");
     // What one function takes of another's points is the same number, so that both ways see the same arguments.
     let calls = case.functions.iter().map(|f| {
         let value = |name: &str| given.iter().find(|(n, _)| n == name).expect("given").1;

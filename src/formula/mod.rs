@@ -154,9 +154,15 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     }
     if let Err(fault) = &usual
         && held.any("/")
-        && let Some(text) = unit_behind(text, fault.start)
+        && let Some(set) = unit_behind(text, fault.start)
+        && let Ok(mut reading) = read(&set, symbols)
     {
-        return read(&text, symbols);
+        // Places are those of the text as it stands, which is shorter.
+        for note in &mut reading.notes {
+            note.start = note.start.min(text.len());
+            note.end = note.end.min(text.len());
+        }
+        return Ok(reading);
     }
     if worded && let Some(reading) = read_behind_words(text, symbols) {
         return Ok(reading);
@@ -181,7 +187,8 @@ fn unit_behind(text: &str, fault: usize) -> Option<String> {
     let inside = word.strip_prefix('[').and_then(|w| w.strip_suffix(']'));
     let unit = inside.unwrap_or(word);
     let is_unit = unit.contains('/') && dimension::unit(unit).is_ok();
-    (is_unit && fault > before.len()).then(|| format!("{before} \\text{{{unit}}}"))
+    let stands_behind = !before.trim().is_empty() && fault > before.len();
+    (is_unit && stands_behind).then(|| format!("{before} \\text{{{unit}}}"))
 }
 
 /// A text with ` \rm{m}` for `{\rm m}`, which is as long; an index and a d stay.

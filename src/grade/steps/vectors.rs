@@ -1,8 +1,9 @@
 //! Vectors as a page writes them, `\vec{v}_B^{+}`, `\vec{H}_C^{-}` or `\vec{r}_{B/C}`: their components in the scene.
 //!
 //! A letter says what it is of the point or body in its index: v its velocity, r its place, P the impulse there, H the
-//! angular momentum about it, n the normal at it, ω the spin of the body. The mark says when; without one it is just after,
-//! or else just before. H and P are of a system of bodies, first of all that move.
+//! angular momentum about it, n the normal at it, ω the spin of the body. The mark says when. Without one it is just before
+//! where the same letter stands beside it with the mark of the moment after, else just after or, with a remark, just before.
+//! H and P are of a system of bodies, first of all that move.
 
 use std::collections::{BTreeMap, BTreeSet};
 
