@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::expr::{Expr, Vector};
-use crate::laws::{self, Unknown};
+use crate::laws::{self, Place, Unknown};
 use crate::scene::{Ask, BlowImpulse, ImpulseAt, Scene};
 
 /// Plain and LaTeX names of the unknowns; none collides with a parameter or with another unknown.
@@ -99,20 +99,18 @@ fn is_along(scene: &Scene, ask: &Ask, unknown: Unknown) -> bool {
         ) => *body == b && is_unit(d, axis),
         (
             Ask::Impulse {
-                from: ImpulseAt::Contact(c),
+                from,
                 on,
                 along: Some(d),
             },
-            Unknown::Contact(i, axis),
-        ) => *c == i && is_unit(d, axis) && scene.contacts[i].bodies[1] == *on,
-        (
-            Ask::Impulse {
-                from: ImpulseAt::Hinge(h),
-                on,
-                along: Some(d),
-            },
-            Unknown::Hinge(i, axis),
-        ) => *h == i && is_unit(d, axis) && scene.hinges[i].bodies[1] == *on,
+            Unknown::Contact(i, axis) | Unknown::Hinge(i, axis),
+        ) => {
+            let acts = match unknown {
+                Unknown::Contact(..) => ImpulseAt::Contact(i),
+                _ => ImpulseAt::Hinge(i),
+            };
+            *from == acts && is_unit(d, axis) && Place::of(scene, *from).1 == *on
+        }
         _ => asks_for(scene, ask, unknown).is_some_and(|(_, reversed)| !reversed),
     }
 }

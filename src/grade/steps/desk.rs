@@ -6,7 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::super::sheet::Sheet;
 use super::names::MARKS;
 use super::sought::{self, Sought};
-use super::{Final, text, vectors};
+use super::vectors::{in_products, is_marked, marked_after};
+use super::{Final, text};
 use crate::answer::Form;
 use crate::derive::Moment;
 use crate::equality::{self, Equality};
@@ -308,52 +309,11 @@ impl<'a> Desk<'a> {
             .iter()
             .filter(|(name, _)| formula::is_component(name));
         let vectors: BTreeMap<_, _> = vectors.map(|(n, v)| (n.clone(), v.clone())).collect();
-        self.magnitudes(&self.with_own(&e.substitute(&vectors)))
+        // Sizes of vectors first: their components are known as such before these are put in.
+        let own = self.with_own(&self.magnitudes(e).substitute(&vectors));
+        self.magnitudes(&own)
             .substitute(instead)
             .substitute(&self.closed)
-    }
-}
-
-/// Letters of vectors of which one has the mark of the moment after and none that of the moment before.
-fn marked_after(text: &str) -> BTreeSet<String> {
-    let reading = text
-        .contains("vec")
-        .then(|| formula::read(text, &Symbols::open()));
-    let Some(Ok(reading)) = reading else {
-        return BTreeSet::new();
-    };
-    let arrows = reading.symbols().into_iter();
-    let names: Vec<_> = arrows
-        .filter_map(|name| formula::vector_name(vectors::arrowed(&name)?.as_ref()))
-        .collect();
-    let after = names
-        .iter()
-        .filter(|(.., mark)| ["'", "^+"].contains(&&**mark));
-    let before = |base: &String| names.iter().any(|(b, _, mark)| b == base && mark == "^-");
-    let after = after.map(|(base, ..)| base.clone());
-    after
-        .filter(|base| ["v", "omega", "H"].contains(&&**base) && !before(base))
-        .collect()
-}
-
-/// Whether a vector without a mark has a letter of these.
-fn is_marked(letters: &BTreeSet<String>, name: &str) -> bool {
-    let unmarked = formula::vector_name(name).filter(|(.., mark)| mark.is_empty());
-    unmarked.is_some_and(|(base, ..)| letters.contains(&base))
-}
-
-/// Whether a name with an arrow stands in a product of vectors, rather than alone left of a sign of equality.
-fn in_products(text: &str) -> impl Fn(&str) -> bool {
-    let signs = ["×", "\\times", "·", "\\cdot"];
-    let multiplied = signs.iter().any(|sign| text.contains(sign));
-    let left = text.split('=').next().filter(|_| multiplied);
-    let left = left.filter(|left| !signs.iter().any(|sign| left.contains(sign)));
-    let left = left.and_then(|left| formula::read(left, &Symbols::open()).ok());
-    let left = left.and_then(|left| formula::vector_name(left.expr()?.as_symbol()?));
-    let alone = left.map(|(base, index, _)| (base, index));
-    move |name| {
-        let here = || formula::vector_name(name).map(|(base, index, _)| (base, index));
-        multiplied && (alone.is_none() || alone != here())
     }
 }
 

@@ -639,6 +639,11 @@ impl Desk<'_> {
     }
 }
 
+/// Whether vectors with an arrow stand in a line.
+pub(super) fn in_vectors(links: &[Link]) -> bool {
+    links.iter().any(|link| mentions_vectors(&link.sides))
+}
+
 /// Whether vectors with an arrow stand in it, whole or by their components.
 fn mentions_vectors(sides: &[Content]) -> bool {
     let is_one = |name: &Symbol| formula::has_arrow(name) || formula::is_component(name);

@@ -14,7 +14,7 @@ use super::names::readings;
 use crate::derive::{Moment, Names};
 use crate::equality;
 use crate::expr::{Expr, Node, Symbol, Vector, cross, minus};
-use crate::formula::{self, Content, Reading};
+use crate::formula::{self, Content, Reading, Symbols};
 use crate::laws::{self, Affine, Geometry, Kinematics, Place, Unknown};
 use crate::scene::{Ask, Scene};
 
@@ -140,14 +140,14 @@ impl<'a> Impact<'a> {
         }
         let mut points = scene.points.iter();
         let point = points.find(|point| is_index(&point.name, index))?;
+        let moving = self.moving();
         Some(Point {
             at: point.at.clone(),
-            bodies: self
-                .moving()
-                .into_iter()
-                .take(1)
-                .filter(|_| self.moving().len() == 1)
-                .collect(),
+            bodies: if moving.len() == 1 {
+                moving
+            } else {
+                Vec::new()
+            },
         })
     }
 
@@ -326,12 +326,55 @@ fn is_index(name: &str, index: &str) -> bool {
 }
 
 /// The vector with an arrow that a name is, or is a component of.
-pub(super) fn arrowed(name: &Symbol) -> Option<Symbol> {
+fn arrowed(name: &Symbol) -> Option<Symbol> {
     let axes = ["_x", "_y", "_z"];
     let stem = axes.iter().find_map(|axis| name.strip_suffix(axis));
     let whole = stem.filter(|_| formula::is_component(name));
     let whole = whole.map(Symbol::from);
     whole.or_else(|| formula::has_arrow(name).then(|| name.clone()))
+}
+
+/// Letters of vectors of which one has the mark of the moment after and none that of the moment before.
+pub(super) fn marked_after(text: &str) -> BTreeSet<String> {
+    let reading = text
+        .contains("vec")
+        .then(|| formula::read(text, &Symbols::open()));
+    let Some(Ok(reading)) = reading else {
+        return BTreeSet::new();
+    };
+    let arrows = reading.symbols().into_iter();
+    let names: Vec<_> = arrows
+        .filter_map(|name| formula::vector_name(arrowed(&name)?.as_ref()))
+        .collect();
+    let after = names
+        .iter()
+        .filter(|(.., mark)| ["'", "^+"].contains(&&**mark));
+    let before = |base: &String| names.iter().any(|(b, _, mark)| b == base && mark == "^-");
+    let after = after.map(|(base, ..)| base.clone());
+    after
+        .filter(|base| ["v", "omega", "H"].contains(&&**base) && !before(base))
+        .collect()
+}
+
+/// Whether a vector without a mark has a letter of these.
+pub(super) fn is_marked(letters: &BTreeSet<String>, name: &str) -> bool {
+    let unmarked = formula::vector_name(name).filter(|(.., mark)| mark.is_empty());
+    unmarked.is_some_and(|(base, ..)| letters.contains(&base))
+}
+
+/// Whether a name with an arrow stands in a product of vectors, rather than alone left of a sign of equality.
+pub(super) fn in_products(text: &str) -> impl Fn(&str) -> bool {
+    let signs = ["×", "\\times", "·", "\\cdot"];
+    let multiplied = signs.iter().any(|sign| text.contains(sign));
+    let left = text.split('=').next().filter(|_| multiplied);
+    let left = left.filter(|left| !signs.iter().any(|sign| left.contains(sign)));
+    let left = left.and_then(|left| formula::read(left, &Symbols::open()).ok());
+    let left = left.and_then(|left| formula::vector_name(left.expr()?.as_symbol()?));
+    let alone = left.map(|(base, index, _)| (base, index));
+    move |name| {
+        let here = || formula::vector_name(name).map(|(base, index, _)| (base, index));
+        multiplied && (alone.is_none() || alone != here())
+    }
 }
 
 /// Whether a form is a sum of multiples of what `is_one` says are vectors.

@@ -7,6 +7,7 @@ use super::super::belief::BELIEFS;
 use super::super::relation::solve_for;
 use super::super::{Diagnosis, Options};
 use super::cause::{MOST_STEPS, size_in};
+use super::link::in_vectors;
 use super::sought::Sought;
 use super::{Desk, MOST_TERMS};
 use crate::algebra::{Sign, sign};
@@ -102,11 +103,12 @@ impl Desk<'_> {
         let chain = matches!(&reading.content, Content::Relations(sides, _) if sides.len() > 2);
         let broken = chain.then(|| self.broken(reading, at, text)).flatten();
         let mut found: Vec<Diagnosis> = broken.into_iter().collect();
-        found.extend(effort::within(MOST_STEPS, || {
-            self.behind_line(reading, at, text, options)
-        }));
-        // The components of vectors have names that nobody wrote.
-        found.retain(|d| !d.message.contains("_vec_"));
+        // What is found by the terms of a line in vectors is in names of components that nobody wrote.
+        if !self.links(reading).is_some_and(|links| in_vectors(&links)) {
+            found.extend(effort::within(MOST_STEPS, || {
+                self.behind_line(reading, at, text, options)
+            }));
+        }
         found
     }
 
