@@ -1,11 +1,12 @@
 //! What a scene asks about its answers: zeros, thresholds, limits, forms for a small parameter, identities. Each row of the table
 //! is a question about the scene below; a fact of its own stands in a test of its own.
 
-use carom::answer::{self, Answer};
+use carom::answer::{self, Answer, Refused};
 use carom::domain::Domains;
 use carom::equality::{Equality, decide};
 use carom::formula::{Symbols, read_expr, write_plain};
-use carom::{derive, scene, verify};
+use carom::scene::{self, Scene};
+use carom::{derive, story};
 
 /// A bar hinged at A is hit by a ball that sticks at D; the parameters beside are for questions alone.
 fn asked(questions: &str) -> Result<Vec<Answer>, String> {
@@ -37,9 +38,14 @@ fn asked_where(relations: &str, questions: &str) -> Result<Vec<Answer>, String> 
 }}"#
     );
     let scene = scene::read(&text).map_err(|faults| faults.render("scene", &text))?;
-    let derivation = derive::derive(&scene).map_err(|stop| stop.to_string())?;
-    let proof = verify::prove(&scene, &derivation);
-    verify::about_answers(&scene, &derivation, &proof).map_err(|refused| refused.to_string())
+    about_answers(&scene).map_err(|refused| refused.to_string())
+}
+
+/// The answers to questions about answers.
+fn about_answers(scene: &Scene) -> Result<Vec<Answer>, Refused> {
+    let mut answers = story::tell(scene)?.answers;
+    answers.retain(|a| scene.asked_of_answers().any(|q| q.name == a.question));
+    Ok(answers)
 }
 
 /// Everything an answer says, in one line.
@@ -115,8 +121,7 @@ fn book() -> (scene::Scene, String) {
 
 fn graphs(scene: &scene::Scene) -> Result<Vec<answer::Graph>, answer::Refused> {
     let derivation = derive::derive(scene).expect("a derivation");
-    let proof = verify::prove(scene, &derivation);
-    let special = verify::about_answers(scene, &derivation, &proof).expect("answers");
+    let special = about_answers(scene).expect("answers");
     answer::graphs(scene, &derivation.known(), &special)
 }
 

@@ -317,6 +317,7 @@ mod tests {
             excess: large.clone() - small.clone(),
             closed: *closed,
             words: String::new(),
+            so_that: String::new(),
         });
         Domains {
             relations: relations.collect(),

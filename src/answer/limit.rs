@@ -10,7 +10,7 @@ use num_traits::Signed;
 use super::Check;
 use super::calc::{Seen, is_zero, rounding, sign, tidy};
 use super::powers::{self, Found, Tends, by_powers, not_zero};
-use super::solve::within;
+use super::solve::{stated, within};
 use super::taylor::{Side, Taylor, rooted};
 use super::{Answer, Form, Near};
 use crate::algebra::Sign;
@@ -39,6 +39,16 @@ pub fn comes(parameter: &Symbol, to: Option<&Expr>, domains: &Domains) -> bool {
     cannot_come(parameter, to, domains).is_none()
 }
 
+/// Whether a formula is proved not to be negative in the end, when a parameter comes to a value or grows beyond all bounds.
+pub fn ends_above(of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) -> bool {
+    let found = found(of, parameter, to, domains);
+    found.is_some_and(|found| match found.tends {
+        Tends::To(value) => matches!(sign(&value, domains), Seen::Proved(s) if s.is_not_negative()),
+        Tends::Beyond(upwards) => upwards == Some(true),
+        Tends::Apart => false,
+    })
+}
+
 /// Words for a place that the parameter cannot come to.
 fn cannot_come(parameter: &Symbol, to: Option<&Expr>, domains: &Domains) -> Option<Sentence> {
     match to {
@@ -61,7 +71,6 @@ fn found(of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) ->
 pub fn fill(out: &mut Answer, of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) {
     if let Some(words) = cannot_come(parameter, to, domains) {
         out.text.push(words);
-        out.checks.push(open("limit"));
         return;
     }
     let found = found(of, parameter, to, domains);
@@ -161,7 +170,6 @@ pub(super) fn approximate(
 ) {
     if let Some(words) = outside(to, parameter, domains) {
         out.text.push(words);
-        out.checks.push(open("series"));
         return;
     }
     let wanted = order.map_or(LEADING, |order| order as usize);
@@ -286,11 +294,12 @@ fn outside(to: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sentence>
         far != r.excess && matches!(sign(&far, domains), Seen::Proved(Sign::Negative))
     });
     if let Some(broken) = broken {
+        let against = against(broken);
         return Some(sentence!(
-            "{} cannot come to {}: the scene states {}",
+            "{} cannot come to {}: {}",
             parameter,
             to,
-            &broken.words
+            against
         ));
     }
     let domain = domains.symbols.get(parameter)?;
@@ -322,11 +331,20 @@ fn bounded(parameter: &Symbol, domains: &Domains) -> Option<Sentence> {
         };
         far.is_some_and(|far| matches!(far.tends, Tends::Beyond(Some(false))))
     })?;
+    let against = against(broken);
     Some(sentence!(
-        "{} cannot grow beyond all bounds: the scene states {}",
+        "{} cannot grow beyond all bounds: {}",
         parameter,
-        &broken.words
+        against
     ))
+}
+
+/// What a relation holds against a place that breaks it.
+fn against(relation: &crate::domain::Relation) -> Sentence {
+    match relation.so_that.as_str() {
+        "" => sentence!("the scene states {}", &relation.words),
+        needed => sentence!("{} is needed so that {}", stated(relation), needed),
+    }
 }
 
 /// The sides within the domain.

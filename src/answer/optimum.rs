@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use super::calc::{Seen, by_signs, essential, is_zero, sign, tidy};
-use super::solve::{Unsolved, end_of, solve};
+use super::solve::{Unsolved, end_of, solve, stated};
 use super::{Answer, Check, Form, ROOT, Refused};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, Limit};
@@ -360,7 +360,7 @@ impl Search<'_> {
             let Some((end, is_upper)) = end_of(p, r, domains) else {
                 return Err(self.refused(format!(
                     "it is largest at an end of the range of {p}, which {} does not give alone",
-                    r.words
+                    stated(r)
                 )));
             };
             if is_upper != upper {

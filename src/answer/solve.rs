@@ -52,10 +52,17 @@ impl From<Stop> for Unsolved {
 
 /// Solves e = 0 for a symbol, within its domain and the relations that bear upon it.
 pub fn solve(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unsolved> {
-    let mut out = within_interval(e, symbol, domains)?;
+    // That the scene gets there with some value of the symbol says nothing of the others.
+    let mut apart = domains.clone();
+    (apart.relations).retain(|r| r.so_that.is_empty() || !r.excess.mentions(symbol));
+    let mut out = within_interval(e, symbol, &apart)?;
     let bearing = domains.relations.iter();
+    let domain = domain_of(symbol, domains);
     for relation in bearing.filter(|r| r.excess.symbols().contains(symbol)) {
         for mut root in std::mem::take(&mut out.inside) {
+            // Where the value lies in the interval at all.
+            let placed = placed(symbol, &root.value, &domain, &apart);
+            let domains = &placed.map_or_else(|_| apart.clone(), |(_, within)| within);
             let excess = relation.excess.put(symbol, &root.value);
             match sign(&excess, domains) {
                 Seen::Proved(Sign::Negative) | Seen::Negative => {}
@@ -70,21 +77,34 @@ pub fn solve(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unso
                     };
                     if !sure {
                         let holds = beyond_zero(&excess, domains, !relation.closed);
-                        root.given
-                            .push(sentence!("{}, so that {}", holds, stated(relation)));
+                        let so_that = match relation.so_that.as_str() {
+                            "" => stated(relation),
+                            needed => Sentence::words(needed),
+                        };
+                        root.given.push(sentence!("{}, so that {}", holds, so_that));
                     }
                     out.inside.push(root);
                     continue;
                 }
             }
-            let why = sentence!("{} = {}, against {}", symbol, &root.value, stated(relation));
+            let against = match relation.so_that.as_str() {
+                "" => sentence!(", against {}", stated(relation)),
+                needed => sentence!(": {} is needed so that {}", stated(relation), needed),
+            };
+            let why = sentence!("{} = {}{}", symbol, &root.value, against);
             out.discarded.push(why);
         }
     }
     Ok(out)
 }
 
-/// The end that a relation sets to a symbol that stands in it to the first power, and whether it is the upper one.
+/// The interval of a symbol.
+fn domain_of(symbol: &Symbol, domains: &Domains) -> Domain {
+    let own = domains.symbols.get(symbol);
+    own.cloned().unwrap_or_else(Domain::positive)
+}
+
+/// The one end that a relation sets to a symbol, and whether it is the upper one.
 pub(super) fn end_of(
     symbol: &Symbol,
     relation: &Relation,
@@ -93,21 +113,26 @@ pub(super) fn end_of(
     let [small, large] = &relation.sides;
     let difference = large - small;
     let slope = tidy(&difference.derivative(symbol), domains).ok()?;
-    let toward = sign(&slope, domains);
-    if slope.symbols().contains(symbol) || !toward.is_proved() {
-        return None;
-    }
-    if !toward.is_positive() && !toward.is_negative() {
-        return None;
+    let grows = sign(&slope, domains).side()?;
+    if slope.symbols().contains(symbol) {
+        let roots = within_interval(&difference, symbol, domains).ok()?;
+        return match roots.inside.as_slice() {
+            [root] if root.proved && roots.open.is_none() => Some((root.value.clone(), !grows)),
+            _ => None,
+        };
     }
     let end = &Expr::symbol(symbol) - &(&difference / &slope);
-    Some((tidy(&end, domains).ok()?, toward.is_negative()))
+    Some((tidy(&end, domains).ok()?, !grows))
 }
 
-fn stated(relation: &Relation) -> Sentence {
+pub(super) fn stated(relation: &Relation) -> Sentence {
     let [small, large] = &relation.sides;
-    let than = if relation.closed { " ≤ " } else { " < " };
-    sentence!("{}{}{}", small, than, large)
+    match (small.is_zero(), relation.closed) {
+        (true, true) => Sentence::not_negative(large),
+        (true, false) => Sentence::positive(large),
+        (false, true) => sentence!("{} ≤ {}", small, large),
+        (false, false) => sentence!("{} < {}", small, large),
+    }
 }
 
 fn within_interval(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unsolved> {
@@ -123,11 +148,7 @@ fn within_interval(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots
     if factors.is_empty() && !has_zero {
         return Err(Unsolved::Absent);
     }
-    let domain = domains
-        .symbols
-        .get(symbol)
-        .cloned()
-        .unwrap_or_else(Domain::positive);
+    let domain = domain_of(symbol, domains);
     let mut out = Roots::default();
     if has_zero {
         if domain.contains(&crate::expr::ratio(0, 1)) {

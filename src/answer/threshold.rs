@@ -150,14 +150,21 @@ fn where_real(roots: &Roots, domains: &Domains) -> Option<(Vec<Sentence>, Domain
             _ => continue,
         };
         let core = essential(under, &granted);
-        // What has a sign by itself is real, or is not.
-        if core.is_constant() || sign(&core, &granted).is_proved() {
-            continue;
+        let seen = sign(&core, &granted);
+        let divides = |part: &Expr| match part.node() {
+            Node::Power(base, k) => k.is_negative() && essential(base, &granted) == core,
+            _ => false,
+        };
+        // What has a sign by itself is real, or is not; divided by zero it is none.
+        match seen {
+            _ if core.is_constant() => continue,
+            Seen::Proved(Sign::NotNegative) if under.parts().any(divides) => {}
+            Seen::Proved(_) => continue,
+            _ => wanted.push(above_zero(&core, &granted)),
         }
-        wanted.push(above_zero(&core, &granted));
         granted = granted.given(&core, false);
     }
-    (!wanted.is_empty()).then_some((wanted, granted))
+    (granted != *domains).then_some((wanted, granted))
 }
 
 /// On which side of the root the inequality holds.
@@ -197,8 +204,15 @@ fn sides(
         None => [(&domain.low, -1), (&domain.high, 1)]
             .map(|(end, way)| beside(gap, parameter, value, end.as_ref(), way, domains)),
     };
-    let falls = below.is_positive() && above.is_negative();
-    let grows = below.is_negative() && above.is_positive();
+    // All zeros are known: what is not negative beside them is positive.
+    let is_up = |side: Seen| side.is_positive() || side == Seen::Proved(Sign::NotNegative);
+    let is_down = |side: Seen| side.is_negative() || side == Seen::Proved(Sign::NotPositive);
+    // Where the domain begins or ends at the value, the other side decides.
+    let is_empty = |side: Seen| side == Seen::Proved(Sign::Zero);
+    let both_empty = is_empty(below) && is_empty(above);
+    let falls = (is_up(below) || is_empty(below)) && (is_down(above) || is_empty(above));
+    let grows = (is_down(below) || is_empty(below)) && (is_up(above) || is_empty(above));
+    let [falls, grows] = [falls, grows].map(|goes| goes && !both_empty);
     let [holds_below, holds_above] = match relation.is_below() {
         true => [grows, falls],
         false => [falls, grows],
@@ -285,7 +299,7 @@ fn exists(out: &mut Answer, roots: &Roots, domains: &Domains) -> Domains {
     domains
 }
 
-/// The sign of the difference at a place between its zero and the end of the domain on one side.
+/// The sign of the difference at a place between its zero and the end of the domain on one side; zero where there is none.
 pub(super) fn beside(
     gap: &Expr,
     parameter: &Symbol,
@@ -309,6 +323,9 @@ pub(super) fn beside(
         Some(number) => {
             // Where the value lies at the end or beyond, there is nothing on this side of it.
             let inside = essential(&(Expr::from(way) * (&number - value)), &domains);
+            if inside.is_zero() {
+                return Seen::Proved(Sign::Zero);
+            }
             if sign(&inside, &domains) == Seen::Mixed {
                 domains = domains.given(&inside, false);
             }

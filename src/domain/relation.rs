@@ -18,6 +18,8 @@ pub struct Relation {
     pub closed: bool,
     /// As stated, such as `M > m`.
     pub words: String,
+    /// What it is needed for, such as "`round` comes to its end"; empty for what the scene states.
+    pub so_that: String,
 }
 
 impl Relation {
@@ -34,11 +36,17 @@ impl Domains {
     /// The same with something that is positive besides, or not negative where `closed`.
     pub fn given(&self, excess: &Expr, closed: bool) -> Domains {
         let mut domains = self.clone();
+        let mut known = domains.relations.iter_mut();
+        if let Some(known) = known.find(|r| r.excess == *excess) {
+            known.closed &= closed;
+            return domains;
+        }
         domains.relations.push(Relation {
             sides: [Expr::zero(), excess.clone()],
             excess: excess.clone(),
             closed,
             words: String::new(),
+            so_that: String::new(),
         });
         domains
     }
@@ -137,6 +145,7 @@ mod tests {
                 sides: [small, large],
                 closed,
                 words: String::new(),
+                so_that: String::new(),
             }
         };
         Domains {

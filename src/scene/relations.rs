@@ -89,6 +89,7 @@ pub(super) fn add(
         excess,
         closed,
         words,
+        so_that: String::new(),
     };
     scene.domains.relations.push(relation);
     if let Some(fault) = broken(scene, span) {

@@ -5,26 +5,24 @@
 use std::collections::BTreeMap;
 
 use super::{Case, StageTold, State, Told, second};
-use crate::answer::{Answer, Refused};
+use crate::answer::{self, Answer, Refused};
 use crate::derive;
 use crate::formula::Sentence;
 use crate::scene::{Scene, Stage};
-use crate::verify::{self, possible};
+use crate::verify::possible::{self, Rule};
+use crate::verify::{self, APPROACH};
 
 /// Tells the one impact of a scene.
 pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
     let derivation = derive::derive(scene).map_err(|stop| Refused::stop("", stop))?;
-    let proof = verify::prove(scene, &derivation);
+    let mut proof = verify::prove(scene, &derivation);
     let possible = possible::judge(scene, &derivation);
+    let mut open = possible.open().into_iter();
+    let is_told = proof.assumptions.iter().any(|words| words == APPROACH);
+    if !is_told && open.any(|condition| condition.rule == Rule::Approach) {
+        proof.assumptions.push(String::from(APPROACH));
+    }
     let counting = &derivation.counting;
-    let about = match counting.contradictory {
-        true => {
-            let why = Sentence::words("the laws contradict each other");
-            let asked = scene.asked_of_answers();
-            asked.map(|q| super::answer::unanswered(q, &why)).collect()
-        }
-        false => verify::about_answers(scene, &derivation, &proof)?,
-    };
     let contradiction = counting.contradictory.then(|| Refused {
         contradicts: true,
         ..Refused::new(
@@ -49,6 +47,14 @@ pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
         derivation,
         proof,
         possible,
+    };
+    let about = match case.derivation.counting.contradictory {
+        true => {
+            let why = Sentence::words("the laws contradict each other");
+            let asked = scene.asked_of_answers();
+            asked.map(|q| super::answer::unanswered(q, &why)).collect()
+        }
+        false => about_answers(scene, &case)?,
     };
     let mut answers = answers(&case);
     let assumptions = case.assumptions().collect();
@@ -75,6 +81,25 @@ pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
         }
     }
     Ok(told)
+}
+
+/// What is asked about the answers, where the bodies collide.
+fn about_answers(scene: &Scene, case: &Case) -> Result<Vec<Answer>, Refused> {
+    let needs = super::answer::approaching(scene, case);
+    let known = case.derivation.known();
+    let part = super::answer::part(scene, &needs);
+    let mut answers = answer::about(&part, scene.asked_of_answers(), &known)?;
+    for answer in &mut answers {
+        // With what they approach is told besides.
+        let is_told = |words: &Sentence| !needs.is_empty() && words.to_string() == APPROACH;
+        answer
+            .assumptions
+            .extend(case.assumptions().filter(|words| !is_told(words)));
+        if let Some(question) = scene.question(&answer.question) {
+            super::answer::tell(scene, &question.ask, &needs, answer);
+        }
+    }
+    Ok(answers)
 }
 
 /// The answers of the impact as they were derived.

@@ -33,7 +33,8 @@ impl World {
         let mut scene = scene.clone();
         for (_, e) in &self.given {
             scene.domains = scene.domains.given(e, true);
-            if let Some(relation) = scene.domains.relations.last_mut() {
+            let mut relations = scene.domains.relations.iter_mut();
+            if let Some(relation) = relations.find(|r| r.excess == *e && r.words.is_empty()) {
                 relation.words = Sentence::not_negative(e).to_string();
             }
         }

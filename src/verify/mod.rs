@@ -23,7 +23,7 @@ use std::collections::BTreeMap;
 
 use num_traits::Zero;
 
-use crate::answer::{self, Answer, Check, Form, Refused};
+use crate::answer::{Answer, Check, Form};
 use crate::derive::Derivation;
 use crate::expr::{Expr, Point, Rational, Scalar, Symbol};
 use crate::formula::write_plain;
@@ -61,23 +61,6 @@ impl Proof {
     pub fn checks(&self) -> impl Iterator<Item = &Check> {
         self.scene.iter().chain(self.answers.iter().flatten())
     }
-}
-
-/// Answers the questions of a scene of one impact that are about its answers.
-pub fn about_answers(
-    scene: &Scene,
-    derivation: &Derivation,
-    proof: &Proof,
-) -> Result<Vec<Answer>, Refused> {
-    let mut answers = answer::about(scene, scene.asked_of_answers(), &derivation.known())?;
-    for answer in &mut answers {
-        let seen = proof.assumptions.iter().map(crate::formula::Sentence::from);
-        let given = derivation.assumptions.iter().cloned().chain(seen);
-        answer.assumptions.extend(given);
-        answer.assumptions.sort();
-        answer.assumptions.dedup();
-    }
-    Ok(answers)
 }
 
 /// How far answers can be used to judge others.

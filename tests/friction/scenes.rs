@@ -2,19 +2,17 @@
 
 use std::collections::BTreeMap;
 
-use carom::answer::Form;
 use carom::answer::about;
+use carom::derive::derive;
 use carom::derive::friction::{Table, table};
-use carom::derive::{Derivation, derive};
 use carom::equality::{Equality, decide};
 use carom::expr::{Expr, Symbol};
 use carom::formula::{Symbols, read_expr};
 use carom::scene::{Mode, Scene};
-use carom::verify::about_answers;
 use carom::verify::compare::compare;
 use carom::verify::friction::{Judged, Pick, judge};
 use carom::verify::{possible, prove};
-use carom::{numeric, scene};
+use carom::{numeric, scene, story};
 
 fn read(name: &str, set: &str) -> Scene {
     let path = format!("derivations/friction/{name}.json");
@@ -53,18 +51,11 @@ fn judged(scene: &Scene) -> (Table, Judged) {
 
 /// Closed forms by name: of the motion, and of what is asked about it.
 fn answers(scene: &Scene) -> BTreeMap<String, Expr> {
-    let derivation: Derivation = derive(scene).expect("a derivation");
-    let proof = prove(scene, &derivation);
-    let mut out = BTreeMap::new();
-    for answer in &derivation.answers {
-        if let Form::Value { closed, .. } = &answer.form {
-            out.insert(answer.name.clone(), closed.clone());
-        }
-    }
-    for answer in about_answers(scene, &derivation, &proof).expect("answers") {
-        out.extend(answer.formula().map(|f| (answer.name.clone(), f.clone())));
-    }
-    out
+    let answers = story::tell(scene).expect("a story").answers;
+    let formulas = answers
+        .iter()
+        .filter_map(|a| Some((a.name.clone(), a.formula()?.clone())));
+    formulas.collect()
 }
 
 fn same(scene: &Scene, got: &Expr, expected: &Expr) -> bool {

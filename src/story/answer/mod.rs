@@ -6,9 +6,12 @@ mod motion;
 mod reached;
 mod turns;
 
+pub(super) use reached::{approaching, part, tell};
+
 use std::collections::BTreeSet;
 use std::iter::successors;
 
+use super::worlds::World;
 use super::{Case, StageTold, State, Told, granted, second, spring, words, worlds};
 use crate::answer::{self, Answer, Check, Form, Known, Refused};
 use crate::dimension::Dimension;
@@ -35,17 +38,31 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
             };
             let mut pairs = worlds.windows(2);
             let is_same = pairs.all(|pair| put_in(&pair[0].known) == put_in(&pair[1].known));
-            let mut new = worlds::each(scene, question, &mut worlds, |world| {
-                match needs_open(&question.ask, &world.known, &answers) {
-                    Some(why) => Ok(vec![unanswered(question, &why)]),
-                    None if is_same => formula(scene, question, &world.known),
-                    None => formula(&world.part_of(scene), question, &world.known),
+            let needs = |world: &World| reached::needs(scene, &stages, world, question, &answers);
+            let mut shared = needs(&worlds[0]);
+            for world in &worlds[1..] {
+                if let (Ok(shared), Ok(own)) = (&mut shared, needs(world)) {
+                    shared.retain(|need| own.contains(need));
                 }
-            })?;
-            for a in &mut new {
-                reached::held(scene, &stages, &worlds, &scene.questions, &answers, a);
             }
-            new
+            worlds::each(scene, question, &mut worlds, |world| {
+                if let Some(why) = needs_open(&question.ask, &world.known, &answers) {
+                    return Ok(vec![unanswered(question, &why)]);
+                }
+                let (whole, needs) = match is_same {
+                    true => (scene, shared.clone()),
+                    false => (&world.part_of(scene), needs(world)),
+                };
+                let needs = match needs {
+                    Ok(needs) => needs,
+                    Err(why) => return Ok(vec![unanswered(question, &why)]),
+                };
+                let mut new = formula(&reached::part(whole, &needs), question, &world.known)?;
+                for a in &mut new {
+                    reached::tell(whole, &question.ask, &needs, a);
+                }
+                Ok(new)
+            })?
         } else {
             let new = one(scene, &stages, question, &answers)?;
             worlds::remember(&mut worlds, &new);

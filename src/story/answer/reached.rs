@@ -1,132 +1,221 @@
-//! Values of a parameter that are found from answers about a stage hold only where the scene gets to that stage.
+//! What is asked about answers is asked where the scene gets to them: the motions before come to their ends, the bodies approach.
 //!
-//! In: an answer about formulas, and the stages that its formulas come from. Out: the same answer without values at which a
-//! motion before never ends, and with what else must hold.
+//! In: a question about formulas, and one way through the stages that its answers come from. Out: what must hold for that, the
+//! scene on that part of its domain, and the answer with what it rests on.
 
 use std::collections::BTreeSet;
 
 use super::super::worlds::World;
-use super::super::{StageTold, line};
+use super::super::{Case, StageTold, line};
+use super::supposed;
 use crate::algebra::Sign;
-use crate::answer::calc::{Seen, at_least_zero, is_zero, sign};
-use crate::answer::{Answer, Form};
-use crate::domain::Domain;
+use crate::answer::calc::{Seen, at_least_zero, essential, is_zero, sign};
+use crate::answer::{Answer, Known, limit};
+use crate::domain::{Domain, Domains, Relation};
 use crate::expr::{Expr, Symbol};
-use crate::formula::{Relation, Sentence, sentence};
-use crate::scene::{Question, Scene};
+use crate::formula::{self, Sentence, sentence};
+use crate::scene::{Ask, Question, Scene};
+use crate::verify::possible::Rule;
 
 /// A step upwards from a value.
 const STEP: &str = "\u{1}step";
 
-/// Holds the values of an answer against what the motions need that lead to it.
-pub(super) fn held(
+/// Something that must hold so that a scene gets to some answers.
+#[derive(Clone, PartialEq)]
+pub(in crate::story) struct Need {
+    relation: Relation,
+    /// The same as an answer tells it.
+    told: Sentence,
+}
+
+impl Need {
+    fn new(excess: &Expr, closed: bool, so_that: String, told: Sentence) -> Need {
+        let beyond = match closed {
+            true => Sentence::not_negative(excess),
+            false => Sentence::positive(excess),
+        };
+        let relation = Relation {
+            sides: [Expr::zero(), excess.clone()],
+            excess: excess.clone(),
+            closed,
+            words: beyond.to_string(),
+            so_that,
+        };
+        Need { relation, told }
+    }
+
+    /// The same with values for parameters; nothing where it holds for certain.
+    fn put(&self, with: &Known, domains: &Domains) -> Option<Need> {
+        let excess = self.relation.excess.substitute(with);
+        let is_sure = matches!(sign(&excess, domains), Seen::Proved(s) if s.is_not_negative());
+        if is_sure {
+            return None;
+        }
+        let (closed, so_that) = (self.relation.closed, &self.relation.so_that);
+        let told = match excess == self.relation.excess {
+            true => self.told.clone(),
+            false => sentence!("{}, so that {}", at_least_zero(&excess, domains), so_that),
+        };
+        Some(Need::new(&excess, closed, so_that.clone(), told))
+    }
+
+    /// Whether it is proved not to hold at any values.
+    fn is_broken(&self, domains: &Domains) -> bool {
+        let seen = sign(&self.relation.excess, domains);
+        seen == Seen::Proved(Sign::Negative)
+    }
+}
+
+/// The scene where all that is needed holds.
+pub(in crate::story) fn part(scene: &Scene, needs: &[Need]) -> Scene {
+    let mut scene = scene.clone();
+    let relations = needs.iter().map(|need| need.relation.clone());
+    scene.domains.relations.extend(relations);
+    scene
+}
+
+/// What must hold so that the bodies collide as the one impact of a scene has it.
+pub(in crate::story) fn approaching(scene: &Scene, case: &Case) -> Vec<Need> {
+    let open = case.possible.open().into_iter();
+    let approach = open.filter(|c| c.rule == Rule::Approach && !c.is_equation);
+    let needs = approach.filter_map(|c| {
+        let excess = c.essential.as_ref()?;
+        let told = sentence!("{} ({})", Sentence::positive(excess), &c.words);
+        Some(Need::new(excess, false, c.words.clone(), told))
+    });
+    needs
+        .filter(|need| !need.is_broken(&scene.domains))
+        .collect()
+}
+
+/// What must hold so that the scene gets to the answers that a question is about, in one of the ways it can go; `Err` with the
+/// reason where what the question puts in keeps it from there.
+pub(super) fn needs(
     scene: &Scene,
     stages: &[StageTold],
-    worlds: &[World],
-    questions: &[Question],
+    world: &World,
+    question: &Question,
     earlier: &[Answer],
-    answer: &mut Answer,
-) {
-    let found = std::mem::take(&mut answer.range);
-    let had_values = !found.is_empty();
-    let chain = chain(questions, answer);
-    let leading = leading(stages, worlds, &chain, earlier, answer);
-    // What is put in for a parameter may keep to the need by itself.
-    let replaced = |need: &Expr| {
-        let mut with = chain.iter().flat_map(|q| q.ask.with());
-        with.any(|(name, _)| need.symbols().contains(name))
-    };
-    let needs = || {
-        let each = leading.iter().map(|i| &stages[*i]);
-        let all = each.flat_map(|told| told.needs.iter().map(move |need| (told, need)));
-        all.filter(|(_, need)| !replaced(need))
-    };
-    for (of, relation, value) in found {
-        let symbol = of
-            .symbols()
-            .into_iter()
-            .next()
-            .filter(|s| Expr::symbol(s) == of);
-        let Some(symbol) = symbol else {
-            answer.range.push((of, relation, value));
-            continue;
-        };
-        let mut never = None;
-        let mut besides: Vec<Sentence> = Vec::new();
-        for (told, need) in needs().filter(|(_, need)| need.symbols().contains(&symbol)) {
-            let there = need.put(&symbol, &value);
-            if is_zero(&there, &scene.domains) == Some(true) {
+) -> Result<Vec<Need>, Sentence> {
+    let with: Known = question.ask.with().iter().cloned().collect();
+    let with: Known = (with.iter())
+        .map(|(name, value)| (name.clone(), value.substitute(&world.known)))
+        .collect();
+    let mut out: Vec<Need> = Vec::new();
+    for i in leading(stages, world, &chain(&scene.questions, question), earlier) {
+        let told = &stages[i];
+        let ends = told.needs.iter().map(|need| {
+            let so_that = format!("`{}` comes to its end", told.name);
+            let need = essential(need, &scene.domains);
+            let words = sentence!(
+                "{}, so that {}",
+                at_least_zero(&need, &scene.domains),
+                &so_that
+            );
+            Need::new(&need, true, so_that, words)
+        });
+        let case = world.outcome.get(&i).and_then(|k| told.cases.get(*k));
+        let conditions = case.into_iter().flat_map(|case| &case.conditions);
+        let conditions = conditions
+            .map(|condition @ (why, e)| Need::new(e, true, why.clone(), supposed(condition)));
+        for need in ends.chain(conditions) {
+            let Some(need) = need.put(&with, &scene.domains) else {
                 continue;
-            }
-            let seen = sign(&there, &scene.domains);
-            let words = |e: &Expr| {
-                let need = at_least_zero(e, &scene.domains);
-                sentence!("{}, so that `{}` comes to its end", need, &told.name)
             };
-            match seen {
-                Seen::Proved(Sign::Negative) if relation == Relation::Equal => {
-                    never = Some(sentence!(
-                        "{} = {}, with which `{}` never comes to its end: that needs {}",
-                        &symbol,
-                        &value,
-                        &told.name,
-                        at_least_zero(need, &scene.domains)
-                    ));
-                }
-                Seen::Proved(s) if relation == Relation::Equal && s.is_not_negative() => {}
-                _ if relation == Relation::Equal => besides.push(words(&there)),
-                // What every value grants is no condition.
-                _ if matches!(sign(need, &scene.domains), Seen::Proved(s) if s.is_not_negative()) =>
-                    {}
-                // From that value on, everything above it does too.
-                _ if is_upward(relation) && holds_above(need, &symbol, &value, scene) => {}
-                _ => besides.push(words(need)),
+            if need.is_broken(&scene.domains) {
+                let each = with
+                    .iter()
+                    .map(|(name, value)| sentence!("{} = {}", name, value));
+                let with = Sentence::join(each, " and ");
+                return Err(match with.to_string().as_str() {
+                    "" => sentence!("{} is needed, which never is so", need.told),
+                    _ => sentence!("with {} the scene does not get there: {}", with, need.told),
+                });
+            }
+            if !out
+                .iter()
+                .any(|n| n.relation.excess == need.relation.excess)
+            {
+                out.push(need);
             }
         }
-        match never {
-            Some(why) => answer.discarded.push(why),
-            None => {
-                answer.range.push((of, relation, value));
-                answer.assumptions.extend(besides);
-            }
+    }
+    Ok(out)
+}
+
+/// Adds to an answer what it rests on of all that is needed.
+pub(in crate::story) fn tell(scene: &Scene, ask: &Ask, needs: &[Need], answer: &mut Answer) {
+    // A largest value needs what holds at its place.
+    let place = match ask {
+        Ask::Maximum { .. } => answer.range.iter(),
+        _ => [].iter(),
+    };
+    let place = place.map(|(of, _, value)| Some((of.as_symbol()?.clone(), value.clone())));
+    let place: Known = place.flatten().collect();
+    let besides = |need: &Need, all: &[Need]| {
+        let others: Vec<Need> = all.iter().filter(|n| *n != need).cloned().collect();
+        part(scene, &others).domains
+    };
+    let mut left = needs.to_vec();
+    left.retain(|need| !is_granted(need, ask, answer, &besides(need, needs)));
+    for need in left.clone() {
+        match need.put(&place, &besides(&need, &left)) {
+            Some(Need { told, .. }) if answer.assumptions.contains(&told) => {}
+            Some(Need { told, .. }) => answer.assumptions.push(told),
+            // What the others grant is not told besides.
+            None => left.retain(|n| *n != need),
         }
     }
     answer.assumptions.sort();
     answer.assumptions.dedup();
-    if let Form::Value { closed, .. } = &answer.form
-        && had_values
-        && answer.range.is_empty()
-    {
-        let closed = &closed.clone();
-        answer.form = Form::Words;
-        answer.put_in.clear();
-        answer.checks.clear();
-        answer.text = vec![sentence!(
-            "no value does: {} solves the equation, but the scene does not get there with it",
-            closed
-        )];
+}
+
+/// Whether an answer says by itself that something needed holds.
+fn is_granted(need: &Need, ask: &Ask, answer: &Answer, domains: &Domains) -> bool {
+    let excess = &need.relation.excess;
+    match ask {
+        // Each value is held against it already.
+        Ask::Condition {
+            parameter,
+            relation: formula::Relation::Equal,
+            ..
+        } => excess.mentions(parameter) && !answer.range.is_empty(),
+        Ask::Condition { parameter, .. } => match answer.range.as_slice() {
+            // At that value the scene just gets there, or gets there from it on.
+            [(of, relation, value)] if *of == Expr::symbol(parameter) => {
+                is_zero(&excess.put(parameter, value), domains) == Some(true)
+                    || is_upward(*relation) && holds_above(excess, parameter, value, domains)
+            }
+            _ => false,
+        },
+        Ask::Limit { parameter, to, .. } => {
+            let ends_above = || limit::ends_above(excess, parameter, to.as_ref(), domains);
+            excess.mentions(parameter) && (answer.formula().is_none() || ends_above())
+        }
+        _ => false,
     }
 }
 
-fn is_upward(relation: Relation) -> bool {
-    matches!(relation, Relation::Greater | Relation::GreaterEqual)
+fn is_upward(relation: formula::Relation) -> bool {
+    use formula::Relation::{Greater, GreaterEqual};
+    matches!(relation, Greater | GreaterEqual)
 }
 
 /// Whether something is proved not to be negative for every value of a parameter from this one on.
-fn holds_above(need: &Expr, symbol: &Symbol, from: &Expr, scene: &Scene) -> bool {
+fn holds_above(need: &Expr, symbol: &Symbol, from: &Expr, domains: &Domains) -> bool {
     let step = Symbol::from(STEP);
-    let mut domains = scene.domains.clone();
+    let mut domains = domains.clone();
     domains.symbols.insert(step.clone(), Domain::positive());
     let above = from + &Expr::symbol(&step);
     let there = need.put(symbol, &above);
     matches!(sign(&there, &domains), Seen::Proved(s) if s.is_not_negative())
 }
 
-/// The question of an answer, and all whose answers its formulas use.
-fn chain<'a>(questions: &'a [Question], answer: &Answer) -> Vec<&'a Question> {
+/// A question, and all whose answers its formulas use.
+fn chain<'a>(questions: &'a [Question], question: &'a Question) -> Vec<&'a Question> {
     let of = |name: &str| questions.iter().find(|q| q.name == name);
     let mut out: Vec<&Question> = Vec::new();
-    let mut ahead: Vec<&Question> = of(&answer.question).into_iter().collect();
+    let mut ahead = vec![question];
     while let Some(question) = ahead.pop() {
         if out.iter().any(|q| q.name == question.name) {
             continue;
@@ -141,34 +230,27 @@ fn chain<'a>(questions: &'a [Question], answer: &Answer) -> Vec<&'a Question> {
     out
 }
 
-/// The stages that answers to these questions come from, and all before them.
+/// The stages that answers to these questions come from in one of the ways, and all before them.
 fn leading(
     stages: &[StageTold],
-    worlds: &[World],
+    world: &World,
     chain: &[&Question],
     earlier: &[Answer],
-    answer: &Answer,
 ) -> BTreeSet<usize> {
     let mut out = BTreeSet::new();
     for a in earlier {
         let Some(question) = chain.iter().find(|q| q.name == a.question) else {
             continue;
         };
-        let Some((stage, case)) = a.told else {
+        let happens = |at: &(usize, usize)| world.outcome.get(&at.0) == Some(&at.1);
+        let Some((stage, case)) = a.told.filter(happens) else {
             continue;
         };
-        let happens = |w: &usize| worlds[*w].outcome.get(&stage) == Some(&case);
-        if !answer.worlds.is_empty() && !answer.worlds.iter().any(happens) {
-            continue;
-        }
         if question.ask.is_at_end() {
             out.insert(stage);
         }
-        out.extend(
-            line(stages, (stage, case))
-                .skip(1)
-                .map(|(parent, _)| parent),
-        );
+        let before = line(stages, (stage, case)).skip(1);
+        out.extend(before.map(|(parent, _)| parent));
     }
     out
 }

@@ -5,7 +5,7 @@ use super::asked::Asked;
 use crate::domain::Limit;
 use crate::expr::{Expr, Point, Symbol};
 use crate::numeric::Answer as Found;
-use crate::numeric::follow::{self, Followed, What};
+use crate::numeric::follow::{self, Breach, Followed, What};
 use crate::numeric::points::keeps;
 use crate::scene::{Ask, Question};
 
@@ -63,9 +63,17 @@ impl Asked<'_> {
     }
 
     /// The point with values for the answers that a formula needs, as they are followed there; `None` where one of them is not a
-    /// number of the motion, nor a formula of such.
+    /// number of the motion, nor a formula of such, or where bodies that are to collide part before.
     fn known(&self, point: &Point<f64>, followed: &Followed, of: &Expr) -> Option<Point<f64>> {
         let mut out = point.clone();
+        let parts = |breach: &Breach| matches!(breach, Breach::Separates(_));
+        let parts = followed.stages.iter().flatten().any(|s| match &s.what {
+            What::Impact(impact) => impact.breaches.iter().any(parts),
+            What::Motion(_) => false,
+        });
+        if parts {
+            return None;
+        }
         for question in self.needs(of) {
             let name = question.name.as_str();
             let found = match &question.ask {
