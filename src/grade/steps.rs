@@ -5,6 +5,7 @@
 //! introduces. It holds when it is an identity in the derived motion. After a line that does not hold, later lines are
 //! also tried in the motion that line would imply.
 
+mod arrows;
 mod cause;
 mod desk;
 mod link;
@@ -185,8 +186,9 @@ fn check_with(sheet: &Sheet, text: &str, options: &Options, meant: &Meant) -> Wo
     let mut desk = Desk::new(sheet);
     desk.closed.extend(meant.value.clone());
     desk.know_accelerations(meant.value.as_ref());
-    let read = text::joined(text);
+    let read = text::joined(&arrows::spelled(text, &sheet.scene));
     let read = desk.in_names(&read);
+    desk.primed = arrows::primed(&read);
     desk.along_normal(&read);
     desk.know_vectors(&read);
     desk.solved_for = names::solved_for(&read);
@@ -375,7 +377,10 @@ impl Desk<'_> {
         let Some(links) = self.links(reading) else {
             return (self.inequality(reading), Vec::new());
         };
-        let weighed = self.weigh(text, &links);
+        let weighed = match self.is_counted_otherwise(&links) {
+            true => Weighed::Slip(0),
+            false => self.weigh(text, &links),
+        };
         if let (Weighed::Slip(_), Some(found)) = (&weighed, self.said_anew(number, text, options)) {
             return found;
         }
@@ -388,8 +393,10 @@ impl Desk<'_> {
             return (Status::Holds, vec![found]);
         }
         if let Weighed::Slip(_) = weighed
-            && let Some((when, there)) = self.at_another_moment(&links).cloned()
+            && let Some((when, there, of)) = self.at_another_moment(&links)
         {
+            let there = there.clone();
+            self.count(&links, &of);
             let mut sides = links.iter().map(|link| &link.sides[0]);
             let said = sides.next().and_then(|side| side.expr()?.as_symbol());
             if !said.is_some_and(|name| formula::has_arrow(name)) {
@@ -415,6 +422,11 @@ impl Desk<'_> {
             let apart = formula::letters_apart(text, &symbols);
             let apart = apart.and_then(|text| formula::read(&text, &symbols).ok());
             let measured = self.measured(text, reading);
+            if self.is_before_beside_primes(text) {
+                let words = "this holds just before the impact, as it is with a prime after it";
+                let hint = "say which moment is meant";
+                return (Status::Holds, vec![Diagnosis::new(MOMENT, words, hint)]);
+            }
             for other in others.into_iter().take(4).chain(apart).chain(measured) {
                 let Some(links) = self.links(&other) else {
                     continue;
@@ -435,9 +447,34 @@ impl Desk<'_> {
         let status = self.note(number, reading, &links, &weighed);
         let found = match weighed {
             Weighed::Slip(at) => self.diagnosis(reading, at, text, options),
+            Weighed::Holds if link::in_vectors(&links) => {
+                self.count(&links, &BTreeMap::new());
+                let says = self.says_enough(&links, &self.parts, false);
+                let words = "what vanishes at this moment may stand in this line with any factor";
+                let hint = "check the signs of the terms that vanish, or say which moment is meant";
+                let remark = (!says).then(|| Diagnosis::new("VANISHES", words, hint));
+                remark.into_iter().collect()
+            }
             _ => Vec::new(),
         };
         (status, found)
+    }
+
+    /// Whether a line holds where a vector that the page has with a prime as well is the one before.
+    fn is_before_beside_primes(&self, text: &str) -> bool {
+        let of_primed = |letter: &str, index: &str| {
+            let mut primed = self.primed.iter();
+            primed.any(|(l, i)| l == letter && i == index)
+        };
+        let before = arrows::with_mark(text, "^{-}", &of_primed);
+        let reading = formula::read(&before, &self.symbols(&before)).ok();
+        let links = reading
+            .filter(|_| before != text)
+            .and_then(|r| self.links(&r));
+        links.is_some_and(|links| {
+            matches!(self.weigh(text, &links), Weighed::Holds | Weighed::Rounded)
+                && self.says_enough(&links, &self.parts, true)
+        })
     }
 
     /// Keeps what later lines may hang on.
@@ -465,11 +502,13 @@ impl Desk<'_> {
             Weighed::Open => Status::Undecided,
             Weighed::Carried(cause) => {
                 self.believe(*cause, &all);
+                self.believe_vector(*cause, links);
                 self.state(Some(*cause), &all);
                 Status::Carried(*cause)
             }
             Weighed::Slip(_) => {
                 self.believe(number, &all);
+                self.believe_vector(number, links);
                 self.state(Some(number), &all);
                 // That a product vanishes says too little, and too much follows from it.
                 let own = all.iter().map(|d| (number, self.with_own(d)));

@@ -14,7 +14,7 @@ use crate::dimension::Dimension;
 use crate::domain::Domains;
 use crate::equality::{self};
 use crate::expr::{Expr, Node, Symbol, effort};
-use crate::formula::{Content, Reading};
+use crate::formula::{self, Content, Reading};
 use crate::laws::{self, Geometry, Kinematics, Law, Unknown};
 use crate::scene::{Ask, EnergyWhen, Question, Scene};
 
@@ -193,18 +193,97 @@ impl Desk<'_> {
         let [left, .., right] = sides.as_slice() else {
             return;
         };
-        let (Some(name), Some(value)) = (left.expr().and_then(Expr::as_symbol), right.expr())
-        else {
+        let Some(name) = left.expr().and_then(Expr::as_symbol) else {
             return;
         };
-        let value = self.with_own(value);
-        let used = value.symbols();
-        for (_, values) in &mut self.believed {
-            if values.keys().any(|n| used.contains(n)) && !values.contains_key(name) {
-                let implied = value.substitute(values);
-                values.insert(name.clone(), implied);
+        let is_vector = formula::has_arrow(name);
+        let told = match (is_vector, right.expr()) {
+            (true, _) => self.along(name, right).unwrap_or_default(),
+            (false, Some(value)) => vec![(name.clone(), self.with_own(value))],
+            _ => return,
+        };
+        let mut causes = Vec::new();
+        for (cause, values) in &mut self.believed {
+            for (name, value) in &told {
+                let used = value.symbols();
+                if values.keys().any(|n| used.contains(n)) && !values.contains_key(name) {
+                    let implied = value.substitute(values);
+                    values.insert(name.clone(), implied);
+                    causes.push(*cause);
+                }
             }
         }
+        causes.dedup();
+        for cause in causes.into_iter().filter(|_| is_vector).take(MOST_CAUSES) {
+            self.balance(cause, name);
+        }
+    }
+
+    /// The components of a name with an arrow, and what a side says they are.
+    fn along(&self, name: &Symbol, side: &Content) -> Option<Vec<Rule>> {
+        let zero = side.expr().is_some_and(Expr::is_zero);
+        let value = match zero {
+            true => [0; 3].map(|_| Expr::zero()),
+            false => self.vector(side, true)?,
+        };
+        let names = ["x", "y", "z"].map(|axis| Symbol::from(format!("{name}_{axis}")));
+        Some(names.into_iter().zip(value).collect())
+    }
+
+    /// Keeps what a line with a slip says a vector is, as of `\vec{H}_C^{-} = …`, and what its balance says then.
+    pub(super) fn believe_vector(&mut self, cause: usize, links: &[Link]) {
+        let (Some(first), Some(last)) = (links.first(), links.last()) else {
+            return;
+        };
+        let name = first.sides[0].expr().and_then(Expr::as_symbol);
+        let Some(name) = name.filter(|name| formula::has_arrow(name)) else {
+            return;
+        };
+        let Some(along) = self.along(name, &last.sides[1]) else {
+            return;
+        };
+        let mut earlier = self.believed.iter().rev();
+        let earlier = earlier.find(|(c, _)| *c == cause);
+        let mut values = earlier.map(|(_, v)| v.clone()).unwrap_or_default();
+        values.extend(along);
+        self.believed.push((cause, values));
+        self.balance(cause, name);
+    }
+
+    /// What a belief about H before or after an impact says where H is the same in truth.
+    fn balance(&mut self, cause: usize, name: &Symbol) {
+        let Some((base, _, mark)) = formula::vector_name(name) else {
+            return;
+        };
+        let other = match &*mark {
+            "^-" => "^+",
+            "^+" | "'" => "^-",
+            _ => return,
+        };
+        let stem = name.trim_end_matches(&*mark);
+        let other = Symbol::from(format!("{stem}{other}_z"));
+        let mine = Symbol::from(format!("{name}_z"));
+        let gap = Expr::symbol(&mine) - Expr::symbol(&other);
+        let Some(truth) = self.parts.get(&other).filter(|_| base == "H") else {
+            return;
+        };
+        if self.all_zero(&[gap], &BTreeMap::new()) != Some(true) {
+            return;
+        }
+        let of = |name: &Symbol| {
+            let all = self.believed.iter().rev();
+            let all = all.filter_map(|(_, values)| values.get(name)).cloned();
+            all.take(MOST_CAUSES).collect::<BTreeSet<_>>()
+        };
+        let mut theirs = of(&other);
+        theirs.insert(truth.clone());
+        let mine = of(&mine);
+        let gaps = mine.iter().flat_map(|a| theirs.iter().map(move |b| a - b));
+        let gaps: Vec<Expr> = gaps.map(|gap| self.with_own(&gap)).collect();
+        let wrong = gaps.iter().filter(|gap| matches!(gap.node(), Node::Sum(_)));
+        self.wrong.extend(wrong.map(|gap| (cause, gap.clone())));
+        self.believe(cause, &gaps);
+        self.state(Some(cause), &gaps);
     }
 
     /// In a motion with one freedom all velocities are what they are, times the same wrong number; and what comes in later

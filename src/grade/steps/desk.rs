@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::super::sheet::Sheet;
 use super::names::MARKS;
 use super::sought::{self, Sought};
-use super::vectors::{in_products, is_marked, marked_after};
+use super::vectors::{Stand, in_products, is_marked, marked_after};
 use super::{Final, text};
 use crate::answer::Form;
 use crate::derive::Moment;
@@ -26,7 +26,12 @@ pub(super) struct Desk<'a> {
     /// Values at other moments of the scene, and as it goes otherwise, with words that tell when and where.
     pub moments: Vec<Moment>,
     /// The vectors with arrows that the solution names: at other moments, and of other systems of bodies.
-    pub vectors: Vec<Moment>,
+    pub vectors: Vec<Stand>,
+    /// Their components in whatever motion.
+    pub whatever: BTreeMap<Symbol, Expr>,
+    /// Of which body a vector that two share is at first, and on this page.
+    pub first_of: BTreeMap<String, usize>,
+    pub counted: BTreeMap<String, usize>,
     /// What wrong lines imply: for each the value of one name, under all that came before.
     pub believed: Vec<(usize, BTreeMap<Symbol, Expr>)>,
     /// The wrong lines themselves, left minus right, with the student's own names put in.
@@ -36,6 +41,8 @@ pub(super) struct Desk<'a> {
     pub stated: Vec<(Option<usize>, Expr)>,
     /// Names of velocities and spins that all follow from any one of them; empty unless the motion has one freedom.
     pub moving: BTreeSet<Symbol>,
+    /// Letters and indices of vectors that the page has with a prime as well.
+    pub primed: BTreeSet<(String, String)>,
     /// Names the student introduced.
     pub own: BTreeMap<Symbol, Expr>,
     /// Names that were defined with a slip, or may have been: the line that shows it, the name, and its value without the slip.
@@ -89,6 +96,10 @@ impl<'a> Desk<'a> {
             moments: moments(sheet, &closed),
             closed,
             vectors: Vec::new(),
+            whatever: BTreeMap::new(),
+            first_of: BTreeMap::new(),
+            counted: BTreeMap::new(),
+            primed: BTreeSet::new(),
             believed: Vec::new(),
             wrong: Vec::new(),
             stated: Vec::new(),
@@ -164,7 +175,9 @@ impl<'a> Desk<'a> {
                 symbols.declare_as(&*arrow, Some(&arrowed), None);
             }
         }
-        for name in self.parts.keys().filter_map(|name| name.strip_suffix("_z")) {
+        let own = self.own.keys().filter(|name| formula::is_component(name));
+        let vectors = self.parts.keys().chain(own);
+        for name in vectors.filter_map(|name| name.strip_suffix("_z")) {
             let asked = asked.iter().any(|(arrow, _)| arrow == name);
             let before = format!("{name}^-");
             let beside = is_marked(&marked, name);
@@ -280,9 +293,13 @@ impl<'a> Desk<'a> {
 
     /// An expression with the student's own names put in.
     pub(super) fn with_own(&self, e: &Expr) -> Expr {
-        // Own names may use one another.
+        self.with_names(&self.with_names(e).substitute(&self.parts))
+    }
+
+    /// An expression with own names put in, which may use one another.
+    fn with_names(&self, e: &Expr) -> Expr {
         let rounds = 0..self.own.len().min(8);
-        rounds.fold(e.substitute(&self.parts), |e, _| e.substitute(&self.own))
+        rounds.fold(e.clone(), |e, _| e.substitute(&self.own))
     }
 
     /// Whether all differences vanish with the names' values put in; those of `instead` go first.
@@ -309,8 +326,9 @@ impl<'a> Desk<'a> {
             .iter()
             .filter(|(name, _)| formula::is_component(name));
         let vectors: BTreeMap<_, _> = vectors.map(|(n, v)| (n.clone(), v.clone())).collect();
-        // Sizes of vectors first: their components are known as such before these are put in.
-        let own = self.with_own(&self.magnitudes(e).substitute(&vectors));
+        // Sizes of vectors first: their components are known as such before these are put in. Own names may stand for such.
+        let own = self.magnitudes(&self.with_names(e)).substitute(&vectors);
+        let own = self.with_own(&own);
         self.magnitudes(&own)
             .substitute(instead)
             .substitute(&self.closed)

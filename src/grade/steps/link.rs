@@ -9,10 +9,10 @@ use super::cause::{MOST_STEPS, size_in, under_root};
 use super::names::ACCELERATIONS;
 use super::rounded::is_near;
 use super::text::{equations, supposition};
+use super::vectors::Stand;
 use super::{Desk, Final, Status};
 use crate::algebra::{self, Sign};
 use crate::answer::limit;
-use crate::derive::Moment;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Function, Symbol, effort};
 use crate::formula::{self, Content, Reading, Relation};
@@ -25,6 +25,9 @@ pub(super) struct Link {
     /// Left minus right, components of vectors one by one.
     pub differences: Vec<Expr>,
 }
+
+/// Words for a moment, its values, and the bodies of which shared vectors are.
+type Elsewhere<'d> = (String, &'d BTreeMap<Symbol, Expr>, BTreeMap<String, usize>);
 
 /// What is found of the links of a line.
 pub(super) enum Weighed {
@@ -49,7 +52,7 @@ impl Desk<'_> {
     pub(super) fn components(&self, name: &str) -> Option<[Expr; 3]> {
         // At another moment the vector may be another one.
         let over = |values: &BTreeMap<Symbol, Expr>| values.contains_key(&*format!("{name}_z"));
-        if self.vectors.iter().any(|(_, values)| over(values)) {
+        if self.vectors.iter().any(|stand| over(&stand.values)) {
             return Some(["x", "y", "z"].map(|axis| Expr::symbol(&format!("{name}_{axis}"))));
         }
         if let Some((spin, clockwise)) = self.spins.get(name) {
@@ -254,24 +257,53 @@ impl Desk<'_> {
         }
     }
 
-    /// When or where all links of a line hold that do not as the scene goes first: just after another impact, or in another case.
-    pub(super) fn at_another_moment(&self, links: &[Link]) -> Option<&Moment> {
+    /// When or where all links of a line hold that do not as the scene goes first: just after another impact, or in another case;
+    /// with the bodies of which shared vectors are then.
+    pub(super) fn at_another_moment(&self, links: &[Link]) -> Option<Elsewhere<'_>> {
         let all: Vec<Expr> = links.iter().flat_map(|l| l.differences.clone()).collect();
-        let holds = |values| self.all_zero(&all, values) == Some(true);
+        let holds = |values: &BTreeMap<Symbol, Expr>| self.all_zero(&all, values) == Some(true);
         // What still speaks of a parameter is no line about one value of it.
         let own: Vec<Expr> = all.iter().map(|d| self.with_own(d)).collect();
         let is_open = |name: &Symbol| {
             let parameter = self.sheet.scene.parameter(name);
             parameter.is_some() && own.iter().any(|d| d.mentions(name))
         };
+        let fits = |values: &BTreeMap<Symbol, Expr>| {
+            !values.keys().any(is_open) && holds(values) && self.says_enough(links, values, false)
+        };
         let vectors = all
             .iter()
             .any(|d| d.symbols().iter().any(|n| formula::is_component(n)));
-        let vectors = self.vectors.iter().filter(|_| vectors);
-        let mut moments = self.moments.iter().chain(vectors);
-        moments.find(|(_, values)| {
-            !values.keys().any(is_open) && holds(values) && self.says_enough(links, values)
-        })
+        let other = self.is_counted_otherwise(links);
+        let mut moments = self.moments.iter().filter(|_| !other);
+        if let Some((when, values)) = moments.find(|(_, values)| fits(values)) {
+            return Some((when.clone(), values, BTreeMap::new()));
+        }
+        let shared = self.shared_in(links);
+        let agrees = |stand: &&Stand| {
+            let kept = shared
+                .iter()
+                .filter(|(key, _)| self.counted.contains_key(key));
+            kept.clone()
+                .all(|(key, _)| stand.of.get(key) == self.counted.get(key))
+        };
+        let mut stands = self.vectors.iter().filter(|_| vectors).filter(agrees);
+        let stand = stands.find(|s| fits(&s.values) && !self.is_idle(links, s))?;
+        let of = stand
+            .of
+            .iter()
+            .filter(|(key, _)| shared.iter().any(|(k, _)| k == *key));
+        let of: BTreeMap<String, usize> = of.map(|(key, b)| (key.clone(), *b)).collect();
+        let impulses = of.iter().filter_map(|(key, b)| {
+            let index = key.strip_prefix("P ")?;
+            let body = &self.sheet.scene.bodies.get(*b)?.name;
+            Some(format!(", P_{index} counted on `{body}`"))
+        });
+        Some((
+            stand.when.clone() + &impulses.collect::<String>(),
+            &stand.values,
+            of,
+        ))
     }
 
     fn carried_on(&self, link: &Link) -> Option<usize> {

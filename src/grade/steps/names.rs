@@ -321,12 +321,13 @@ impl Desk<'_> {
         if self.own.len() >= MOST_NAMES {
             return None;
         }
-        if let [Content::Vector(v)] = sides {
-            for (axis, value) in ["x", "y", "z"].iter().zip(v) {
-                let part = Symbol::from(format!("{name}_{axis}").as_str());
-                self.own.insert(part, value.clone());
-            }
-            return Some((Status::Defines, Vec::new()));
+        let vector = match sides {
+            [Content::Vector(v)] => Some(v.clone()),
+            [side, ..] if formula::has_arrow(&name) => self.vector(side, true),
+            _ => None,
+        };
+        if let Some(v) = vector {
+            return self.own_vector(text, &name, v, &right);
         }
         let values: Option<Vec<&Expr>> = sides.iter().map(Content::expr).collect();
         let values = values?;
@@ -375,6 +376,31 @@ impl Desk<'_> {
             Weighed::Slip(at) => {
                 self.slipped.push((number, name, first));
                 let broken = self.broken(&right, at, text);
+                (Status::Wrong, broken.into_iter().collect())
+            }
+        })
+    }
+
+    /// A new name for a vector; of a chain all further links are judged.
+    fn own_vector(
+        &mut self,
+        text: &str,
+        name: &str,
+        value: [Expr; 3],
+        right: &Reading,
+    ) -> Option<(Status, Vec<Diagnosis>)> {
+        let links = match &right.content {
+            Content::Relations(..) => self.links(right)?,
+            _ => Vec::new(),
+        };
+        let along = ["x", "y", "z"].map(|axis| Symbol::from(format!("{name}_{axis}")));
+        self.own.extend(along.into_iter().zip(value));
+        Some(match self.weigh(text, &links) {
+            Weighed::Holds | Weighed::Rounded => (Status::Defines, Vec::new()),
+            Weighed::Open => (Status::Undecided, Vec::new()),
+            Weighed::Carried(cause) => (Status::Carried(cause), Vec::new()),
+            Weighed::Slip(at) => {
+                let broken = self.broken(right, at, text);
                 (Status::Wrong, broken.into_iter().collect())
             }
         })

@@ -11,8 +11,7 @@ use super::super::believed::Story;
 use super::Desk;
 use super::link::Link;
 use super::names::readings;
-use crate::derive::{Moment, Names};
-use crate::equality;
+use crate::derive::Names;
 use crate::expr::{Expr, Node, Symbol, Vector, cross, minus};
 use crate::formula::{self, Content, Reading, Symbols};
 use crate::laws::{self, Affine, Geometry, Kinematics, Place, Unknown};
@@ -38,8 +37,28 @@ struct Meant {
     system: Vec<usize>,
     /// Which of the two bodies at a joint an impulse is counted on; by the system where it is not said.
     on: Option<usize>,
-    /// Whether a vector without a mark is of the moment just after, rather than just before.
-    after: bool,
+    /// The moment of a vector without a mark.
+    when: When,
+}
+
+/// A moment of an impact, or any motion that bodies can have.
+#[derive(Clone, Copy, PartialEq)]
+enum When {
+    Before,
+    After,
+    Whatever,
+}
+
+/// The vectors of a page at a moment, of one system of bodies.
+pub(super) struct Stand {
+    /// Words for the moment and the system.
+    pub when: String,
+    /// Components by name.
+    pub values: BTreeMap<Symbol, Expr>,
+    /// Of impulses and points that two bodies share: on which of them, by letter and index.
+    pub of: BTreeMap<String, usize>,
+    /// What is the same before and after.
+    still: BTreeSet<Symbol>,
 }
 
 /// A point of a scene and the bodies that are there, those that can move first.
@@ -140,14 +159,13 @@ impl<'a> Impact<'a> {
         }
         let mut points = scene.points.iter();
         let point = points.find(|point| is_index(&point.name, index))?;
-        let moving = self.moving();
+        let mut bodies = self.moving();
+        if bodies.len() > 1 {
+            bodies.retain(|&b| scene.bodies[b].center == point.at);
+        }
         Some(Point {
             at: point.at.clone(),
-            bodies: if moving.len() == 1 {
-                moving
-            } else {
-                Vec::new()
-            },
+            bodies,
         })
     }
 
@@ -167,91 +185,146 @@ impl<'a> Impact<'a> {
         })
     }
 
-    fn velocity(&self, b: usize, at: &Vector, after: bool) -> Option<Vector> {
-        if !after {
-            return Some(self.geometry.velocity_before(b, at));
+    fn velocity(&self, b: usize, at: &Vector, when: When) -> Option<Vector> {
+        match when {
+            When::Before => Some(self.geometry.velocity_before(b, at)),
+            When::After => {
+                let [x, y] = self.after.velocity_of(&self.geometry, b, at);
+                Some([self.put_in(&x)?, self.put_in(&y)?])
+            }
+            When::Whatever => {
+                let [x, y] = minus(at, &self.scene.bodies[b].center);
+                let spin = &self.spin(b, when)?;
+                let of = |axis: &str| Expr::symbol(&format!("any {axis} of {b}"));
+                Some([of("x") - spin * &y, of("y") + spin * &x])
+            }
         }
-        let [x, y] = self.after.velocity_of(&self.geometry, b, at);
-        Some([self.put_in(&x)?, self.put_in(&y)?])
     }
 
-    fn spin(&self, b: usize, after: bool) -> Option<Expr> {
-        match after {
-            true => self.put_in(&self.after.spin[b]),
-            false => Some(self.geometry.before(b).1.clone()),
+    fn spin(&self, b: usize, when: When) -> Option<Expr> {
+        match when {
+            When::After => self.put_in(&self.after.spin[b]),
+            When::Before => Some(self.geometry.before(b).1.clone()),
+            When::Whatever => Some(Expr::symbol(&format!("any spin of {b}"))),
         }
     }
 
     /// Angular momentum of a system about a point, Σ r × m v + I ω.
-    fn angular_momentum(&self, system: &[usize], about: &Vector, after: bool) -> Option<Expr> {
+    fn angular_momentum(&self, system: &[usize], about: &Vector, when: When) -> Option<Expr> {
         let of = |&b: &usize| {
             let body = &self.scene.bodies[b];
-            let velocity = self.velocity(b, &body.center, after)?;
+            let velocity = self.velocity(b, &body.center, when)?;
             let orbital = &body.mass * &cross(&minus(&body.center, about), &velocity);
             if body.is_particle() {
                 return Some(orbital);
             }
-            Some(orbital + &(&body.inertia * &self.spin(b, after)?))
+            Some(orbital + &(&body.inertia * &self.spin(b, when)?))
         };
         let all: Option<Vec<Expr>> = system.iter().map(of).collect();
         Some(Expr::sum(all?))
     }
 
-    /// The impulse at a point: on one of the two bodies there that can move, else on a system that it is not inside of.
-    fn impulse(&self, index: &str, meant: &Meant) -> Option<Vector> {
+    /// The joint of a name, and its two bodies.
+    fn joint(&self, index: &str) -> Option<(Place, [usize; 2])> {
         let scene = self.scene;
         let named = |name: &str| is_index(name, index);
         let contact = scene.contacts.iter().position(|c| named(&c.name));
         let hinge = scene.hinges.iter().position(|h| named(&h.name));
         let blow = scene.blows.iter().position(|b| named(&b.name));
-        let (place, bodies) = match (contact, hinge, blow) {
+        Some(match (contact, hinge, blow) {
             (Some(c), ..) => (Place::Contact(c), scene.contacts[c].bodies),
             (_, Some(h), _) => (Place::Hinge(h), scene.hinges[h].bodies),
             (_, _, Some(b)) => (Place::Blow(b), [scene.blows[b].body; 2]),
             _ => return None,
-        };
-        let on_second = match meant.on {
+        })
+    }
+
+    /// Which of the two bodies at a joint an impulse is counted on: one that can move, else one of a system that the joint is not
+    /// inside of.
+    fn counted_on(&self, bodies: [usize; 2], meant: &Meant) -> Option<usize> {
+        match meant.on {
             Some(k) => {
-                let acts = bodies[0] != bodies[1] && !scene.bodies[bodies[k]].is_fixed();
-                acts.then_some(k == 1)?
+                let acts = bodies[0] != bodies[1] && !self.scene.bodies[bodies[k]].is_fixed();
+                acts.then_some(k)
             }
             None => match bodies.map(|b| meant.system.contains(&b)) {
-                [true, false] => false,
-                [false, true] => true,
-                [inside, _] => Some(true).filter(|_| inside && bodies[0] == bodies[1])?,
+                [true, false] => Some(0),
+                [false, true] => Some(1),
+                [inside, _] => Some(1).filter(|_| inside && bodies[0] == bodies[1]),
             },
-        };
-        let [x, y] = laws::impulse_at(scene, &self.geometry, place);
+        }
+    }
+
+    fn impulse(&self, index: &str, meant: &Meant) -> Option<Vector> {
+        let (place, bodies) = self.joint(index)?;
+        let on = self.counted_on(bodies, meant)?;
+        let [x, y] = laws::impulse_at(self.scene, &self.geometry, place);
         let impulse = [self.put_in(&x)?, self.put_in(&y)?];
-        Some(match on_second {
-            true => impulse,
-            false => impulse.map(|p| -p),
+        Some(match on {
+            0 => impulse.map(|p| -p),
+            _ => impulse,
         })
+    }
+
+    /// The body whose velocity at a point is meant, and the point.
+    fn body_at(&self, index: &str, meant: &Meant) -> Option<(usize, Vector, bool)> {
+        let asked = || self.asked_of(&format!("v{index}"));
+        let point = self.point(index).or_else(asked)?;
+        let free = point
+            .bodies
+            .iter()
+            .filter(|&&b| !self.scene.bodies[b].is_fixed());
+        let shared = free.count() > 1;
+        let mut bodies = point.bodies.iter();
+        let system = &meant.system;
+        let b = bodies.find(|b| system.contains(b));
+        Some((*b.or(point.bodies.first())?, point.at, shared))
+    }
+
+    /// Of what two bodies share: which of them is meant.
+    fn shared(&self, name: &Symbol, meant: &Meant) -> Option<(String, usize)> {
+        let (base, index, _) = formula::vector_name(name)?;
+        let body = match &*base {
+            "P" => {
+                let (_, bodies) = self.joint(&index)?;
+                let both = bodies.iter().all(|&b| !self.scene.bodies[b].is_fixed());
+                let on = self.counted_on(bodies, meant)?;
+                (both && bodies[0] != bodies[1]).then_some(bodies[on])
+            }
+            "v" => {
+                let (b, _, shared) = self.body_at(&index, meant)?;
+                shared.then_some(b)
+            }
+            _ => None,
+        };
+        Some((shared_key(&base, &index), body?))
     }
 
     /// The vector that a name stands for, of a system of bodies.
     fn vector(&self, name: &Symbol, meant: &Meant) -> Option<[Expr; 3]> {
         let system = &meant.system;
         let (base, index, mark) = formula::vector_name(name)?;
-        let after = match &*mark {
-            "" => meant.after,
-            "'" | "^+" => true,
-            "^-" => false,
+        let when = match &*mark {
+            _ if meant.when == When::Whatever => When::Whatever,
+            "" => meant.when,
+            "'" | "^+" => When::After,
+            "^-" => When::Before,
             _ => return None,
         };
         let flat = |[x, y]: Vector| [x, y, Expr::zero()];
         let out_of_page = |z: Expr| [Expr::zero(), Expr::zero(), z];
         match &*base {
             "v" => {
-                let asked = || self.asked_of(&format!("v{index}"));
-                let point = self.point(&index).or_else(asked)?;
-                let mut bodies = point.bodies.iter();
-                let b = bodies
-                    .find(|b| system.contains(b))
-                    .or(point.bodies.first())?;
-                self.velocity(*b, &point.at, after).map(flat)
+                let of = |index: &str| {
+                    let (b, at, _) = self.body_at(index, meant)?;
+                    self.velocity(b, &at, when)
+                };
+                match index.split_once('/') {
+                    Some((of_one, from)) => Some(flat(minus(&of(of_one)?, &of(from)?))),
+                    None => of(&index).map(flat),
+                }
             }
-            "omega" => self.spin(self.body(&index)?, after).map(out_of_page),
+            "omega" => self.spin(self.body(&index)?, when).map(out_of_page),
             "r" => {
                 let (to, from) = index.split_once('/')?;
                 let [to, from] = [self.point(to)?, self.point(from)?];
@@ -263,9 +336,9 @@ impl<'a> Impact<'a> {
                     None => (&*index, system.to_vec()),
                 };
                 let about = self.point(about)?.at;
-                self.angular_momentum(&only, &about, after).map(out_of_page)
+                self.angular_momentum(&only, &about, when).map(out_of_page)
             }
-            "P" => self.impulse(&index, meant).map(flat),
+            "P" if when != When::Whatever => self.impulse(&index, meant).map(flat),
             "n" => {
                 let mut contacts = self.scene.contacts.iter();
                 let contacts: Vec<_> = contacts.by_ref().filter(|c| c.normal.is_some()).collect();
@@ -280,31 +353,58 @@ impl<'a> Impact<'a> {
     }
 
     /// The vectors of each system by what they are read as, without a mark just after and just before, and words for which they are.
-    fn moments(&self, names: &[(Symbol, Symbol)], impact: &str) -> Vec<Moment> {
-        let mut all: Vec<Moment> = Vec::new();
+    fn moments(&self, names: &[(Symbol, Symbol)], impact: &str) -> Vec<Stand> {
+        let mut all: Vec<Stand> = Vec::new();
         let whole = self.moving();
+        let times = [When::After, When::Before];
+        let ways = [None, Some(1), Some(0)].into_iter();
+        let ways: Vec<_> = ways.flat_map(|on| times.map(|when| (on, when))).collect();
         for system in self.systems() {
-            let bodies = system
-                .iter()
-                .map(|&b| format!("`{}`", self.scene.bodies[b].name));
-            let bodies: Vec<String> = bodies.collect();
             let of = match system == whole {
                 true => String::new(),
-                false => format!(", of {} alone", formula::listed(&bodies)),
+                false => format!(", of {} alone", self.listed(&system)),
             };
-            for (on, after) in [None, Some(1), Some(0)]
-                .into_iter()
-                .flat_map(|on| [(on, true), (on, false)])
-            {
-                let when = if after { "after" } else { "before" };
+            for &(on, when) in &ways {
                 let system = system.clone();
-                let values = self.components(names, &Meant { system, on, after });
-                if !all.iter().any(|(_, other)| *other == values) {
-                    all.push((format!("just {when} {impact}{of}"), values));
+                let meant = Meant { system, on, when };
+                let values = self.components(names, &meant);
+                if all.iter().any(|other| other.values == values) {
+                    continue;
                 }
+                let shared = names
+                    .iter()
+                    .filter_map(|(name, _)| self.shared(name, &meant));
+                let unmoved = names.iter().filter(|(name, _)| self.is_still(name, &meant));
+                let word = if when == When::After {
+                    "after"
+                } else {
+                    "before"
+                };
+                all.push(Stand {
+                    when: format!("just {word} {impact}{of}"),
+                    of: shared.collect(),
+                    still: unmoved.map(|(_, key)| key.clone()).collect(),
+                    values,
+                });
             }
         }
         all
+    }
+
+    fn listed(&self, bodies: &[usize]) -> String {
+        let names = bodies
+            .iter()
+            .map(|&b| format!("`{}`", self.scene.bodies[b].name));
+        formula::listed(&names.collect::<Vec<_>>())
+    }
+
+    /// Whether a vector is the same before the impact as after it.
+    fn is_still(&self, name: &Symbol, meant: &Meant) -> bool {
+        let at = |mark: &str| {
+            let plain = name.split(['^', '\'']).next().unwrap_or_default();
+            self.vector(&Symbol::from(format!("{plain}{mark}")), meant)
+        };
+        at("^-").is_some_and(|before| at("^+") == Some(before))
     }
 
     /// The components of all that have a value.
@@ -316,6 +416,11 @@ impl<'a> Impact<'a> {
         });
         known.flatten().collect()
     }
+}
+
+/// What names without their marks are told apart by.
+fn shared_key(base: &str, index: &str) -> String {
+    format!("{base} {index}")
 }
 
 /// Whether an index is this name, written without what cannot stand in one.
@@ -423,11 +528,18 @@ impl Desk<'_> {
             }
         };
         let names: BTreeSet<Symbol> = used.filter_map(|name| arrowed(&name)).collect();
-        // Beside `v'` a v without a mark is the one before.
-        let before = names.iter().filter_map(|name| {
-            let (base, _, mark) = formula::vector_name(name)?;
-            let has_moment = ["v", "omega", "H"].contains(&&*base) && mark.is_empty();
-            has_moment.then(|| Symbol::from(format!("{name}^-")))
+        // Beside `v'` a v without a mark is the one before, and H may be the same at both moments.
+        let before = names.iter().flat_map(|name| {
+            let (base, _, mark) = formula::vector_name(name).unwrap_or_default();
+            let stem = name.trim_end_matches(&*mark);
+            let marks: &[&str] = match (&*base, &*mark) {
+                ("v" | "omega", "") => &["^-"],
+                ("H", _) => &["^-", "^+"],
+                _ => &[],
+            };
+            marks
+                .iter()
+                .map(move |mark| Symbol::from(format!("{stem}{mark}")))
         });
         let names: BTreeSet<Symbol> = before.chain(names.iter().cloned()).collect();
         let names: Vec<(Symbol, Symbol)> = names.into_iter().filter_map(read_as).collect();
@@ -438,71 +550,152 @@ impl Desk<'_> {
         let closed = self.closed.clone();
         let name_of = |name: &Symbol| closed.contains_key(name).then(|| Expr::symbol(name));
         let first = Impact::new(&sheet.scene, &sheet.derivation.names, &name_of);
-        for (when, values) in first.moments(&names, "the impact") {
-            for (name, value) in &values {
+        for stand in first.moments(&names, "the impact") {
+            for (name, value) in &stand.values {
                 let told = self.parts.entry(name.clone());
                 told.or_insert_with(|| value.clone());
             }
-            self.vectors.push((when, values));
+            for (shared, body) in &stand.of {
+                self.first_of.entry(shared.clone()).or_insert(*body);
+            }
+            self.vectors.push(stand);
         }
+        let (system, on) = (first.moving(), None);
+        let when = When::Whatever;
+        self.whatever = first.components(&names, &Meant { system, on, when });
         for (scene, (when, motion)) in sheet.impacts.iter().zip(&sheet.moments) {
             let value = |name: &Symbol| motion.get(name).cloned();
             let names_there = Names::of(scene);
             let impact = Impact::new(scene, &names_there, &value);
             let which = when.trim_start_matches("just after ");
-            for (when, values) in impact.moments(&names, which) {
-                let all = motion.clone().into_iter().chain(values);
-                self.vectors.push((when, all.collect()));
+            for stand in impact.moments(&names, which) {
+                let all = motion.clone().into_iter().chain(stand.values);
+                let values = all.collect();
+                self.vectors.push(Stand { values, ..stand });
             }
         }
     }
 
-    /// Whether a line tells velocities and places in vectors, which may be of a moment in a motion.
+    /// Whether a line tells velocities and places in vectors, which may be of a moment in a motion, and not just of an impact by
+    /// their marks.
     pub(super) fn is_of_a_motion(&self, links: &[Link]) -> bool {
-        let vectors = links.iter().flat_map(|link| &link.sides);
-        let vectors = vectors.flat_map(Content::symbols);
-        let vectors: Vec<Symbol> = vectors.filter_map(|name| arrowed(&name)).collect();
-        let moves = |name: &Symbol| {
-            let base = formula::vector_name(name).map(|(base, ..)| base);
-            base.is_some_and(|base| ["v", "r", "omega"].contains(&&*base))
-        };
+        let names = Desk::arrows(links);
+        let (mut moves, mut marked, mut any) = (!names.is_empty(), true, false);
+        for name in &names {
+            let Some((base, _, mark)) = formula::vector_name(name) else {
+                continue;
+            };
+            let mark = ["^-", "^+"].contains(&&*mark);
+            moves &= ["v", "r", "omega"].contains(&&*base);
+            // The mark of a spin that is asked for is read off it.
+            marked &= mark || base == "r" || self.spins.contains_key(name);
+            any |= mark;
+        }
         let story = self.sheet.story.as_ref();
-        story.is_some_and(Story::has_motions) && !vectors.is_empty() && vectors.iter().all(moves)
+        story.is_some_and(Story::has_motions) && moves && !(marked && any)
     }
 
-    /// Whether none of the velocities without a mark vanishes beside others at a moment: a term with it could be any.
-    pub(super) fn says_enough(&self, links: &[Link], values: &BTreeMap<Symbol, Expr>) -> bool {
+    /// The vectors with arrows that a line names.
+    fn arrows(links: &[Link]) -> BTreeSet<Symbol> {
         let sides = links.iter().flat_map(|link| &link.sides);
-        let unmarked = |(base, _, mark): (String, String, String)| {
-            ["v", "omega"].contains(&&*base) && mark.is_empty()
+        let names = sides.flat_map(Content::symbols);
+        names.filter_map(|name| arrowed(&name)).collect()
+    }
+
+    /// Whether a line says more than that nothing is nothing: one of the vectors in it does not vanish at a moment, none of the
+    /// velocities without a mark vanishes beside others, since a term with it could be any, or it holds of whatever motion;
+    /// with `all` none that has one either.
+    pub(super) fn says_enough(
+        &self,
+        links: &[Link],
+        values: &BTreeMap<Symbol, Expr>,
+        all: bool,
+    ) -> bool {
+        let of_moment = |name: &Symbol, bases: &[&str]| {
+            let named = formula::vector_name(name);
+            named
+                .filter(|(base, ..)| bases.contains(&&**base))
+                .map(|(.., mark)| mark)
         };
-        let names: BTreeSet<Symbol> = (sides.flat_map(Content::symbols))
-            .filter_map(|name| arrowed(&name))
-            .filter(|name| formula::vector_name(name).is_some_and(unmarked))
-            .collect();
         let vanishes = |name: &Symbol| {
             let along = ["x", "y", "z"].map(|axis| Expr::symbol(&format!("{name}_{axis}")));
             self.all_zero(&along, values) == Some(true)
         };
-        let (gone, left): (Vec<Symbol>, Vec<Symbol>) = names.into_iter().partition(vanishes);
-        let nothing = |side: &Content| side.expr().is_some_and(Expr::is_zero);
-        let told = links.iter().any(|link| link.sides.iter().any(nothing));
-        let domains = &self.sheet.scene.domains;
-        // What holds of whatever motion, as H = r × m v + I ω, says it all the same.
-        let differences = links.iter().flat_map(|link| &link.differences);
-        let mut differences = differences.map(|d| self.with_own(&d.substitute(values)));
-        let literal = |name: &Symbol| {
-            let along = |axis: &&str| {
-                values
-                    .get(&*format!("{name}_{axis}"))
-                    .is_none_or(Expr::is_zero)
-            };
-            ["x", "y", "z"].iter().all(along)
+        let names = Desk::arrows(links);
+        let bases = ["v", "omega", "H", "P"];
+        let moving = names
+            .iter()
+            .filter(|name| of_moment(name, &bases).is_some());
+        let (gone, left): (Vec<&Symbol>, Vec<&Symbol>) = moving.partition(|name| vanishes(name));
+        let nothing = |side: &Content| match side {
+            Content::Vector(v) => v.iter().all(Expr::is_zero),
+            side => side.expr().is_some_and(Expr::is_zero),
         };
-        gone.is_empty()
-            || left.is_empty() && (gone.len() == 1 || told)
-            || !gone.iter().any(literal)
-                && differences.all(|d| equality::identical(&d, &Expr::zero(), domains))
+        let told = links.iter().any(|link| link.sides.iter().any(nothing));
+        if left.is_empty() {
+            return gone.len() < 2 || told;
+        }
+        let unmarked = |name: &&&Symbol| {
+            of_moment(name, &bases[..2]).is_some_and(|mark| mark.is_empty() || all)
+        };
+        !gone.iter().any(|name| unmarked(&name)) || self.is_law(links)
+    }
+
+    /// Whether a line holds of whatever motion of the bodies, as H = r × m v + I ω does.
+    fn is_law(&self, links: &[Link]) -> bool {
+        let marks = Desk::arrows(links).into_iter();
+        let marks: BTreeSet<String> = marks
+            .filter_map(|n| Some(formula::vector_name(&n)?.2))
+            .collect();
+        let all: Vec<Expr> = links.iter().flat_map(|l| l.differences.clone()).collect();
+        let one = marks.iter().filter(|mark| !mark.is_empty()).count() < 2;
+        one && self.all_zero(&all, &self.whatever) == Some(true)
+    }
+
+    /// Whether a line says how vectors of both moments are related that an impact does not change.
+    pub(super) fn is_idle(&self, links: &[Link], stand: &Stand) -> bool {
+        let names = Desk::arrows(links);
+        let marked = |marks: &[&str]| {
+            let mark = |name: &Symbol| Some(formula::vector_name(name)?.2);
+            names
+                .iter()
+                .any(|n| mark(n).is_some_and(|m| marks.contains(&&*m)))
+        };
+        let mut moving = names.iter().filter(|name| {
+            let base = formula::vector_name(name).map(|(base, ..)| base);
+            base.is_some_and(|base| ["v", "omega", "H"].contains(&&*base))
+        });
+        marked(&["^-", ""]) && marked(&["^+", "'"]) && moving.all(|name| stand.still.contains(name))
+    }
+
+    /// Of the impulses and points in a line that two bodies share: which body is meant at first.
+    pub(super) fn shared_in(&self, links: &[Link]) -> Vec<(String, usize)> {
+        let names = Desk::arrows(links).into_iter();
+        let keys = names.filter_map(|name| {
+            let (base, index, _) = formula::vector_name(&name)?;
+            let key = shared_key(&base, &index);
+            Some((key.clone(), *self.first_of.get(&key)?))
+        });
+        keys.collect()
+    }
+
+    /// Whether a line has a shared impulse or velocity of another body than the page has had it.
+    pub(super) fn is_counted_otherwise(&self, links: &[Link]) -> bool {
+        let mut shared = self.shared_in(links).into_iter();
+        shared.any(|(key, first)| self.counted.get(&key).is_some_and(|kept| *kept != first))
+    }
+
+    /// Keeps of which bodies shared vectors are in a line that holds for these alone.
+    pub(super) fn count(&mut self, links: &[Link], of: &BTreeMap<String, usize>) {
+        let all: Vec<Expr> = links.iter().flat_map(|l| l.differences.clone()).collect();
+        for (key, first) in self.shared_in(links) {
+            let meant = of.get(&key).copied().unwrap_or(first);
+            let other = |stand: &&Stand| stand.of.get(&key).is_some_and(|b| *b != meant);
+            let mut others = self.vectors.iter().filter(other);
+            if !others.any(|stand| self.all_zero(&all, &stand.values) == Some(true)) {
+                self.counted.entry(key).or_insert(meant);
+            }
+        }
     }
 
     /// The components of a sum of multiples of vectors: of those with arrows, and where these stand beside them of those that
