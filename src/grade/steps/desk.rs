@@ -157,7 +157,10 @@ impl<'a> Desk<'a> {
             let mut vectors = asked.iter().filter(|(_, other)| other.name == q.name);
             let crossed = vectors.any(|(arrow, _)| in_product(arrow) || is_marked(&marked, arrow));
             if !spin && (known || self.components(&q.name).is_some()) && !is_given(&q.name) {
-                let latex = q.latex.as_deref().filter(|_| !crossed);
+                let latex = q
+                    .latex
+                    .as_deref()
+                    .filter(|l| !crossed || !l.contains("vec"));
                 symbols.declare_as(q.name.as_str(), latex, None);
             }
         }
