@@ -63,8 +63,11 @@ impl Desk<'_> {
                 // In an energy or a law of constant acceleration it stands by its square, and has the sign that it has in truth.
                 let size = || size_in(&reduced, &name, domains);
                 let below = || matches!(sign(&self.closed[&name], domains), Some(Sign::Negative));
-                let root = solve_for(&reduced, &name, domains)
-                    .or_else(|| size().map(|size| if below() { -size } else { size }));
+                // With the closed forms of all others put in, a balance of energies may run away.
+                let root = effort::within(MOST_STEPS, || {
+                    solve_for(&reduced, &name, domains)
+                        .or_else(|| size().map(|size| if below() { -size } else { size }))
+                });
                 if let Some(root) = root {
                     let mut values = earlier.clone();
                     self.carry_along(&name, &root, &mut values);
