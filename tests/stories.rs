@@ -629,3 +629,28 @@ fn what_follows_the_case_that_is_supposed_rests_on_its_condition() {
     let given = plain(&x.expect("where it lands").assumptions);
     assert!(given.contains("sticks in compression"), "{given}");
 }
+
+#[test]
+fn an_answer_tells_what_it_rests_on() {
+    let table = std::fs::read_to_string("tests/stories/given.tsv").expect("the table");
+    let rows = table
+        .lines()
+        .filter(|l| !l.starts_with('#') && !l.is_empty());
+    for row in rows {
+        let columns: Vec<&str> = row.split('\t').collect();
+        let [name, answer, words, _] = columns.as_slice() else {
+            panic!("a row has four columns: {row}");
+        };
+        let scene = scene(name);
+        let told = told(&scene);
+        let is_it = |a: &&Answer| a.name.split("_case").next() == Some(answer);
+        let mine: Vec<&Answer> = told.answers.iter().filter(is_it).collect();
+        let given = carom::answer::given_alike(&mine).into_iter();
+        let given = given.map(|words| words.written(|e| render::unicode(&scene, e)));
+        let given: Vec<String> = given.collect();
+        assert!(
+            given.iter().any(|g| g.contains(words)),
+            "{name} {answer}: {given:?}"
+        );
+    }
+}

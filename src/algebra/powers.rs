@@ -32,7 +32,9 @@ impl Field {
             if !p.has(g) || g == v || !self.hangs_on(g, symbol) {
                 continue;
             }
-            let (Kind::Root, Some((2, value))) = (&self.gens[g].kind, &self.gens[g].relation)
+            // A root, or the other component of a unit vector.
+            let (Kind::Root | Kind::Symbol(_), Some((2, value))) =
+                (&self.gens[g].kind, &self.gens[g].relation)
             else {
                 return Ok(None);
             };

@@ -19,7 +19,10 @@ impl Field {
     /// The relations that bear upon some symbols.
     pub(super) fn relations(&self, symbols: &BTreeSet<Symbol>) -> Vec<Relation> {
         let bearing = self.domains.relations_of(symbols).into_iter();
-        bearing.cloned().collect()
+        let mut all: Vec<Relation> = bearing.cloned().collect();
+        // What is above zero tells more than that the same is not below it.
+        all.sort_by_key(|relation| relation.closed);
+        all
     }
 
     /// Takes in what relations tell of signs.

@@ -259,6 +259,15 @@ pub fn above_zero(e: &Expr, domains: &Domains) -> Sentence {
 
 /// `e > 0` where zero is excluded, else `e ≥ 0`.
 pub(super) fn beyond_zero(e: &Expr, domains: &Domains, open: bool) -> Sentence {
+    let e = decisive(e, domains, open);
+    match open {
+        true => Sentence::positive(&e),
+        false => Sentence::not_negative(&e),
+    }
+}
+
+/// What decides whether something is above zero, or not below it, alone.
+pub(super) fn decisive(e: &Expr, domains: &Domains, open: bool) -> Expr {
     let e = essential(e, domains);
     // A root that has a value is positive where what stands under it is; so is the square of what is not negative.
     let square = |e: &Expr| match e.node() {
@@ -272,13 +281,9 @@ pub(super) fn beyond_zero(e: &Expr, domains: &Domains, open: bool) -> Sentence {
         .cloned()
         .or_else(|| square(&e).filter(is_size));
     if let Some(inside) = inside.filter(|_| open) {
-        return beyond_zero(&inside, domains, open);
+        return decisive(&inside, domains, open);
     }
-    let e = squared(&e, domains).unwrap_or(e);
-    match open {
-        true => Sentence::positive(&e),
-        false => Sentence::not_negative(&e),
-    }
+    squared(&e, domains).unwrap_or(e)
 }
 
 /// What has the sign of `a − √(b + c)` without the root, where a is known not to be negative; likewise for `√(b + c) − a`.

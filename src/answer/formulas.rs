@@ -358,7 +358,10 @@ impl Work<'_> {
             // What stands in the equation and not in its solution plays no part, which is worth saying.
             let used = root.symbols();
             let all: BTreeSet<Symbol> = left.symbols().union(&right.symbols()).cloned().collect();
-            let is_idle = |s: &&Symbol| *s != parameter && s.as_ref() != "pi" && !used.contains(*s);
+            // The other component of a unit vector follows.
+            let other = self.scene.domains.other_component(parameter);
+            let is_own = |s: &&Symbol| *s == parameter || Some(*s) == other;
+            let is_idle = |s: &&Symbol| !is_own(s) && s.as_ref() != "pi" && !used.contains(*s);
             let idle: Vec<Sentence> = all.iter().filter(is_idle).map(Sentence::from).collect();
             if let [first @ .., last] = idle.as_slice() {
                 let lead = Sentence::join(first.iter().cloned(), ", ");

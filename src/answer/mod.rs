@@ -25,6 +25,7 @@ pub use formulas::{LONGEST, about, dimension_of, formulas};
 pub use graph::{Curve, Graph, graphs};
 
 use crate::dimension::Dimension;
+use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, Vector};
 use crate::formula::{Relation, Sentence, latex_name, sentence, with_subscript, write_plain};
 use crate::scene::{Ask, Parameter, Question, Scene};
@@ -73,6 +74,8 @@ pub struct Answer {
     pub form: Form,
     /// For which values of a parameter, or of a combination of parameters, something holds: that, relation, value.
     pub range: Vec<(Expr, Relation, Expr)>,
+    /// What single values of the range need: the value, and what must be above zero for it, or not below it where `true`.
+    pub needs: Vec<(Expr, Expr, bool)>,
     /// What is asked, put into parameters: an equation or inequality to be solved, or the formula that is to be largest.
     pub stated: Option<(Expr, Relation, Expr)>,
     /// Identities that show the answer: both sides are the same in the parameters, with the reason.
@@ -201,6 +204,22 @@ pub fn along(direction: Option<&Vector>) -> String {
     format!(", along {axis}")
 }
 
+/// What answers that say the same rest on: what all of them do, and where each does besides, one or another of that.
+pub fn given_alike(all: &[&Answer]) -> Vec<Sentence> {
+    let is_common = |s: &&Sentence| all.iter().all(|a| a.assumptions.contains(s));
+    let first = all.first().into_iter().flat_map(|a| &a.assumptions);
+    let mut out: Vec<Sentence> = first.filter(is_common).cloned().collect();
+    let own = |a: &&Answer| {
+        let own = a.assumptions.iter().filter(|s| !is_common(s)).cloned();
+        Sentence::join(own, " and ")
+    };
+    let each: Vec<Sentence> = all.iter().map(own).collect();
+    if all.len() > 1 && each.iter().all(|own| !own.0.is_empty()) {
+        out.push(Sentence::join(each, ", or that "));
+    }
+    out
+}
+
 impl Answer {
     /// An answer without content yet.
     pub fn blank(question: &Question, name: &str, words: impl Into<String>) -> Answer {
@@ -227,6 +246,12 @@ impl Answer {
             words: words.into(),
             ..Answer::default()
         }
+    }
+
+    /// The domains where all is so that one of its values needs.
+    pub fn where_is(&self, value: &Expr, domains: &Domains) -> Domains {
+        let own = self.needs.iter().filter(|(of, ..)| of == value);
+        own.fold(domains.clone(), |all, (_, e, closed)| all.given(e, *closed))
     }
 
     /// Leaves the answer open, with the reason; what was said and checked of a value goes.

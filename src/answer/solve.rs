@@ -5,8 +5,8 @@
 
 use num_integer::Integer;
 
-use super::calc::{Seen, at_least_zero, beyond_zero, essential, is_zero, seen, sign, tidy};
-use crate::algebra::{Element, Field, Powers, Sign, Stop};
+use super::calc::{Seen, decisive, essential, is_zero, seen, sign, tidy};
+use crate::algebra::{self, Element, Field, Powers, Sign, Stop};
 use crate::domain::{Domain, Domains, Relation};
 use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{Sentence, sentence};
@@ -20,6 +20,58 @@ pub struct Root {
     pub proved: bool,
     /// What must hold for it to lie within the domain, where that is not sure.
     pub given: Vec<Sentence>,
+    /// The same as what must be above zero, or not below it where `true`.
+    pub needs: Vec<(Expr, bool)>,
+    /// For a component of a unit vector the other one, where it plays a part.
+    pub other: Option<(Symbol, Expr)>,
+}
+
+impl Root {
+    /// A formula with the value in it.
+    pub fn put_in(&self, e: &Expr, symbol: &Symbol) -> Expr {
+        let e = e.put(symbol, &self.value);
+        match &self.other {
+            Some((other, value)) => e.put(other, value),
+            None => e,
+        }
+    }
+
+    /// What should be zero, with the other component of a unit vector, which may be above zero or below: where only one of these
+    /// does, that is needed.
+    fn beside(&mut self, e: &Expr, symbol: &Symbol, other: &Symbol, domains: &Domains) -> Expr {
+        let size = (Expr::one() - self.value.powi(2)).sqrt();
+        let ways = [(size.clone(), true), (-size, false)].map(|(value, above)| {
+            self.other = Some((other.clone(), value));
+            let put_in = self.put_in(e, symbol);
+            let vanishes = is_zero(&put_in, domains) == Some(true);
+            (above, self.other.clone(), put_in, vanishes)
+        });
+        let vanish = ways.each_ref().map(|(.., vanishes)| *vanishes);
+        let [above, below] = ways;
+        let (is_above, value, put_in, _) = if vanish == [false, true] {
+            below
+        } else {
+            above
+        };
+        self.other = value;
+        if vanish[0] != vanish[1] {
+            let own = Expr::symbol(other);
+            self.rests_on(if is_above { own } else { -own });
+        }
+        put_in
+    }
+
+    /// Holds where something is not below zero, and only there.
+    fn rests_on(&mut self, need: Expr) {
+        self.given.push(Sentence::not_negative(&need));
+        self.needs.push((need, true));
+    }
+
+    /// The domains where all that it needs is so.
+    fn within(&self, domains: &Domains) -> Domains {
+        let needs = self.needs.iter();
+        needs.fold(domains.clone(), |all, (e, closed)| all.given(e, *closed))
+    }
 }
 
 /// All values of a symbol within its domain at which an expression is zero.
@@ -55,16 +107,18 @@ pub fn solve(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unso
     // That the scene gets there with some value of the symbol says nothing of the others.
     let mut apart = domains.clone();
     (apart.relations).retain(|r| r.so_that.is_empty() || !r.excess.mentions(symbol));
+    // Of a unit vector the component that is sought is the one that the other follows from.
+    let mine = apart.unit_vectors.iter_mut();
+    mine.filter(|[_, b]| b == symbol)
+        .for_each(|pair| pair.swap(0, 1));
     let mut out = within_interval(e, symbol, &apart)?;
     let bearing = domains.relations.iter();
-    let domain = domain_of(symbol, domains);
     for relation in bearing.filter(|r| r.excess.symbols().contains(symbol)) {
         for mut root in std::mem::take(&mut out.inside) {
-            // Where the value lies in the interval at all.
-            let placed = placed(symbol, &root.value, &domain, &apart);
-            let domains = &placed.map_or_else(|_| apart.clone(), |(_, within)| within);
             let excess = relation.excess.put(symbol, &root.value);
-            match sign(&excess, domains) {
+            // Where the value lies in the interval at all.
+            let here = &root.within(&apart);
+            match sign(&excess, here) {
                 Seen::Proved(Sign::Negative) | Seen::Negative => {}
                 Seen::Proved(Sign::Zero | Sign::NotPositive) if !relation.closed => {}
                 seen => {
@@ -76,12 +130,17 @@ pub fn solve(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unso
                         _ => false,
                     };
                     if !sure {
-                        let holds = beyond_zero(&excess, domains, !relation.closed);
+                        let need = decisive(&excess, here, !relation.closed);
+                        let holds = match relation.closed {
+                            true => Sentence::not_negative(&need),
+                            false => Sentence::positive(&need),
+                        };
                         let so_that = match relation.so_that.as_str() {
                             "" => stated(relation),
                             needed => Sentence::words(needed),
                         };
                         root.given.push(sentence!("{}, so that {}", holds, so_that));
+                        root.needs.push((need, relation.closed));
                     }
                     out.inside.push(root);
                     continue;
@@ -156,6 +215,8 @@ fn within_interval(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots
                 value: Expr::zero(),
                 proved: true,
                 given: Vec::new(),
+                needs: Vec::new(),
+                other: None,
             });
         } else {
             let outside = within(&domain, symbol);
@@ -249,9 +310,9 @@ fn below(open: bool) -> &'static str {
     if open { " < " } else { " ≤ " }
 }
 
-/// What must hold for a value to be real: radicands not below zero, arguments of arcs between −1 and 1. Nothing where it is
-/// proved.
-pub fn real(value: &Expr, domains: &Domains) -> Vec<Sentence> {
+/// What must not be below zero for a value to be real: radicands, and how far arguments of arcs lie between −1 and 1. Nothing
+/// where it is proved.
+pub fn real(value: &Expr, domains: &Domains) -> Vec<Expr> {
     let mut gaps = Vec::new();
     for part in value.parts() {
         match part.node() {
@@ -265,30 +326,31 @@ pub fn real(value: &Expr, domains: &Domains) -> Vec<Sentence> {
         }
     }
     gaps.retain(|gap| !matches!(sign(gap, domains), Seen::Proved(s) if s.is_not_negative()));
-    let mut out: Vec<Sentence> = Vec::new();
+    let mut out: Vec<Expr> = Vec::new();
     for gap in gaps {
-        let words = at_least_zero(&gap, domains);
-        if !out.contains(&words) {
-            out.push(words);
+        let need = decisive(&gap, domains, false);
+        if !out.contains(&need) {
+            out.push(need);
         }
     }
     out
 }
 
-/// What must hold for a value to lie within a domain, where that is not sure, and the domains where it does; in `Err` why it
-/// does not.
+/// What must be above zero, or not below it, for a value to lie within a domain, where that is not sure; in `Err` why it does
+/// not.
 pub(super) fn placed(
     symbol: &Symbol,
     value: &Expr,
     domain: &Domain,
-    domains: &Domains,
-) -> Result<(Vec<Sentence>, Domains), Sentence> {
-    let (mut given, mut within) = (Vec::new(), domains.clone());
+    whole: &Domains,
+) -> Result<Vec<(Expr, bool)>, Sentence> {
+    let mut needs: Vec<(Expr, bool)> = Vec::new();
+    let mut domains = whole.clone();
     for (limit, is_low) in [(&domain.low, true), (&domain.high, false)] {
         let Some(limit) = limit else { continue };
         let end = limit.expr();
         let gap = if is_low { value - &end } else { &end - value };
-        let seen = sign(&gap, domains);
+        let seen = sign(&gap, &domains);
         let outside = match seen {
             Seen::Proved(Sign::Negative | Sign::NotPositive) | Seen::Negative => true,
             Seen::Proved(Sign::Zero) => limit.open,
@@ -297,8 +359,9 @@ pub(super) fn placed(
         // At a bound of what it is made of it may be an end that does not belong to the domain.
         let at_end = seen == Seen::Proved(Sign::NotNegative) && limit.open;
         if seen == Seen::Mixed || at_end {
-            given.push(beyond_zero(&gap, domains, limit.open));
-            within = within.given(&essential(&gap, domains), !limit.open);
+            let need = decisive(&gap, &domains, limit.open);
+            domains = domains.given(&need, !limit.open);
+            needs.push((need, !limit.open));
         }
         let how = if seen == Seen::Proved(Sign::NotPositive) && !limit.open {
             " or just at its end"
@@ -317,14 +380,37 @@ pub(super) fn placed(
             ));
         }
     }
+    // The upper end may ask for more than the lower one.
+    if let [(low, closed), high] = needs.as_slice()
+        && follows(low, *closed, high, whole)
+    {
+        needs.remove(0);
+    }
+    Ok(needs)
+}
+
+/// Whether one need follows from another.
+fn follows(need: &Expr, closed: bool, other: &(Expr, bool), domains: &Domains) -> bool {
+    match algebra::sign(need, &domains.given(&other.0, other.1)) {
+        Some(Sign::Positive) => true,
+        Some(sign) => closed && sign.is_not_negative(),
+        None => false,
+    }
+}
+
+/// What places a value within its domain, in words.
+pub(super) fn placing(symbol: &Symbol, needs: &[(Expr, bool)]) -> Option<Sentence> {
+    let each = needs.iter().map(|(e, closed)| match closed {
+        true => Sentence::not_negative(e),
+        false => Sentence::positive(e),
+    });
     let so = sentence!(", so that {} lies within its domain", symbol);
-    let told = (!given.is_empty()).then(|| sentence!("{}{}", Sentence::join(given, " and "), so));
-    Ok((told.into_iter().collect(), within))
+    (!needs.is_empty()).then(|| sentence!("{}{}", Sentence::join(each, " and "), so))
 }
 
 /// What must hold for something to vanish in which a root came out as the size of what may have either sign; `None` where it
 /// never does.
-fn fulfilled(put_in: &Expr, domains: &Domains) -> Option<Sentence> {
+fn fulfilled(put_in: &Expr, domains: &Domains) -> Option<Expr> {
     let tidied = tidy(put_in, domains).ok()?;
     let sizes = tidied.parts().filter_map(|part| match part.node() {
         Node::Call(Function::Abs, x) => Some(x.clone()),
@@ -334,7 +420,7 @@ fn fulfilled(put_in: &Expr, domains: &Domains) -> Option<Sentence> {
     let core = |side: Expr| essential(&side, domains);
     let vanishes = |side: &Expr| is_zero(&tidied, &domains.given(side, true)) == Some(true);
     let side = sides.map(core).find(vanishes)?;
-    Some(at_least_zero(&side, domains))
+    Some(decisive(&side, domains, false))
 }
 
 /// Keeps a candidate, or says why not.
@@ -344,65 +430,79 @@ fn take(
     value: Expr,
     squared: bool,
     domain: &Domain,
-    domains: &Domains,
+    whole: &Domains,
     out: &mut Roots,
 ) {
     let put_in = e.put(symbol, &value);
-    if matches!(Field::of(domains, &put_in), Err(Stop::DivisionByZero)) {
+    if matches!(Field::of(whole, &put_in), Err(Stop::DivisionByZero)) {
         // A pole, of which multiplying by the denominator made a zero.
         return;
     }
     let words = sentence!("{} = {}", symbol, &value);
-    let mut given: Vec<Sentence> = Vec::new();
-    if matches!(Field::of(domains, &value), Err(Stop::NotReal)) {
+    if matches!(Field::of(whole, &value), Err(Stop::NotReal)) {
         out.discarded
             .push(sentence!("{}, which is not real", words));
         return;
     }
-    given.extend(real(&value, domains));
-    let domains = match placed(symbol, &value, domain, domains) {
-        Ok((conditions, within)) => {
-            given.extend(conditions);
-            &within.clone()
+    let mut root = Root {
+        value,
+        proved: false,
+        given: Vec::new(),
+        needs: Vec::new(),
+        other: None,
+    };
+    let real = real(&root.value, whole).into_iter();
+    real.for_each(|need| root.rests_on(need));
+    let domains = &root.within(whole);
+    if let Some(shorter) = tidy(&root.value, domains)
+        .ok()
+        .filter(|v| v.size() < root.value.size())
+    {
+        root.value = shorter;
+    }
+    let words = sentence!("{} = {}", symbol, &root.value);
+    match placed(symbol, &root.value, domain, domains) {
+        Ok(needs) => {
+            // That the value is real follows where it lies within its domain.
+            let is_told = |(need, closed): &(Expr, bool)| {
+                needs
+                    .iter()
+                    .any(|other| follows(need, *closed, other, whole))
+            };
+            root.needs.retain(|need| !is_told(need));
+            let real = root.needs.iter().map(|(e, _)| Sentence::not_negative(e));
+            root.given = real.chain(placing(symbol, &needs)).collect();
+            root.needs.extend(needs);
         }
         Err(why) => {
             out.discarded.push(why);
             return;
         }
+    }
+    let domains = &root.within(whole);
+    let put_in = e.put(symbol, &root.value);
+    let (put_in, squared) = match domains.other_component(symbol) {
+        Some(other) if e.mentions(other) => (root.beside(e, symbol, other, domains), true),
+        _ => (put_in, squared),
     };
     match is_zero(&put_in, domains) {
-        Some(true) => out.inside.push(Root {
-            value,
-            proved: true,
-            given,
-        }),
         Some(false) if squared => {
+            let squaring = "brought in by squaring: it does not fulfil the equation";
             if let Some(side) = fulfilled(&put_in, domains) {
-                given.push(side);
-                out.inside.push(Root {
-                    value,
-                    proved: true,
-                    given,
-                });
+                // Where what it needs cannot be at once, it is no solution anywhere.
+                if sign(&side, domains) == Seen::Proved(Sign::Negative) {
+                    out.discarded.push(sentence!("{}, {}", words, squaring));
+                    return;
+                }
+                root.rests_on(side);
+                root.proved = true;
+            } else if seen(&put_in, domains) != Seen::Mixed || put_in.is_constant() {
+                // Squaring adds solutions; a point decides.
+                out.discarded.push(sentence!("{}, {}", words, squaring));
                 return;
             }
-            // Squaring adds solutions; a point decides.
-            match seen(&put_in, domains) {
-                Seen::Mixed if !put_in.is_constant() => out.inside.push(Root {
-                    value,
-                    proved: false,
-                    given,
-                }),
-                _ => out.discarded.push(sentence!(
-                    "{}, brought in by squaring: it does not fulfil the equation",
-                    words
-                )),
-            }
         }
-        _ => out.inside.push(Root {
-            value,
-            proved: false,
-            given,
-        }),
+        zero => root.proved = zero == Some(true),
     }
+    out.inside.push(root);
 }

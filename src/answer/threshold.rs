@@ -126,11 +126,21 @@ fn radicand(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Expr> {
 fn meet(out: &mut Answer, parameter: &Symbol, sides: [&Expr; 2], roots: &Roots) {
     for root in &roots.inside {
         if root.proved {
-            let [left, right] = sides.map(|side| side.put(parameter, &root.value));
+            let [left, right] = sides.map(|side| root.put_in(side, parameter));
             let why = "both sides with the value substituted";
             out.put_in.push((left, right, why));
         }
-        out.assumptions.extend(root.given.iter().cloned());
+        let needs = root.needs.iter().cloned();
+        let needs = needs.map(|(e, closed)| (root.value.clone(), e, closed));
+        out.needs.extend(needs);
+        let given = root.given.iter().map(|given| {
+            let is_shared = roots.inside.iter().all(|r| r.given.contains(given));
+            match is_shared {
+                true => given.clone(),
+                false => sentence!("{}, for {} = {}", given, parameter, &root.value),
+            }
+        });
+        out.assumptions.extend(given);
         let words = match root.proved {
             true => "with the value substituted, both sides are identical",
             false => "whether both sides meet at this value was not proved",

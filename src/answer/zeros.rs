@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use num_integer::Integer;
 
 use super::calc::{is_zero, sign, tidy};
-use super::solve::{Root, Roots, Unsolved, placed, real, solve};
+use super::solve::{Root, Roots, Unsolved, placed, placing, real, solve};
 use crate::domain::{Domain, Domains, Limit};
 use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
 use crate::formula::{Sentence, sentence};
@@ -95,7 +95,10 @@ pub(super) fn angle(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Root
         for mut root in found.inside {
             if domain != own {
                 match placed(symbol, &root.value, &own, domains) {
-                    Ok((given, _)) => root.given.extend(given),
+                    Ok(needs) => {
+                        root.given.extend(placing(symbol, &needs));
+                        root.needs.extend(needs);
+                    }
                     Err(why) => {
                         out.discarded.push(why);
                         continue;
@@ -173,6 +176,8 @@ fn by_function(
             value: value.unwrap_or_else(|| arc(inverse, &root.value, domains)),
             proved: root.proved,
             given: put_back(&root.given),
+            needs: root.needs.clone(),
+            other: None,
         }
     });
     Ok(Some(Roots {
@@ -261,15 +266,20 @@ fn by_half(
         let given = root.given.iter().map(|g| g.put_in(&back));
         // The conditions for the tangent to be real are those for the angle.
         let mut given: Vec<Sentence> = given.collect();
-        for condition in real(&value, domains) {
+        let mut needs = root.needs;
+        for need in real(&value, domains) {
+            let condition = Sentence::not_negative(&need);
             if !given.contains(&condition) {
                 given.push(condition);
+                needs.push((need, true));
             }
         }
         out.inside.push(Root {
             value,
             proved: root.proved,
             given,
+            needs,
+            other: None,
         });
     }
     // Half of a straight angle has no tangent.
@@ -282,6 +292,8 @@ fn by_half(
                 value,
                 proved: true,
                 given: Vec::new(),
+                needs: Vec::new(),
+                other: None,
             });
         }
     }

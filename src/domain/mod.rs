@@ -266,9 +266,18 @@ impl Domains {
         (all, assumed)
     }
 
+    /// The other component of a unit vector.
+    pub fn other_component(&self, name: &Symbol) -> Option<&Symbol> {
+        self.unit_vectors.iter().find_map(|[a, b]| match name {
+            _ if name == a => Some(b),
+            _ if name == b => Some(a),
+            _ => None,
+        })
+    }
+
     /// Whether a symbol is a component of a unit vector.
     pub fn is_component(&self, name: &Symbol) -> bool {
-        self.unit_vectors.iter().flatten().any(|s| s == name)
+        self.other_component(name).is_some()
     }
 
     /// The domain with every symbol of some formulas declared.

@@ -46,11 +46,33 @@ impl Sentence {
 
     /// The sentence with values put in for symbols.
     pub fn put_in(&self, values: &BTreeMap<Symbol, Expr>) -> Sentence {
+        self.map(|e| e.substitute(values))
+    }
+
+    /// The sentence with every formula changed.
+    pub fn map(&self, change: impl Fn(&Expr) -> Expr) -> Sentence {
         let put = |piece: &Piece| match piece {
             Piece::Words(words) => Piece::Words(words.clone()),
-            Piece::Formula(e) => Piece::Formula(e.substitute(values)),
+            Piece::Formula(e) => Piece::Formula(change(e)),
         };
         Sentence(self.0.iter().map(put).collect())
+    }
+
+    /// Where it begins with a condition, what that says is positive, or not negative, and whether it is the former.
+    pub fn condition(&self) -> Option<(Expr, bool)> {
+        let [Piece::Formula(left), Piece::Words(op), rest @ ..] = self.0.as_slice() else {
+            return None;
+        };
+        let Some(Piece::Formula(right)) = rest.first() else {
+            return None;
+        };
+        Some(match op.as_str() {
+            " ≥ " => (left - right, false),
+            " > " => (left - right, true),
+            " ≤ " => (right - left, false),
+            " < " => (right - left, true),
+            _ => return None,
+        })
     }
 
     /// The sentence with its formulas as `write` gives them.

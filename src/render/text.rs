@@ -4,7 +4,7 @@
 use std::fmt::Write;
 
 use super::unicode;
-use crate::answer::{Answer, Check, Form, Matrix};
+use crate::answer::{Answer, Check, Form, Matrix, given_alike};
 use crate::derive::Derivation;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Relation, Sentence};
@@ -142,8 +142,9 @@ pub fn answers(scene: &Scene, of: Option<&Told>, answers: &[Answer]) -> String {
                 .iter()
                 .map(|words| format!("discarded: {}", written(words))),
         );
-        let given = given(a, &alike, written).into_iter();
-        lines.extend(given.map(|words| format!("given that {words}")));
+        let told: Vec<&Answer> = [a].into_iter().chain(alike).collect();
+        let given = given_alike(&told).into_iter();
+        lines.extend(given.map(|words| format!("given that {}", written(&words))));
         for line in lines {
             let _ = writeln!(out, "      {line}");
         }
@@ -230,28 +231,6 @@ fn shared_words<'a>(a: &'a Answer, alike: &[&Answer]) -> &'a str {
         words = shorter;
     }
     words
-}
-
-/// What an answer and those alike rest on: what all of them do, and then what each of them does besides.
-fn given(a: &Answer, alike: &[&Answer], written: impl Fn(&Sentence) -> String) -> Vec<String> {
-    let everywhere = |s: &&Sentence| alike.iter().all(|b| b.assumptions.contains(s));
-    let (common, own): (Vec<&Sentence>, Vec<&Sentence>) =
-        a.assumptions.iter().partition(everywhere);
-    let mut out: Vec<String> = common.iter().map(|s| written(s)).collect();
-    let besides = |b: &&Answer| -> Vec<String> {
-        let more = b.assumptions.iter().filter(|s| !common.contains(s));
-        more.map(&written).collect()
-    };
-    if alike.is_empty() {
-        return out;
-    }
-    let mut each: Vec<Vec<String>> = vec![own.into_iter().map(&written).collect()];
-    each.extend(alike.iter().map(besides));
-    if each.iter().all(|words| !words.is_empty()) {
-        let each: Vec<String> = each.iter().map(|words| words.join(" and ")).collect();
-        out.push(each.join(", or that "));
-    }
-    out
 }
 
 /// How many equations there are, and the blocks that answer the questions.

@@ -506,7 +506,9 @@ fn claims(ask: &Ask, answer: &Answer, named: Option<(&Expr, &Expr)>) -> Vec<Clai
         return put_in.map(|(left, right, _)| claim(left, right)).collect();
     };
     match (ask, &answer.stated) {
-        (Ask::Condition { parameter, .. }, Some((left, _, right))) if answer.put_in.len() == 1 => {
+        // The other component of a unit vector has its value put in as well, and no name.
+        (Ask::Condition { parameter, .. }, Some((left, _, right))) if matches!(answer.put_in.as_slice(), [(own, ..)] if *own == left.put(parameter, formula)) =>
+        {
             let at = std::collections::BTreeMap::from([(parameter.clone(), symbol.clone())]);
             vec![claim(&left.substitute(&at), &right.substitute(&at))]
         }

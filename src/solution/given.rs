@@ -5,7 +5,6 @@ use super::sentence::sentence;
 use super::words::say;
 use crate::algebra::{Sign, sign};
 use crate::answer::Answer;
-use crate::expr::Expr;
 use crate::formula::{Piece, Sentence};
 use crate::scene::Scene;
 
@@ -28,8 +27,8 @@ fn needed(scene: &Scene, mut all: Vec<Sentence>) -> Vec<Sentence> {
     let mut k = 0;
     while k < all.len() {
         let others = all.iter().enumerate().filter(|(j, _)| *j != k);
-        let mut others = others.filter_map(|(_, other)| excess(other));
-        let follows = excess(&all[k]).is_some_and(|(e, is_open)| {
+        let mut others = others.filter_map(|(_, other)| other.condition());
+        let follows = all[k].condition().is_some_and(|(e, is_open)| {
             !is_case(&all[k])
                 && others.any(|(given, open)| {
                     let domains = scene.domains.given(&given, !open);
@@ -52,24 +51,6 @@ fn needed(scene: &Scene, mut all: Vec<Sentence>) -> Vec<Sentence> {
 fn is_case(condition: &Sentence) -> bool {
     let opens = |p: &Piece| matches!(p, Piece::Words(words) if words.starts_with(" ("));
     condition.0.iter().any(opens)
-}
-
-/// What a condition says is positive, or not negative, and whether it is the former.
-fn excess(condition: &Sentence) -> Option<(Expr, bool)> {
-    let [Piece::Formula(left), Piece::Words(op), rest @ ..] = condition.0.as_slice() else {
-        return None;
-    };
-    let right = match rest {
-        [Piece::Formula(right), ..] => right.clone(),
-        _ => return None,
-    };
-    Some(match op.as_str() {
-        " ≥ " => (left - &right, false),
-        " > " => (left - &right, true),
-        " ≤ " => (&right - left, false),
-        " < " => (&right - left, true),
-        _ => return None,
-    })
 }
 
 /// Conditions one after the other; those with the same reason in brackets behind them share it.

@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 
 use crate::answer::Check;
-use crate::domain::{Domains, Limit};
+use crate::domain::{Domain, Domains, Limit};
 use crate::expr::{Expr, Point, Symbol};
 use crate::numeric::follow::integrated;
 use crate::numeric::points;
@@ -55,12 +55,25 @@ pub(super) fn points_of(
             (None, None) => (4.0 * fraction - 2.0) * size,
         }
     };
-    let all = (1..=DRAWS).map(move |seed| Point {
-        values: (0..)
-            .zip(&names)
-            .map(|(k, name)| (name.clone(), value(name, k, seed)))
-            .collect(),
-        ..Point::default()
+    let all = (1..=DRAWS).filter_map(move |seed| {
+        let mut point = Point::<f64>::default();
+        let values = (0..).zip(&names);
+        let values = values.map(|(k, name)| (name.clone(), value(name, k, seed)));
+        point.values = values.collect();
+        // Components of a unit vector lie on the circle.
+        for [a, b] in &domains.unit_vectors {
+            let along = point.values.get(a).copied();
+            let (Some(along), Some(across)) = (along, point.values.get_mut(b)) else {
+                continue;
+            };
+            *across = (1.0 - along * along).sqrt().copysign(*across);
+            let ends = domains.symbols.get(b).map(Domain::bounds);
+            let [low, high] = ends.unwrap_or_default();
+            if low.is_some_and(|low| *across < low) || high.is_some_and(|high| *across > high) {
+                return None;
+            }
+        }
+        Some(point)
     });
     all.filter(|point| points::keeps(domains, point))
         .take(count)

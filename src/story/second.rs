@@ -15,6 +15,7 @@ use super::{Answer, Case, StageTold, State, Told};
 use crate::answer::Check;
 use crate::answer::calc::rounding;
 use crate::dimension::Dimension;
+use crate::domain::Domains;
 use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::numeric::follow::{self, BodyState, Component, Followed, Loss, Lost, Passed, What};
 use crate::scene::Scene;
@@ -92,23 +93,16 @@ pub(super) fn look<'a>(scene: &'a Scene, worlds: &[World], stages: &[StageTold])
                 break;
             }
         }
-        let Ok(followed) = follow::follow(scene, &point) else {
+        let Some(seen) = seen_at(scene, stages, point) else {
             continue;
         };
-        if let Some(Err(lost)) = followed.stages.iter().find(|s| s.is_err()) {
+        if let Some(Err(lost)) = seen.followed.stages.iter().find(|s| s.is_err()) {
             out.lost.push(lost.clone());
         }
-        let way = way_of(scene, stages, &followed, &point);
-        if !wanted.iter().any(|wanted| leads(&way, wanted)) {
+        if !wanted.iter().any(|wanted| leads(&seen.way, wanted)) {
             continue;
         }
-        let units = Units::of(&followed);
-        out.points.push(Seen {
-            way,
-            point,
-            followed,
-            units,
-        });
+        out.points.push(seen);
         let count = |way: &Way| out.points.iter().filter(|s| leads(&s.way, way)).count();
         wanted.retain(|way| count(way) < POINTS);
         if wanted.is_empty() {
@@ -116,6 +110,27 @@ pub(super) fn look<'a>(scene: &'a Scene, worlds: &[World], stages: &[StageTold])
         }
     }
     out
+}
+
+/// A scene followed at a point.
+fn seen_at(scene: &Scene, stages: &[StageTold], point: Point<f64>) -> Option<Seen> {
+    let followed = follow::follow(scene, &point).ok()?;
+    Some(Seen {
+        way: way_of(scene, stages, &followed, &point),
+        units: Units::of(&followed),
+        point,
+        followed,
+    })
+}
+
+/// A scene followed at points where something holds that an answer needs.
+fn seen_where<'a>(
+    scene: &'a Scene,
+    stages: &'a [StageTold],
+    domains: &'a Domains,
+) -> impl Iterator<Item = Seen> + 'a {
+    let points = points_of(names(scene), domains, ELSEWHERE);
+    points.filter_map(|point| seen_at(scene, stages, point))
 }
 
 /// Whether all these outcomes are among those that happen.

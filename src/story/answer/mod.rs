@@ -60,11 +60,15 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
                 let mut new = formula(&reached::part(whole, &needs), question, &world.known)?;
                 for a in &mut new {
                     reached::tell(whole, &question.ask, &needs, a);
+                    if is_same {
+                        reached::one_of_the_cases(scene, question, &answers, a);
+                    }
                 }
                 Ok(new)
             })?
         } else {
-            let new = one(scene, &stages, question, &answers)?;
+            let mut new = one(scene, &stages, question, &answers)?;
+            new.iter_mut().for_each(|a| reached::led_to(&stages, a));
             worlds::remember(&mut worlds, &new);
             if let (Ask::Friction { .. }, [only]) = (&question.ask, new.as_slice()) {
                 worlds::everywhere(&mut worlds, only);

@@ -5,16 +5,16 @@
 
 use std::collections::BTreeSet;
 
-use super::super::worlds::World;
+use super::super::worlds::{World, without_case};
 use super::super::{Case, StageTold, line};
 use super::supposed;
 use crate::algebra::Sign;
-use crate::answer::calc::{Seen, at_least_zero, essential, is_zero, sign};
-use crate::answer::{Answer, Known, limit};
+use crate::answer::calc::{Seen, at_least_zero, essential, is_zero, sign, tidy};
+use crate::answer::{Answer, Form, Known, given_alike, limit};
 use crate::domain::{Domain, Domains, Relation};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Sentence, sentence};
-use crate::scene::{Ask, Question, Scene};
+use crate::scene::{Ask, Question, Scene, StageKind};
 use crate::verify::possible::Rule;
 
 /// A step upwards from a value.
@@ -141,6 +141,68 @@ pub(super) fn needs(
         }
     }
     Ok(out)
+}
+
+/// Lets an answer about a stage tell what the motions suppose that lead there, and what the impacts need.
+pub(super) fn led_to(stages: &[StageTold], answer: &mut Answer) {
+    let Some(at) = answer.told else { return };
+    let before: Vec<(usize, usize)> = line(stages, at).skip(1).collect();
+    let each = before.iter().rev().map(|(stage, outcome)| {
+        let told = &stages[*stage];
+        match told.cases.get(*outcome) {
+            Some(case) => case.conditions.iter().map(supposed).collect(),
+            None => told.assumptions.clone(),
+        }
+    });
+    let all: Vec<Sentence> = each.flatten().collect();
+    besides(
+        answer,
+        all.iter().filter(|words| words.condition().is_some()),
+    );
+}
+
+/// Lets an answer that is the same in all cases tell that one of them happens, where others are left away.
+pub(super) fn one_of_the_cases(
+    scene: &Scene,
+    question: &Question,
+    earlier: &[Answer],
+    answer: &mut Answer,
+) {
+    let is_supposed = scene.stages.iter().any(|stage| {
+        let law = stage.scene.friction().and_then(|(_, law)| law.supposing);
+        law.is_some()
+            || matches!(&stage.kind, StageKind::Impact { supposed, .. } if supposed.is_some())
+    });
+    if !is_supposed || matches!(answer.form, Form::Open(_)) {
+        return;
+    }
+    let found = answer.range.iter();
+    let found = found.map(|(of, _, value)| Some((of.as_symbol()?.clone(), value.clone())));
+    let found: Known = found.flatten().collect();
+    let mut all: Vec<Sentence> = Vec::new();
+    for name in question.ask.formulas().into_iter().flat_map(Expr::symbols) {
+        let is_it = |a: &&Answer| without_case(&a.name) == &*name || a.question == *name;
+        let mine: Vec<&Answer> = earlier.iter().filter(is_it).collect();
+        let is_new = |words: &Sentence| mine.iter().all(|a| !a.assumptions.contains(words));
+        let either = given_alike(&mine).into_iter().filter(is_new);
+        let there = |e: &Expr| {
+            let put = e.substitute(&found);
+            tidy(&put, &scene.domains).unwrap_or(put)
+        };
+        all.extend(either.map(|words| words.map(there)));
+    }
+    besides(answer, all.iter());
+}
+
+/// Puts conditions before those of an answer, none of them twice.
+fn besides<'a>(answer: &mut Answer, all: impl Iterator<Item = &'a Sentence>) {
+    let mut before: Vec<Sentence> = Vec::new();
+    for words in all {
+        if !before.contains(words) && !answer.assumptions.contains(words) {
+            before.push(words.clone());
+        }
+    }
+    answer.assumptions.splice(0..0, before);
 }
 
 /// Adds to an answer what it rests on of all that is needed.

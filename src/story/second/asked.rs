@@ -9,7 +9,7 @@ use std::iter::successors;
 use super::super::StageTold;
 use super::super::worlds::without_case;
 use super::values::moved;
-use super::{CLOSE, Compared, Second, Seen, World, points_of, shaken};
+use super::{CLOSE, Compared, POINTS, Second, Seen, World, points_of, shaken};
 use crate::answer::{Answer, Check};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Relation;
@@ -66,7 +66,21 @@ impl Asked<'_> {
         }
         let uses = self.stages_of(question);
         let here = |seen: &&Seen| self.happens(seen, &uses, question, answer);
-        for seen in self.second.points.iter().filter(here) {
+        let holds = |seen: &&Seen| {
+            let value = |e: &Expr| e.evaluate(&seen.point).is_some_and(|v| v >= 0.0);
+            answer.needs.iter().all(|(_, e, _)| value(e))
+        };
+        let mut points: Vec<&Seen> = self.second.points.iter().filter(here).collect();
+        let more = match (points.iter().any(holds), answer.range.first()) {
+            (false, Some((.., value))) if !answer.needs.is_empty() => {
+                let domains = answer.where_is(value, &self.scene.domains);
+                let seen = super::seen_where(self.scene, self.stages, &domains);
+                seen.filter(|seen| here(&seen)).take(POINTS).collect()
+            }
+            _ => Vec::new(),
+        };
+        points.extend(&more);
+        for seen in points {
             let held = match &question.ask {
                 Ask::Turn { number, .. } => Some(self.repeats(seen, question, number, answer)),
                 Ask::Condition { .. } => self.tips(seen, question, answer),
@@ -201,7 +215,9 @@ impl Asked<'_> {
                 out = out.or(Some(Held::Unseen));
                 continue;
             };
-            if !self.stays(seen, answer, parameter, at) {
+            let mut needs = answer.needs.iter().filter(|(of, ..)| of == value);
+            let fails = needs.any(|(_, e, _)| e.evaluate(&seen.point).is_none_or(|v| v < 0.0));
+            if fails || !self.stays(seen, answer, parameter, at) {
                 out = out.or(Some(Held::Unseen));
                 continue;
             }

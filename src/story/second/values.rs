@@ -22,7 +22,15 @@ impl Asked<'_> {
         if with.is_empty() && values.is_empty() {
             return formula.evaluate(&self.known(&seen.point, &seen.followed, formula)?);
         }
-        self.formula_at(&moved(&seen.point, values), formula, with)
+        let mut there = moved(&seen.point, values);
+        // The other component of a unit vector goes along, on its side.
+        for (name, value) in values {
+            let other = self.scene.domains.other_component(name);
+            if let Some(other) = other.and_then(|other| there.values.get_mut(other)) {
+                *other = (1.0 - value * value).sqrt().copysign(*other);
+            }
+        }
+        self.formula_at(&there, formula, with)
     }
 
     fn formula_at(

@@ -269,7 +269,9 @@ impl Judge<'_> {
         ];
         let impulse = self.impulse(i);
         let sides = sides::of(self.scene, contact);
-        if sides.list.is_empty() && !sticks {
+        if sides.list.is_empty() && contact.passes {
+            self.comes_out(name, dot(&before, &after), None);
+        } else if sides.list.is_empty() && !sticks {
             self.not_judged.push(format!(
                 "the motion at `{name}`: neither the scene nor an outline gives a normal"
             ));
@@ -301,13 +303,7 @@ impl Judge<'_> {
             let approach = self.conditions[from..].first();
             let approach = approach.filter(|_| alone).map(Condition::decided);
             if contact.passes {
-                self.claim(
-                    Rule::Apart,
-                    format!("one body comes out behind the other at `{name}`"),
-                    format!("neither body gets through the other at `{name}`"),
-                    signed(-dot(&after, normal)),
-                    approach.as_ref(),
-                );
+                self.comes_out(name, signed(-dot(&after, normal)), approach.as_ref());
             } else if !sticks {
                 self.claim(
                     Rule::Apart,
@@ -347,6 +343,17 @@ impl Judge<'_> {
         if !contact.passes {
             self.along_sides(contact, &before, &sides);
         }
+    }
+
+    /// What goes through a body comes out the way it went in.
+    fn comes_out(&mut self, name: &str, forward: Expr, like: Option<&Decided>) {
+        self.claim(
+            Rule::Apart,
+            format!("one body comes out behind the other at `{name}`"),
+            format!("neither body gets through the other at `{name}`"),
+            forward,
+            like,
+        );
     }
 
     /// The other touching points, where straight sides lie along each other.
