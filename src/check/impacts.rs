@@ -51,7 +51,7 @@ pub(super) fn read(scene: &Scene, root: &Value) -> Result<Vec<Impact>, Unusable>
             meanings: meanings(scene, &root["symbols"])?,
             handed: BTreeMap::new(),
             earlier: BTreeMap::new(),
-            needs: Vec::new(),
+            needs: needs(&parameters(scene), &root["needs"])?,
         }]);
     }
     let all = root["impacts"].as_array().into_iter().flatten();
@@ -136,7 +136,7 @@ fn impact(scene: &Scene, value: &Value) -> Result<Impact, Unusable> {
         meanings,
         handed,
         earlier,
-        needs: needs(scene, &value["needs"])?,
+        needs: needs(&symbols, &value["needs"])?,
     })
 }
 
@@ -157,13 +157,12 @@ fn side(scene: &Scene, value: &Expr) -> Domain {
 }
 
 /// Reads what a solution supposes to be ≥ 0. Steps are held against points where it is.
-pub(super) fn needs(scene: &Scene, list: &Value) -> Result<Vec<Expr>, Unusable> {
-    let symbols = parameters(scene);
+pub(super) fn needs(symbols: &Symbols, list: &Value) -> Result<Vec<Expr>, Unusable> {
     let all = list.as_array().into_iter().flatten();
-    all.map(|v| super::read(v, &symbols, "`needs`")).collect()
+    all.map(|v| super::read(v, symbols, "`needs`")).collect()
 }
 
-fn parameters(scene: &Scene) -> Symbols {
+pub(super) fn parameters(scene: &Scene) -> Symbols {
     let mut symbols = Symbols::strict();
     let names = scene.parameters.iter().map(|p| &p.name);
     names.for_each(|name| symbols.declare(name));

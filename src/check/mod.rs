@@ -138,7 +138,7 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
         replay::replay(impact, &of(impact.name.as_ref()), &mut report);
     }
     if let Some(meanings) = &whole {
-        let needs = impacts::needs(&scene, &root["needs"])?;
+        let needs = impacts::needs(&impacts::parameters(&scene), &root["needs"])?;
         let claims = (&*of(None), &*needs);
         whole::replay(&scene, &impacts, meanings, claims, &mut report);
     }

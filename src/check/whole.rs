@@ -71,7 +71,7 @@ pub(super) fn replay(
         // Symbols of answers mean the first of several outcomes.
         let is_first = |passed: &Passed, i: usize| {
             let first = impacts.iter().find(|impact| impact.stage == i);
-            first.is_none_or(|impact| goes_so(impact, passed))
+            first.is_none_or(|impact| goes_so(impact, passed) && holds(&impact.needs, &doubles))
         };
         let mut each = stages.iter().enumerate();
         if points.len() as u64 >= POINTS

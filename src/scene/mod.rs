@@ -377,6 +377,21 @@ impl Scene {
         self.questions.iter().filter(answers)
     }
 
+    /// What must be ≥ 0 for what its friction is decided to do, which tells one way of slipping from the other.
+    pub fn decided_where(&self) -> Vec<Expr> {
+        let laws = self.contacts.iter().filter_map(|c| match &c.law {
+            ContactLaw::Decided(decided) => Some(&decided.when),
+            _ => None,
+        });
+        let all = laws
+            .flatten()
+            .map(|(left, relation, right)| match relation.is_below() {
+                true => right - left,
+                false => left - right,
+            });
+        all.collect()
+    }
+
     /// The contact with friction, by index, and its law.
     pub fn friction(&self) -> Option<(usize, &Friction)> {
         let mut contacts = self.contacts.iter().enumerate();

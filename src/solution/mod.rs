@@ -343,6 +343,7 @@ pub fn write(scene: &Scene, told: &Told, detail: Detail) -> Solution {
 /// The solution of a scene that is one impact and nothing else.
 fn lone(scene: &Scene, told: &Told, impact: &Case, detail: Detail) -> Solution {
     let mut writer = Writer::new(scene, &impact.derivation, &impact.proof, detail);
+    writer.solution.needs = scene.decided_where();
     writer.opening();
     writer.blocks();
     writer.results();

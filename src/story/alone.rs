@@ -39,6 +39,7 @@ pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
     let after = unasked(scene, &before);
     let case = Case {
         active: Vec::new(),
+        when: Vec::new(),
         rubs: String::new(),
         conditions: Vec::new(),
         handed: BTreeMap::new(),

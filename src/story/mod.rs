@@ -156,6 +156,8 @@ pub struct Case {
     pub rubs: String,
     /// What must be ≥ 0 for it, in words and as an expression; empty where it holds on the whole domain.
     pub conditions: Vec<(String, Expr)>,
+    /// What its friction needs to be ≥ 0, in the symbols of its scene.
+    pub when: Vec<Expr>,
     /// Symbols that stand for what an earlier stage hands on, in the scene and the derivation, with their values.
     pub handed: BTreeMap<Symbol, Expr>,
     /// Motion just after.

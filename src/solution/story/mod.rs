@@ -363,7 +363,8 @@ impl Page<'_> {
         let earlier = line.flat_map(|(j, _)| &self.told.stages[j].needs);
         let given = told.given.iter().map(|(_, e)| e);
         let own = case.conditions.iter().map(|(_, e)| e);
-        let needs = needed(self.scene, earlier.chain(given).chain(own));
+        let mut needs = needed(self.scene, earlier.chain(given).chain(own));
+        needs.extend(case.when.iter().cloned());
         self.solution.scopes.push(Scope {
             name: id,
             stage: stage.name.clone(),

@@ -128,6 +128,7 @@ pub(super) fn case(
     Ok(Some(Case {
         possible,
         active: set.iter().map(|i| one_sided[*i].name.clone()).collect(),
+        when: outcome.when.clone(),
         rubs: outcome.words.clone(),
         conditions,
         handed: handed.clone(),
