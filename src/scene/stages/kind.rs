@@ -16,6 +16,10 @@ use crate::scene::stage_file::{FallFile, ImpactFile, LinkageFile, StageFile, Tur
 
 pub(in crate::scene) const TIME: Quantity =
     Quantity::other([0, 0, 1], "a time, such as t, or a number of seconds");
+const TURNED: Quantity = Quantity::other(
+    [0, 0, 0],
+    "`by` is the angle through which it turns, in radians; a way down is its `height`, a way across its `range`",
+);
 const ACCELERATION: Quantity = Quantity::other(
     [0, 1, -2],
     "gravity is a length per time squared, such as g",
@@ -201,7 +205,7 @@ fn fall_of(r: &mut Resolver<'_>, fall: &FallFile, span: Span) -> Option<Fall> {
     let until = match (&fall.height, &fall.range, &fall.by, &fall.time) {
         (Some(height), ..) => FallEnd::Drop(r.read(height, Quantity::LENGTH)?),
         (_, Some(range), ..) => FallEnd::Range(r.read(range, Quantity::LENGTH)?),
-        (.., Some(by), _) => FallEnd::Turned(r.read(by, Quantity::ANGLE)?),
+        (.., Some(by), _) => FallEnd::Turned(r.read(by, TURNED)?),
         (.., Some(time)) => FallEnd::Time(r.read(time, TIME)?),
         _ if gravity.is_some() => FallEnd::Top,
         _ => {
