@@ -22,7 +22,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::sheet::{Sheet, judge};
 use super::{Diagnosis, Options, Verdict};
-use crate::expr::{Expr, Node, Symbol};
+use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Fault, Reading};
 use crate::scene::Question;
 use desk::Desk;
@@ -501,21 +501,22 @@ impl Desk<'_> {
             Weighed::Rounded => Status::Holds,
             Weighed::Open => Status::Undecided,
             Weighed::Carried(cause) => {
-                self.believe(*cause, &all);
-                self.believe_vector(*cause, links);
+                if self.believe_vector(*cause, links).is_none() {
+                    self.believe(*cause, &all);
+                }
                 self.state(Some(*cause), &all);
                 Status::Carried(*cause)
             }
             Weighed::Slip(_) => {
-                self.believe(number, &all);
-                self.believe_vector(number, links);
+                // What a wrong vector says of all else is not meant: `H = ml²ω/12` would say that ω = 0.
+                if self.believe_vector(number, links).is_none() {
+                    self.believe(number, &all);
+                }
                 self.state(Some(number), &all);
                 // That a product vanishes says too little, and too much follows from it.
-                let own = all.iter().map(|d| (number, self.with_own(d)));
-                let own: Vec<_> = own
-                    .filter(|(_, d)| matches!(d.node(), Node::Sum(_)))
-                    .collect();
-                self.wrong.extend(own);
+                let own = all.iter().map(|d| self.with_own(d));
+                let own: Vec<_> = own.filter(|d| self.says_a_sum(d)).collect();
+                self.wrong.extend(own.into_iter().map(|d| (number, d)));
                 // It may be such a name that is wrong, which later lines use as well.
                 let names = all.iter().flat_map(|d| self.own_needed(d));
                 let names: Vec<_> = names

@@ -71,6 +71,18 @@ impl Desk<'_> {
         })
     }
 
+    /// Whether what vanishes is a sum of what is found, rather than a product, also of terms that fall away as those of H about G.
+    pub(super) fn says_a_sum(&self, gap: &Expr) -> bool {
+        let is_sum = |e: &Expr| matches!(e.node(), Node::Sum(_));
+        let moves = |e: &Expr| e.symbols().iter().any(|n| self.is_found(n));
+        let is_given = |e: &Expr| match e.node() {
+            Node::Product(factors) => !factors.iter().any(|f| is_sum(f) && moves(f)),
+            _ => !is_sum(e),
+        };
+        let tidied = || tidy(gap, &self.sheet.scene.domains);
+        is_sum(gap) && tidied().is_ok_and(|gap| !is_given(&gap))
+    }
+
     /// Notes equations for later lines.
     pub(super) fn state(&mut self, cause: Option<usize>, differences: &[Expr]) {
         let all = differences.iter().map(|d| (cause, self.with_own(d)));
@@ -196,23 +208,26 @@ impl Desk<'_> {
         let Some(name) = left.expr().and_then(Expr::as_symbol) else {
             return;
         };
-        let is_vector = formula::has_arrow(name);
+        let is_vector = self.components(name).is_some();
         let told = match (is_vector, right.expr()) {
             (true, _) => self.along(name, right).unwrap_or_default(),
             (false, Some(value)) => vec![(name.clone(), self.with_own(value))],
             _ => return,
         };
         let mut causes = Vec::new();
-        for (cause, values) in &mut self.believed {
+        let mut believed = std::mem::take(&mut self.believed);
+        for (cause, values) in &mut believed {
             for (name, value) in &told {
                 let used = value.symbols();
                 if values.keys().any(|n| used.contains(n)) && !values.contains_key(name) {
-                    let implied = value.substitute(values);
+                    // A believed vector may stand on another name that is believed.
+                    let implied = self.with_own(&value.substitute(values)).substitute(values);
                     values.insert(name.clone(), implied);
                     causes.push(*cause);
                 }
             }
         }
+        self.believed = believed;
         causes.dedup();
         for cause in causes.into_iter().filter(|_| is_vector).take(MOST_CAUSES) {
             self.balance(cause, name);
@@ -230,24 +245,21 @@ impl Desk<'_> {
         Some(names.into_iter().zip(value).collect())
     }
 
-    /// Keeps what a line with a slip says a vector is, as of `\vec{H}_C^{-} = …`, and what its balance says then.
-    pub(super) fn believe_vector(&mut self, cause: usize, links: &[Link]) {
-        let (Some(first), Some(last)) = (links.first(), links.last()) else {
-            return;
-        };
-        let name = first.sides[0].expr().and_then(Expr::as_symbol);
-        let Some(name) = name.filter(|name| formula::has_arrow(name)) else {
-            return;
-        };
-        let Some(along) = self.along(name, &last.sides[1]) else {
-            return;
-        };
+    /// Keeps what a line with a slip says a vector is, as of `\vec{H}_C^{-} = …`, and what its balance says then; nothing of a line
+    /// about something else.
+    pub(super) fn believe_vector(&mut self, cause: usize, links: &[Link]) -> Option<()> {
+        let (first, last) = (links.first()?, links.last()?);
+        let name = first.sides[0].expr()?.as_symbol()?;
+        let is_spin = self.spins.contains_key(name);
+        let named = Some(name).filter(|name| formula::has_arrow(name) && !is_spin);
+        let along = self.along(named?, &last.sides[1])?;
         let mut earlier = self.believed.iter().rev();
         let earlier = earlier.find(|(c, _)| *c == cause);
         let mut values = earlier.map(|(_, v)| v.clone()).unwrap_or_default();
         values.extend(along);
         self.believed.push((cause, values));
         self.balance(cause, name);
+        Some(())
     }
 
     /// What a belief about H before or after an impact says where H is the same in truth.
@@ -280,8 +292,9 @@ impl Desk<'_> {
         let mine = of(&mine);
         let gaps = mine.iter().flat_map(|a| theirs.iter().map(move |b| a - b));
         let gaps: Vec<Expr> = gaps.map(|gap| self.with_own(&gap)).collect();
-        let wrong = gaps.iter().filter(|gap| matches!(gap.node(), Node::Sum(_)));
-        self.wrong.extend(wrong.map(|gap| (cause, gap.clone())));
+        let wrong: Vec<&Expr> = gaps.iter().filter(|gap| self.says_a_sum(gap)).collect();
+        let wrong = wrong.into_iter().map(|gap| (cause, gap.clone()));
+        self.wrong.extend(wrong);
         self.believe(cause, &gaps);
         self.state(Some(cause), &gaps);
     }

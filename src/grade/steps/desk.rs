@@ -301,8 +301,14 @@ impl<'a> Desk<'a> {
 
     /// An expression with own names put in, which may use one another.
     fn with_names(&self, e: &Expr) -> Expr {
-        let rounds = 0..self.own.len().min(8);
-        rounds.fold(e.clone(), |e, _| e.substitute(&self.own))
+        let mut e = e.clone();
+        for _ in 0..self.own.len().min(8) {
+            if !e.symbols().iter().any(|name| self.own.contains_key(name)) {
+                break;
+            }
+            e = e.substitute(&self.own);
+        }
+        e
     }
 
     /// Whether all differences vanish with the names' values put in; those of `instead` go first.

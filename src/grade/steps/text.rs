@@ -341,6 +341,10 @@ pub(super) fn joined(text: &str) -> String {
 
 /// A line without what aligns it with others in LaTeX: `ω &= 3v/(2ℓ) \\\\`.
 fn unaligned(line: &str) -> String {
+    // `**Momentum:** m v = …`
+    let bold = line.strip_prefix("**").and_then(|l| l.split_once("**"));
+    let bold = bold.map(|(words, rest)| format!("{words}{rest}"));
+    let line = bold.as_deref().unwrap_or(line);
     let line = line.trim_end_matches("\\\\").trim_end();
     let line = line
         .trim_end_matches("\\\\")

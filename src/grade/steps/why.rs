@@ -71,20 +71,24 @@ impl Desk<'_> {
                 if let Some(root) = root {
                     let mut values = earlier.clone();
                     self.carry_along(&name, &root, &mut values);
-                    // What is the same in truth, as a spin some time later, is believed to be the same; or not, where that is
-                    // a coincidence.
+                    // What is the same in truth, as a spin some time later, or the other way round, is believed to be so; or
+                    // not, where that is a coincidence.
                     let truth = &self.closed[&name];
-                    let same = |(n, v): &(&Symbol, &Expr)| **n != name && *v == truth;
-                    let same: Vec<Symbol> = (self.closed.iter().filter(same))
-                        .map(|(n, _)| n.clone())
-                        .collect();
+                    let turned = -truth;
+                    let others = self.closed.iter().filter(|(n, _)| **n != name);
+                    let same = others.filter_map(|(n, v)| match () {
+                        () if v == truth => Some((n.clone(), root.clone())),
+                        () if *v == turned => Some((n.clone(), -&root)),
+                        () => None,
+                    });
+                    let same: Vec<(Symbol, Expr)> = same.collect();
                     if !same.is_empty() {
                         let mut alone = values.clone();
                         alone.insert(name.clone(), root.clone());
                         self.believed.push((cause, alone));
                     }
-                    for other in same {
-                        values.entry(other).or_insert_with(|| root.clone());
+                    for (other, value) in same {
+                        values.entry(other).or_insert(value);
                     }
                     values.insert(name, root);
                     self.believed.push((cause, values));
@@ -233,7 +237,7 @@ impl Desk<'_> {
             let needed = theirs.as_ref().unwrap_or(&needed);
             let [value, needed] = [&value, needed].map(formula::write_plain);
             let likely = theirs.is_some() || rational == factor;
-            let told = likely && !same && needed.len() < LONGEST_VALUE;
+            let told = likely && !same && needed.len().max(value.len()) < LONGEST_VALUE;
             told.then(|| {
                 Diagnosis::new(
                     "OWN_VALUE",
