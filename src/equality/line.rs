@@ -135,10 +135,10 @@ fn beyond_zero(value: Value, [mut low, mut high]: [f64; 2], side: f64) -> Option
 }
 
 /// A zero of `f` along a symbol, between two numbers of the domain, at which `g` does not vanish: `f` has a value
-/// everywhere between and opposite signs at the ends, and `g` has one sign there. With the values of `g`.
+/// everywhere between and opposite signs at the ends, and `g` has one sign there, where `own` has values. With those of `g`.
 pub(crate) fn zero_apart(
     f: &Expr,
-    g: &Expr,
+    [g, own]: [&Expr; 2],
     name: &Symbol,
     at: &Sample,
     domain: &Domain,
@@ -154,9 +154,12 @@ pub(crate) fn zero_apart(
         point
     };
     let inside = |x: f64| from_f64(x).is_some_and(|x| domain.contains(&x));
-    let apart = |low: f64, high: f64| match evaluate::<Interval>(g, &here(low, high)) {
-        Outcome::Value(v) if v.low > 0.0 || v.high < 0.0 => Some(v),
-        _ => None,
+    let apart = |low: f64, high: f64| {
+        let values = [g, own].map(|e| evaluate::<Interval>(e, &here(low, high)));
+        match values {
+            [Outcome::Value(v), Outcome::Value(_)] if v.low > 0.0 || v.high < 0.0 => Some(v),
+            _ => None,
+        }
     };
     let roots = rough_zeros(f, name, &at.doubles(), domain);
     roots.into_iter().find_map(|root| {

@@ -12,6 +12,7 @@ mod factor;
 mod inequality;
 mod listed;
 mod locus;
+mod plain;
 mod points;
 mod solved;
 mod system;
@@ -23,9 +24,10 @@ use std::slice::from_ref;
 use super::Verdict;
 use super::compare::{Context, Finding};
 use crate::algebra::{self, Field, Sign};
-use crate::domain::{Domain, Domains, roles};
+use crate::domain::{Domain, Domains, Sample, roles};
 use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{Content, Join, Relation, is_angle_name, write_plain};
+use crate::interval::{Big, Outcome, evaluate};
 use cells::Cases;
 use equations::{alternatives, equations};
 use inequality::inequalities;
@@ -209,7 +211,7 @@ fn cases(content: &Content) -> Option<Vec<Vec<Normal>>> {
             let parts: Vec<_> = parts.iter().map(cases).collect::<Option<_>>()?;
             match join {
                 // One of several equations holds where the product of their differences vanishes.
-                Join::Or => Some(match one_of(&parts) {
+                Join::Or => Some(match one_of(&parts).filter(has_values) {
                     Some(product) => vec![vec![product]],
                     None => parts.concat(),
                 }),
@@ -223,6 +225,20 @@ fn cases(content: &Content) -> Option<Vec<Vec<Normal>>> {
         }
         _ => None,
     }
+}
+
+/// Whether a relation has a value everywhere, or is in several symbols, where a product stands for its factors.
+fn has_values(n: &Normal) -> bool {
+    let everywhere = |part: &Expr| match part.node() {
+        Node::Power(base, k) => {
+            base.is_constant()
+                || k.as_number()
+                    .is_some_and(|k| k.is_integer() && !k.is_negative())
+        }
+        Node::Call(function, x) => *function != Function::Ln || x.is_constant(),
+        _ => true,
+    };
+    n.difference.symbols().len() > 1 || n.difference.parts().all(everywhere)
 }
 
 /// The equation that holds where one of several does.
@@ -340,7 +356,12 @@ fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
         // Beyond what has to hold beside, the one may hold where the other has no value.
         let equation = expected.relation == Relation::Equal;
         match found.verdict {
-            Verdict::Equivalent if equation || given.is_empty() => finding = found,
+            Verdict::Equivalent
+                if given.is_empty()
+                    || equation && consistent([expected, answer], &pair, &domains) =>
+            {
+                finding = found;
+            }
             Verdict::Different if given.is_empty() => finding = found,
             _ => {}
         }
@@ -349,6 +370,38 @@ fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
         finding.assume(given);
     }
     finding
+}
+
+/// Whether equations have values where others without their functions are fulfilled: at some point for each factor that is
+/// solved, and in one symbol, where every solution counts, for all factors.
+fn consistent(old: [&Normal; 2], new: &[Normal; 2], domains: &Domains) -> bool {
+    let [e, a] = old.map(|n| &n.difference);
+    let has_values = |name: &Symbol, root: &Expr| {
+        let [e, a] = [e, a].map(|e| e.put(name, root));
+        let has_value = |sample: &Sample, e: &Expr| {
+            matches!(
+                evaluate::<Big<200>>(e, &sample.point(true)),
+                Outcome::Value(_)
+            )
+        };
+        let points = domains.points(&[root, &e, &a], 12);
+        points
+            .iter()
+            .any(|at| has_value(at, &e) && has_value(at, &a))
+    };
+    let alone = unknowns(e, a).len() == 1;
+    let mut factors = new.iter().flat_map(|n| n.difference.factors());
+    factors.all(|factor| {
+        let names = unknowns(factor, factor);
+        let mut solved = names
+            .iter()
+            .filter_map(|name| Some((name, solve_for(factor, name, domains)?)));
+        let mut found = solved.by_ref().peekable();
+        match found.peek() {
+            None => !alone || names.is_empty(),
+            Some(_) => found.any(|(name, root)| has_values(name, &root)),
+        }
+    })
 }
 
 /// Takes the factors without the sought quantity out of an equation; what they must not be in words.

@@ -7,6 +7,7 @@ use std::cmp::Ordering;
 
 use num_traits::{Signed, Zero};
 
+use super::plain::plain;
 use super::{Normal, differences, equation};
 use crate::algebra::{Cell, Field};
 use crate::domain::{Domain, Domains, Limit, roles};
@@ -46,6 +47,9 @@ pub(super) fn compare(first: &Cases, second: &Cases, domains: &Domains) -> Optio
         return None;
     }
     let (domains, _) = domains.completed(&uses);
+    if let (Some(first), Some(second)) = (plain(first, &domains), plain(second, &domains)) {
+        return along(&first, &second, name, &domains);
+    }
     match radicand(&all, name)? {
         None => along(first, second, name, &domains),
         Some(inside) => under_root(first, second, (name, &inside), &domains),

@@ -2,7 +2,7 @@
 
 use super::factor::{turned_term, unrooted};
 use super::locus::{self, Compared, Extent, Part};
-use super::solved::{same_angle, solve_for, solved_in};
+use super::solved::{same_angle, solve_for, solved_in, unknowns};
 use super::{
     Normal, REALS, listed, not_zero, over_reals, same_solutions, says_nothing, sign_of, sought_of,
     undecided,
@@ -46,13 +46,23 @@ pub(super) fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Fi
             .question
             .domains
             .of(&[&expected.difference, &answer.difference]);
-        finding.assume(poles(&expected.difference, &answer.difference, &domains));
+        let (f, g) = (&expected.difference, &answer.difference);
+        let poles = poles(f, g, &domains);
+        // In one symbol some solution has to be none of them.
+        let beside = |pole: &Expr| {
+            let mut all = [f, g].into_iter();
+            all.any(|e| locus::vanishing(e, [pole, e], &domains).is_some())
+        };
+        if unknowns(f, g).len() == 1 && !poles.iter().all(beside) {
+            return undecided("where the one is fulfilled the other may have no value");
+        }
+        finding.assume(poles.iter().map(not_zero).collect());
     }
     finding
 }
 
-/// What one equation divides by and the other does not, where it may be zero with the other fulfilled, in words.
-fn poles(f: &Expr, g: &Expr, domains: &Domains) -> Vec<String> {
+/// What one equation divides by and the other does not, where it may be zero with the other fulfilled.
+fn poles(f: &Expr, g: &Expr, domains: &Domains) -> Vec<Expr> {
     let matters = |pole: &Expr| {
         let excluded = |name: &Symbol| {
             let Some(root) = solve_for(pole, name, domains) else {
@@ -64,8 +74,10 @@ fn poles(f: &Expr, g: &Expr, domains: &Domains) -> Vec<String> {
         };
         !pole.symbols().iter().any(excluded)
     };
-    let poles = equality::poles(f, g, domains).into_iter().filter(matters);
-    poles.map(|pole| not_zero(&pole)).collect()
+    equality::poles(f, g, domains)
+        .into_iter()
+        .filter(matters)
+        .collect()
 }
 
 /// What is sought among the symbols that two equations share.

@@ -136,7 +136,7 @@ fn by_factor(
             return Some(finding);
         }
     }
-    let boundary = || locus::vanishing(f, &Expr::one(), domains);
+    let boundary = || locus::vanishing(f, [&Expr::one(), f], domains);
     if common.positive && expected.relation != answer.relation {
         match boundary() {
             Some((at, _)) => {
@@ -167,7 +167,8 @@ fn beside_boundary(ctx: &Context, open: &Normal, sure: &Normal) -> Finding {
     if let Some(finding) = apart_at_points(ctx, pair[0], pair[1]) {
         return finding;
     }
-    match locus::vanishing(&open.difference, &Expr::one(), domains) {
+    let edge = &open.difference;
+    match locus::vanishing(edge, [&Expr::one(), edge], domains) {
         Some(_) => {
             let words = "on its boundary one holds where the other does not";
             Finding::different("DIFF_INEQUALITY", "solutions", words)

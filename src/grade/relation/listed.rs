@@ -86,7 +86,7 @@ pub(super) fn values(expected: &Normal, answer: &Normal, domains: &Domains) -> O
             Equality::Same { .. } if inside.iter().all(|v| v.is_disjoint(&place)) => {
                 inside.push(place);
             }
-            Equality::Different(_) => beside = Some(value),
+            Equality::Different(_) | Equality::Invalid { .. } => beside = Some(value),
             _ => return None,
         }
     }

@@ -87,22 +87,22 @@ pub(super) fn compare(f: &Expr, g: &Expr, domains: &Domains) -> Option<Compared>
             *part = whole.clone();
         }
     }
-    let part = |(element, expr): (Element, Expr), other: &Expr| {
+    let part = |(element, expr): (Element, Expr), own: &Expr, other: &Expr| {
         if field.sign(&element).is_some_and(Sign::is_strict) {
             return None;
         }
         if covered(&expr, other, &domains) {
             return None;
         }
-        let at = vanishing(&expr, other, &domains);
+        let at = vanishing(&expr, [other, own], &domains);
         Some(Part { expr, at })
     };
     let extents = [&lost, &gained]
         .map(|parts| extent(&field, &[parts.as_slice(), &shared].concat(), &domains));
     let symbols = shared.iter().flat_map(|(_, e)| e.symbols()).collect();
     Some(Compared {
-        lost: lost.into_iter().filter_map(|p| part(p, g)).collect(),
-        gained: gained.into_iter().filter_map(|p| part(p, f)).collect(),
+        lost: lost.into_iter().filter_map(|p| part(p, f, g)).collect(),
+        gained: gained.into_iter().filter_map(|p| part(p, g, f)).collect(),
         shared: symbols,
         extents,
     })
@@ -132,7 +132,7 @@ fn extent(field: &Field, parts: &[(Element, Expr)], domains: &Domains) -> Extent
         return Extent::None;
     }
     let one = Expr::one();
-    match left.any(|(_, x)| vanishing(x, &one, domains).is_some()) {
+    match left.any(|(_, x)| vanishing(x, [&one, x], domains).is_some()) {
         true => Extent::Some,
         false => Extent::Unknown,
     }
@@ -165,12 +165,12 @@ fn solved(part: &Expr, other: &Expr, domains: &Domains) -> bool {
     })
 }
 
-/// A point of the domain at which `part` vanishes and `other` does not.
-pub(super) fn vanishing(part: &Expr, other: &Expr, domains: &Domains) -> Option<Point> {
-    if let Some(found) = solution_apart(part, other, domains) {
+/// A point of the domain at which `part`, of what has a value there, vanishes and `other` does not.
+pub(super) fn vanishing(part: &Expr, [other, own]: [&Expr; 2], domains: &Domains) -> Option<Point> {
+    if let Some(found) = solution_apart(part, [other, own], domains) {
         return Some(found);
     }
-    let uses = roles(&[part, other]);
+    let uses = roles(&[part, other, own]);
     let (domains, _) = domains.completed(&uses);
     // Along the only symbol every line is the same.
     let starts = if uses.symbols.len() == 1 { 1 } else { STARTS };
@@ -182,7 +182,7 @@ pub(super) fn vanishing(part: &Expr, other: &Expr, domains: &Domains) -> Option<
             if domains.is_component(&name) {
                 continue;
             }
-            if let Some([root, value]) = zero_apart(part, other, &name, &start, domain)
+            if let Some([root, value]) = zero_apart(part, [other, own], &name, &start, domain)
                 && let (Some(low), Some(high)) = (root.low.nearest(), root.high.nearest())
                 && domains.admits_with(&start, &name, Interval::new(low, high))
             {

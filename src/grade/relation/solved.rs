@@ -68,9 +68,13 @@ pub(super) fn rounded(value: &Enclosure) -> Expr {
     number::decimal(&value.decimal(6)).map_or_else(Expr::zero, Expr::from)
 }
 
-/// A point inside the domain where `f` vanishes and `g` does not, in words, with the value of `g` there.
-pub(super) fn solution_apart(f: &Expr, g: &Expr, domains: &Domains) -> Option<(String, Expr)> {
-    let uses = roles(&[f, g]);
+/// A point inside the domain where `f` vanishes, `g` does not and `own` has a value, in words, with the value of `g` there.
+pub(super) fn solution_apart(
+    f: &Expr,
+    [g, own]: [&Expr; 2],
+    domains: &Domains,
+) -> Option<(String, Expr)> {
+    let uses = roles(&[f, g, own]);
     let (domains, _) = domains.completed(&uses);
     for name in unknowns(f, g) {
         if uses.symbols.get(&name).is_some_and(|r| r.turns) {
@@ -79,7 +83,7 @@ pub(super) fn solution_apart(f: &Expr, g: &Expr, domains: &Domains) -> Option<(S
         let Some(root) = solve_for(f, &name, &domains) else {
             continue;
         };
-        for sample in domains.points(&[f, g, &root], 12) {
+        for sample in domains.points(&[f, g, own, &root], 12) {
             let point = sample.point::<Big<200>>(true);
             let Outcome::Value(value) = evaluate(&root, &point) else {
                 continue;
@@ -92,6 +96,7 @@ pub(super) fn solution_apart(f: &Expr, g: &Expr, domains: &Domains) -> Option<(S
             there.values.insert(name.clone(), middle);
             if let Outcome::Value(left) = evaluate(g, &there)
                 && !left.0.has_zero()
+                && matches!(evaluate(own, &there), Outcome::Value(_))
             {
                 return Some((words_at(&sample, &name, &value.0), rounded(&left.0)));
             }

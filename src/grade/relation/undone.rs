@@ -90,7 +90,7 @@ fn without_base(terms: &[Expr]) -> Vec<Expr> {
 }
 
 /// `Σ k ln u + W` has the sign of `Π u^k − exp(−W)` with whole k, where every u is positive.
-fn logarithms(n: &Normal, domains: &Domains) -> Option<Undone> {
+pub(super) fn logarithms(n: &Normal, domains: &Domains) -> Option<Undone> {
     let (mut logs, mut rest) = (Vec::new(), Vec::new());
     for term in without_base(n.difference.terms()) {
         let (k, plain) = term.split_number();
@@ -348,7 +348,7 @@ pub(super) fn square(n: &Normal, domains: &Domains) -> Option<Undone> {
 }
 
 /// `a rel b` with exponentials in them as `ln a rel ln b`.
-fn exponents(n: &Normal, domains: &Domains) -> Option<Undone> {
+pub(super) fn exponents(n: &Normal, domains: &Domains) -> Option<Undone> {
     let is_exponential = |part: &Expr| match part.node() {
         Node::Power(_, k) => k.as_number().is_none(),
         Node::Call(function, _) => *function == Function::Exp,
