@@ -482,8 +482,15 @@ fn corners(e: &Expr, start: &Sample, domains: &Domains) -> Vec<Sample> {
 /// A number at or near each end of a domain, far out where there is none.
 fn near_ends(domain: &Domain) -> [Rational; 2] {
     let far = Rational::from(Int::from(1000));
-    let ends = [&domain.low, &domain.high].map(|l| l.as_ref().filter(|l| !l.of_pi));
-    let width = match ends {
+    // A multiple of π is as good as an open end at a fraction near it.
+    let ends = [&domain.low, &domain.high].map(|limit| {
+        let limit = limit.as_ref()?;
+        Some(match limit.of_pi {
+            true => Limit::number(from_f64(limit.approximate())?, true),
+            false => limit.clone(),
+        })
+    });
+    let width = match &ends {
         [Some(low), Some(high)] => &high.value - &low.value,
         _ => Rational::one(),
     };
@@ -491,7 +498,7 @@ fn near_ends(domain: &Domain) -> [Rational; 2] {
         true => &width / &far,
         false => Rational::zero(),
     };
-    match ends {
+    match &ends {
         [Some(low), Some(high)] => [&low.value + inside(low), &high.value - inside(high)],
         [Some(low), None] => [&low.value + inside(low), &low.value + &far],
         [None, Some(high)] => [&high.value - &far, &high.value - inside(high)],
