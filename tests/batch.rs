@@ -304,6 +304,26 @@ fn a_form_may_be_asked_for() {
 }
 
 #[test]
+fn what_can_be_reduced_or_factored_has_not_the_form() {
+    for (form, right, wrong) in [
+        ("simplified", "1/2", "2/4"),
+        ("simplified", "1/2", "\\frac{2}{4}"),
+        ("simplified", "2", "4/2"),
+        ("simplified", "x/2", "2x/4"),
+        ("simplified", "3x/(2y)", "6x/(4y)"),
+        ("simplified", "2 sqrt(2)", "sqrt(8)"),
+        ("factored", "(x-1)(x+1)", "x^2-1"),
+        ("factored", "2(x-1)(x+1)", "2(x^2-1)"),
+        ("factored", "x(x-1)(x+1)", "x(x^2-1)"),
+    ] {
+        for (answer, verdict) in [(right, "equivalent"), (wrong, "different")] {
+            let line = json!({"expected": right, "answer": answer, "form": form});
+            assert!(judged(line).starts_with(verdict), "{answer} as {form}");
+        }
+    }
+}
+
+#[test]
 fn a_scene_below_the_working_folder_gives_key_and_symbols() {
     let scene = "derivations/book/falling-stick.json";
     let right = json!({"scene": scene, "quantity": "omega", "answer": "3 v cosθ/(2ℓ)"});

@@ -2,9 +2,9 @@
 
 use super::compare::Finding;
 use super::{Diagnosis, Key, Verdict};
-use crate::algebra::{Field, tidy};
+use crate::algebra::{Element, Field, tidy};
 use crate::expr::{Expr, Node, Symbol};
-use crate::formula::{Content, Reading, Shape, Written};
+use crate::formula::{Content, Link, Reading, Shape, Written};
 
 /// A demand on the form of an answer.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -159,26 +159,72 @@ fn repeats(e: &Expr) -> bool {
     })
 }
 
-/// Whether a fraction of two whole numbers can be reduced.
+/// Whether whole factors above and below a fraction line can be reduced, or a whole number under a root has a square in it.
 fn reducible(w: &Written) -> bool {
-    let whole = |w: &Written| {
-        w.literal()
-            .filter(|l| l.value.is_integer())
-            .and_then(|l| l.value.numer().as_i64())
+    let mut sides = [1, 1];
+    whole_factors(w, false, &mut sides);
+    let [above, below] = sides;
+    let rooted = match &w.shape {
+        Shape::Root(None, inside) => {
+            let n = whole(inside).unwrap_or(1).min(MOST_UNDER_ROOT);
+            (2..).take_while(|d| d * d <= n).any(|d| n % (d * d) == 0)
+        }
+        _ => false,
     };
-    if let Shape::Fraction(a, b) = &w.shape
-        && let (Some(a), Some(b)) = (whole(a), whole(b))
-    {
-        return num_integer::gcd(a, b) != 1;
-    }
-    w.pieces().into_iter().any(reducible)
+    rooted || num_integer::gcd(above, below) > 1 || w.pieces().into_iter().any(reducible)
 }
 
-/// Whether no sum at the top or in a factor has more than one factor in its normal form.
+/// Greatest number in which squares are looked for.
+const MOST_UNDER_ROOT: i64 = 1_000_000_000;
+
+/// The value of a whole number.
+fn whole(w: &Written) -> Option<i64> {
+    match &w.shape {
+        Shape::Bracket(inside) => whole(inside),
+        _ => {
+            let literal = w.literal().filter(|l| l.value.is_integer() && !l.decimal)?;
+            literal.value.numer().as_i64().filter(|n| *n > 0)
+        }
+    }
+}
+
+/// Multiplies what stands above the fraction line, and below it, by the whole numbers among the factors.
+fn whole_factors(w: &Written, below: bool, sides: &mut [i64; 2]) {
+    match &w.shape {
+        Shape::Product(factors) => {
+            for (i, (link, factor)) in factors.iter().enumerate() {
+                whole_factors(factor, below != (i > 0 && *link == Link::Over), sides);
+            }
+        }
+        Shape::Fraction(a, b) => {
+            whole_factors(a, below, sides);
+            whole_factors(b, !below, sides);
+        }
+        Shape::Bracket(inside) => whole_factors(inside, below, sides),
+        _ => {
+            let side = &mut sides[usize::from(below)];
+            *side = whole(w).and_then(|n| side.checked_mul(n)).unwrap_or(*side);
+        }
+    }
+}
+
+/// Whether no sum at the top or in a factor has more than one factor in its normal form, or as a polynomial.
 fn factored(e: &Expr, key: &Key) -> bool {
+    let domains = &key.question.domains;
     let irreducible = |sum: &Expr| {
-        let tidy = tidy(sum, &key.question.domains);
-        tidy.is_err() || tidy.is_ok_and(|e| matches!(e.node(), Node::Sum(_)))
+        let polynomial = |part: &Expr| match part.node() {
+            Node::Power(_, k) => k.as_number().is_some_and(|k| k.is_integer()),
+            Node::Call(..) => false,
+            _ => true,
+        };
+        let parts = sum
+            .parts()
+            .all(polynomial)
+            .then(|| Field::of(domains, sum).ok());
+        let one = |(field, x): (Field, Element)| field.zeros(&x).len() < 2;
+        let tidy = tidy(sum, domains);
+        parts.flatten().is_none_or(one)
+            && (tidy.is_err() || tidy.is_ok_and(|e| matches!(e.node(), Node::Sum(_))))
     };
     match e.node() {
         Node::Sum(_) => irreducible(e),
