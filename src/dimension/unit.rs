@@ -352,7 +352,8 @@ fn named(word: &str) -> Option<Unit> {
     let mut all = PREFIXES.into_iter().zip(POWERS);
     let (prefix, power) = all.find(|(p, _)| word.starts_with(p) && word.len() > p.len())?;
     let base = &word[prefix.len()..];
-    let electrical = ELECTRICAL.contains(&base) && matches!(prefix, "k" | "M" | "m" | "µ" | "μ");
+    let electrical =
+        ELECTRICAL.contains(&base) && matches!(prefix, "k" | "M" | "m" | "µ" | "μ" | "n" | "p");
     if !TAKES_PREFIX.contains(&base) && !electrical {
         return None;
     }
@@ -372,8 +373,8 @@ const TAKES_PREFIX: [&str; 12] = [
     "g", "m", "s", "N", "J", "W", "Pa", "Hz", "rad", "Nm", "Ns", "Ws",
 ];
 
-/// Electrical units, which take the prefixes that do not look like a product of letters.
-const ELECTRICAL: [&str; 6] = ["A", "V", "Ω", "C", "F", "T"];
+/// Units of electricity and heat, which take the prefixes that people write before them.
+const ELECTRICAL: [&str; 8] = ["A", "V", "Ω", "C", "F", "T", "H", "K"];
 
 /// Prefixes in full, before a unit in full: `kilojoule`.
 const LONG_PREFIXES: [&str; 8] = [

@@ -17,6 +17,8 @@ use crate::expr::{Function, Rational, Symbol, ratio};
 pub(super) const SLASHES: u32 = 63;
 /// The decision that opens a bar inside bars where a value stands right behind it: `|x+b|y||`.
 pub(super) const BARS: u32 = 62;
+/// The decision that leaves fractions of two whole numbers as they are where the other slashes are turned round.
+pub(super) const HALVES: u32 = 61;
 /// Most tokens of one formula.
 const MAX_TOKENS: u32 = 20_000;
 
@@ -177,13 +179,15 @@ impl<'a> Lexer<'a> {
     pub fn usual(&mut self) -> bool {
         let site = self.sites;
         self.sites += 1;
-        site >= BARS || self.flips >> site & 1 == 0
+        site >= HALVES || self.flips >> site & 1 == 0
     }
 
-    /// Whether slashes reach as far as usual. There is one other reading for all of them, and none `inside` a function.
-    pub fn usual_slash(&mut self, inside: bool) -> bool {
+    /// Whether slashes reach as far as usual. There is one other reading for all of them, or for all but those of a `half`, and
+    /// none `inside` a function.
+    pub fn usual_slash(&mut self, inside: bool, half: bool) -> bool {
         self.slashes |= !inside;
-        inside || self.flips >> SLASHES & 1 == 0
+        let is_set = |flip: u32| self.flips >> flip & 1 == 1;
+        inside || !is_set(SLASHES) || half && is_set(HALVES)
     }
 
     /// Whether a bar that ends at `end`, inside bars and behind a value, opens others.

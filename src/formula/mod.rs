@@ -289,7 +289,7 @@ pub fn other_readings(text: &str, symbols: &Symbols, slashes: bool) -> Vec<Readi
     let held = prose::Held::of(text);
     let mut out: Vec<Reading> = Vec::new();
     let count = (usual.choices - u32::from(usual.slashes)).min(MAX_READINGS);
-    let all = (count > 1).then_some(!(0b11u64 << lexer::BARS));
+    let all = (count > 1).then_some(!(0b111u64 << lexer::HALVES));
     let slashes = (slashes && usual.slashes).then_some(1u64 << lexer::SLASHES);
     let sites = (0..count).map(|site| 1u64 << site);
     for flips in slashes.into_iter().chain(sites).chain(all) {
@@ -304,10 +304,13 @@ pub fn other_readings(text: &str, symbols: &Symbols, slashes: bool) -> Vec<Readi
     out
 }
 
-/// The reading in which every slash outside functions reaches as far as some people mean it: over the first factor where
-/// all of a tight product was taken, over all where a number or a space parted it.
-pub fn slashes_turned(text: &str, symbols: &Symbols) -> Option<Reading> {
-    read_as(text, symbols, 1u64 << lexer::SLASHES, prose::Held::of(text)).ok()
+/// The readings in which every slash outside functions reaches as far as some people mean it: over the first factor where
+/// all of a tight product was taken, over all where a number or a space parted it; in the second, `3/4 x` stays as it is.
+pub fn slashes_turned(text: &str, symbols: &Symbols) -> Vec<Reading> {
+    let held = prose::Held::of(text);
+    let turned = [0, 1u64 << lexer::HALVES].map(|halves| halves | 1u64 << lexer::SLASHES);
+    let read = |flips| read_as(text, symbols, flips, held).ok();
+    turned.into_iter().filter_map(read).collect()
 }
 
 /// Refuses a text beyond [`MAX_BYTES`], before anything searches it.

@@ -108,10 +108,10 @@ impl Parser<'_> {
         if vector || enclosed {
             return Ok((first, Some(self.group()?)));
         }
-        let usual = self.lexer.usual_slash(self.arguments > 0);
+        let usual = self.lexer.usual_slash(self.arguments > 0, half);
+        let spaced = self.peek()?.spaced;
         let from = above.last().map_or(first.start, |(_, w)| w.start);
         let middle = first.end;
-        let spaced = self.peek()?.spaced;
         let parted = half || spaced;
         let product = if parted {
             first

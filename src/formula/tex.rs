@@ -236,7 +236,12 @@ impl<'a> Lexer<'a> {
         self.pos = start + 1 + word.len();
         if let Ok((inside, end)) = self.group(start) {
             let trimmed = inside.trim();
-            if let Some(tok) = function(trimmed) {
+            let called = || {
+                let rest = self.text[end..].trim_start();
+                rest.starts_with('(') || rest.starts_with("\\left(")
+            };
+            let pair = || Pair::named(trimmed).filter(|_| called()).map(Tok::Pair);
+            if let Some(tok) = function(trimmed).or_else(pair) {
                 self.pos = end;
                 return Ok(tok);
             }

@@ -358,7 +358,8 @@ pub(super) fn turned(
         others.retain(|other| arc(&other.notes, false));
         others
     };
-    let others = slashes.flatten().into_iter();
+    let others = slashes.into_iter().flatten();
+    let others = others.filter(|other| other.content != reading.content);
     let mut others = others.chain(arcs.then(factors).into_iter().flatten());
     let found = others.find_map(|other| {
         let turned = compare::contents(key, &other, options);
