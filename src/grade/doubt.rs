@@ -90,8 +90,9 @@ pub(super) fn euler(
     };
     let found = compare::contents(&other, &mine, &plain);
     if found.verdict != Verdict::Equivalent {
-        // Beside an exponential function e is no symbol that is too much.
-        let is_exp = |part: &Expr| matches!(part.node(), Node::Call(Function::Exp, _));
+        // Beside an exponential function or a logarithm e is no symbol that is too much.
+        let is_exp =
+            |part: &Expr| matches!(part.node(), Node::Call(Function::Exp | Function::Ln, _));
         let mut exponential = false;
         expected.each(&mut |e| exponential |= e.parts().any(is_exp));
         if exponential {

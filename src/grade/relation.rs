@@ -24,7 +24,7 @@ use std::slice::from_ref;
 use super::Verdict;
 use super::compare::{Context, Finding};
 use crate::algebra::{self, Field, Sign};
-use crate::domain::{Domain, Domains, Sample, roles};
+use crate::domain::{Domain, Domains, roles};
 use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{Content, Join, Relation, is_angle_name, write_plain};
 use crate::interval::{Big, Outcome, evaluate};
@@ -34,7 +34,7 @@ use inequality::inequalities;
 use num_traits::Signed;
 use points::{apart_at_points, apart_in_cases};
 pub(super) use solved::solve_for;
-use solved::{solved_in, unknowns};
+use solved::{lies_in, solved_in, unknowns};
 
 /// `left − right  rel  0`, turned so that the relation is one of =, ≠, <, ≤.
 #[derive(Clone, Debug)]
@@ -377,17 +377,17 @@ fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
 fn consistent(old: [&Normal; 2], new: &[Normal; 2], domains: &Domains) -> bool {
     let [e, a] = old.map(|n| &n.difference);
     let has_values = |name: &Symbol, root: &Expr| {
-        let [e, a] = [e, a].map(|e| e.put(name, root));
-        let has_value = |sample: &Sample, e: &Expr| {
-            matches!(
-                evaluate::<Big<200>>(e, &sample.point(true)),
-                Outcome::Value(_)
-            )
-        };
-        let points = domains.points(&[root, &e, &a], 12);
-        points
-            .iter()
-            .any(|at| has_value(at, &e) && has_value(at, &a))
+        let all = [&e.put(name, root), &a.put(name, root), root].map(Expr::clone);
+        let points = domains.points(&all.each_ref(), 12);
+        points.iter().any(|at| {
+            let point = at.point::<Big<200>>(true);
+            match all.each_ref().map(|e| evaluate(e, &point)) {
+                [Outcome::Value(_), Outcome::Value(_), Outcome::Value(place)] => {
+                    lies_in(&place.0, name, domains)
+                }
+                _ => false,
+            }
+        })
     };
     let alone = unknowns(e, a).len() == 1;
     let mut factors = new.iter().flat_map(|n| n.difference.factors());
