@@ -24,7 +24,7 @@ use std::fmt;
 pub use formulas::{LONGEST, about, dimension_of, formulas};
 pub use graph::{Curve, Graph, graphs};
 
-use crate::dimension::Dimension;
+use crate::dimension::{Dimension, System};
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, Vector};
 use crate::formula::{Relation, Sentence, latex_name, sentence, with_subscript, write_plain};
@@ -294,6 +294,23 @@ impl Answer {
             // A moment has the dimension of an energy, and no joules.
             Some(of) if of.unit == "N m" => of.unit.clone(),
             _ => self.dimension.spoken(),
+        }
+    }
+
+    /// Its unit in the system that the scene's data are in.
+    pub fn unit_of_data(&self, scene: &Scene) -> String {
+        match scene.system() {
+            System::Si => self.unit(scene),
+            system => system.unit(&self.dimension),
+        }
+    }
+
+    /// A value in SI units as a number with that unit; a plain number stands alone.
+    pub fn measured(&self, scene: &Scene, value: f64, digits: impl Fn(f64) -> String) -> String {
+        let number = digits(value / scene.system().scale(&self.dimension));
+        match self.unit_of_data(scene).as_str() {
+            "1" => number,
+            unit => format!("{number} {unit}"),
         }
     }
 

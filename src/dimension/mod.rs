@@ -33,6 +33,55 @@ pub struct Dimension {
 
 const NAMES: [&str; 5] = ["mass", "length", "time", "current", "temperature"];
 
+/// A system of units in which numbers are told.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum System {
+    /// Metres, kilograms, seconds.
+    Si,
+    /// Feet, pounds of force, seconds.
+    FootPound,
+}
+
+impl System {
+    /// The system of units as people wrote them: feet and pounds where such stand, and no metres and kilograms.
+    pub fn of<'a>(written: impl Iterator<Item = &'a str>) -> System {
+        const FEET: [&str; 13] = [
+            "ft", "foot", "feet", "in", "inch", "inches", "lb", "lbs", "lbf", "slug", "slugs",
+            "oz", "mph",
+        ];
+        const NEITHER: [&str; 10] = [
+            "s", "ms", "min", "h", "rad", "deg", "rev", "rpm", "Hz", "mi",
+        ];
+        let words = written.flat_map(|unit| unit.split(|c: char| !c.is_alphabetic()));
+        let mut words = words
+            .filter(|w| !w.is_empty() && !NEITHER.contains(w))
+            .peekable();
+        match words.peek().is_some() && words.all(|w| FEET.contains(&w)) {
+            true => System::FootPound,
+            false => System::Si,
+        }
+    }
+
+    /// The unit of a dimension as a person says it.
+    pub fn unit(self, dimension: &Dimension) -> String {
+        match (self, dimension.spoken()) {
+            (System::FootPound, spoken) if spoken != "rad/s" && spoken != "1" => {
+                dimension.in_feet_and_pounds()
+            }
+            (_, spoken) => spoken,
+        }
+    }
+
+    /// How many SI units one of its unit of a dimension is.
+    pub fn scale(self, dimension: &Dimension) -> f64 {
+        let unit = match self {
+            System::Si => return 1.0,
+            System::FootPound => unit(&self.unit(dimension)),
+        };
+        unit.map_or(1.0, |unit| crate::expr::number::to_f64(&unit.factor))
+    }
+}
+
 impl Dimension {
     /// The dimension mass^`mass` · length^`length` · time^`time`.
     pub fn new(mass: i64, length: i64, time: i64) -> Dimension {
@@ -124,12 +173,22 @@ impl Dimension {
         }
     }
 
-    /// A number with its unit as a person says it; a plain number stands alone.
-    pub fn measured(&self, number: &str) -> String {
-        match self.is_none() {
-            true => number.to_string(),
-            false => format!("{number} {}", self.spoken()),
+    /// The unit in feet, pounds of force and seconds, such as `ft/s`, `lbf s`, `ft lbf` or `slug ft²`.
+    fn in_feet_and_pounds(&self) -> String {
+        let [mass, length, time] = [&self.mass, &self.length, &self.time];
+        if self.exponents()[3..].iter().any(|k| !k.is_zero()) {
+            return self.si();
         }
+        let none = Rational::zero;
+        // A pound of force holds a mass, a length and a time.
+        if mass.is_zero() || time.is_zero() {
+            let powers = [mass.clone(), length.clone(), time.clone(), none(), none()];
+            return Dimension::of(powers).spell(["slug", "ft", "s", "", ""], " ", superscript);
+        }
+        let rest = [length - mass, mass.clone(), time + mass + mass];
+        let [feet, pounds, seconds] = rest;
+        let powers = Dimension::of([feet, pounds, seconds, none(), none()]);
+        powers.spell(["ft", "lbf", "s", "", ""], " ", superscript)
     }
 
     fn spell(&self, names: [&str; 5], times: &str, raise: impl Fn(&Rational) -> String) -> String {

@@ -131,7 +131,7 @@ pub fn answers(scene: &Scene, of: Option<&Told>, answers: &[Answer]) -> String {
         let alike: Vec<&Answer> = answers[i + 1..].iter().filter(|b| is_alike(a, b)).collect();
         let unit = a
             .formula()
-            .map(|_| a.unit(scene))
+            .map(|_| a.unit_of_data(scene))
             .filter(|unit| unit != "1");
         let unit = unit.map_or(String::new(), |unit| format!(" [{unit}]"));
         let mut lines = vec![format!("{}{unit}", shared_words(a, &alike))];
@@ -200,11 +200,13 @@ pub(super) fn says(scene: &Scene, alone: Option<&Derivation>, a: &Answer) -> Str
 fn number(scene: &Scene, alone: Option<&Derivation>, a: &Answer) -> Option<String> {
     let closed = a.formula().filter(|e| !e.is_zero())?;
     let value = super::answer_value(scene, alone, closed)?.approximate;
-    let number = super::digits(value);
     Some(match closed.is_arc() {
-        true => format!("{number} rad, {}°", super::digits(value.to_degrees())),
-        false if a.dimension.is_none() => number,
-        false => format!("{number} {}", a.unit(scene)),
+        true => format!(
+            "{} rad, {}°",
+            super::digits(value),
+            super::digits(value.to_degrees())
+        ),
+        false => a.measured(scene, value, super::digits),
     })
 }
 

@@ -194,7 +194,8 @@ record! {
 record! {
     /// A given quantity.
     ParameterFile {
-        /// Unit, such as "kg", "m/s", "kg m^2", "mm", "deg" or "1". Missing: a number without unit.
+        /// Unit, such as "kg", "m/s", "kg m^2", "ft/s", "mm", "deg" or "1". Missing: that of the value, "15 lbf"; else a number without unit.
+        /// A pound of mass is "lb", one of force "lbf".
         unit: Option<Text>,
         /// What it is, in words.
         meaning: Option<Text>,

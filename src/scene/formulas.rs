@@ -179,7 +179,8 @@ impl Symbols {
                 let message = format!("expected {}, found {found}", quantity.dimension());
                 let fault = Fault::new(formula.span, message);
                 let of_its_names = named_like_its_unit(&formula.text, quantity)
-                    .or_else(|| without_unit(&e, &found, quantity));
+                    .or_else(|| without_unit(&e, &found, quantity))
+                    .or_else(|| pound_for_weight(&found, quantity));
                 faults.push(match of_its_names {
                     Some(hint) => fault.hint(hint),
                     None => fault.hint(quantity.hint),
@@ -328,6 +329,14 @@ fn without_unit(e: &Expr, found: &Dimension, quantity: Quantity) -> Option<Strin
     let unit = quantity.dimension().spoken();
     let hint = format!("`{name}` has no unit: declare it as \"{name}\": {{\"unit\": \"{unit}\"}}");
     Some(hint)
+}
+
+/// What to say of a mass divided by g where a mass is asked for: the pound of a weight has another name.
+fn pound_for_weight(found: &Dimension, quantity: Quantity) -> Option<String> {
+    let acceleration = Dimension::new(0, 1, -2);
+    let is_divided = found.times(&acceleration) == quantity.dimension();
+    let hint = "a pound `lb` is a mass here; of a weight W the mass is W/g, with W in `lbf`";
+    (is_divided && quantity.dimension() == Quantity::MASS.dimension()).then(|| hint.to_owned())
 }
 
 /// What to write for a number with a unit that is also the name of a parameter: `3 m` where m is a mass.

@@ -40,7 +40,7 @@ pub mod touch;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::dimension;
+use crate::dimension::{self, System};
 use crate::domain::{Domains, generic_point};
 use crate::expr::{Expr, Point, Scalar, Symbol, Vector, minus};
 use crate::formula::Symbols;
@@ -287,6 +287,12 @@ impl Scene {
         let bodies = self.bodies.iter().map(|b| (&b.name, &b.center));
         let mut all = points.chain(bodies).filter(|(_, place)| *place == at);
         all.next().map(|(name, _)| name.as_str())
+    }
+
+    /// The system of units that its data are in.
+    pub fn system(&self) -> System {
+        let given = self.parameters.iter().filter(|p| p.value.is_some());
+        System::of(given.map(|p| p.unit.as_str()))
     }
 
     /// Whether it goes through stages, and is not one impact.

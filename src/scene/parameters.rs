@@ -17,6 +17,7 @@ use crate::dimension::{self, Unit};
 use crate::domain::{Domain, Limit};
 use crate::expr::angle::angle;
 use crate::expr::{Expr, Function, Node, Point, Rational, ratio};
+use crate::formula::{self, Content};
 
 /// Most parameters a scene may have.
 const PARAMETERS: usize = 1000;
@@ -45,7 +46,7 @@ pub(super) fn resolve(
         }
         // One that could not be read is told by itself: of what dimension it would be is open.
         let unit = entry.as_ref().and_then(|p| match &p.unit {
-            None => dimension::unit("1").ok(),
+            None => dimension::unit(&unit_beside(p)).ok(),
             Some(text) => read_unit(text, faults),
         });
         let dimension = unit.as_ref().map(|u| u.dimension.clone());
@@ -84,7 +85,7 @@ fn parameter(
     let parameter = Parameter {
         name: name.text.as_str().into(),
         latex: text(&entry.latex),
-        unit: text(&entry.unit).unwrap_or_else(|| "1".to_owned()),
+        unit: text(&entry.unit).unwrap_or_else(|| unit_beside(entry)),
         dimension: unit.dimension.clone(),
         value: entry.value.as_ref().and_then(|v| value(v, unit, faults)),
         meaning: text(&entry.meaning).unwrap_or_default(),
@@ -120,6 +121,16 @@ fn parameter(
     scene.domains.symbols.insert(parameter.name.clone(), domain);
     scene.parameters.push(parameter);
     ends
+}
+
+/// The unit that a value is written with, where the parameter has none of its own: `"value": "15 ft"`.
+fn unit_beside(entry: &ParameterFile) -> String {
+    let value = entry.value.as_ref();
+    let read = value.and_then(|v| formula::read(&v.text, &formula::Symbols::strict()).ok());
+    match read.map(|reading| reading.content) {
+        Some(Content::Quantity(q)) => q.unit_text,
+        _ => String::from("1"),
+    }
 }
 
 /// The quarter turn inside of which a given angle lies; any angle where it lies at an end of one.

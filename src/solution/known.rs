@@ -3,7 +3,7 @@
 use super::Detail;
 use super::words;
 use crate::answer::{Answer, Check};
-use crate::scene::{Ask, Scene};
+use crate::scene::Scene;
 
 /// ` = 1.2 m/s`, where the scene gives every value.
 pub(super) fn number(scene: &Scene, answer: &Answer) -> Option<String> {
@@ -21,12 +21,10 @@ pub(super) fn number(scene: &Scene, answer: &Answer) -> Option<String> {
     let value = formula
         .substitute(&values)
         .evaluate(&crate::expr::Point::<f64>::default())?;
-    let number = answer.dimension.measured(&words::digits(value));
-    let mut questions = scene.questions.iter();
-    let is_angle = |ask: &Ask| matches!(ask, Ask::Angle { .. });
-    let turned = questions.any(|q| q.name == answer.question && is_angle(&q.ask));
-    let unit = if turned { " rad" } else { "" };
-    Some(format!(" = {number}{unit}"))
+    Some(format!(
+        " = {}",
+        answer.measured(scene, value, words::digits)
+    ))
 }
 
 /// What is told of checks: that one holds is told once, at the end of a solution, and by itself only at full length.

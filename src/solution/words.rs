@@ -154,10 +154,18 @@ pub fn value(p: &Parameter) -> Option<Inline> {
     let value = p.value.as_ref()?;
     Some(match value.as_number().map(crate::expr::number::to_f64) {
         // As the scene writes it: a moment is so many N m.
-        Some(number) if p.scale().is_one() && is_plain(&p.unit) => {
-            say(format!("{} {}", digits(number), p.unit))
+        Some(number) if is_plain(&p.unit) => {
+            let one = p
+                .scale()
+                .as_number()
+                .map_or(1.0, crate::expr::number::to_f64);
+            let unit = p.unit.replace("^2", "²").replace("^3", "³");
+            say(format!("{} {unit}", digits(number / one)))
         }
-        Some(number) => say(p.dimension.measured(&digits(number))),
+        Some(number) => say(match p.dimension.spoken().as_str() {
+            "1" => digits(number),
+            unit => format!("{} {unit}", digits(number)),
+        }),
         // Degrees and turns hold π, which their numbers do not.
         None if !p.scale().is_one() => {
             let at = Point::<f64>::default();
@@ -173,7 +181,8 @@ pub fn value(p: &Parameter) -> Option<Inline> {
 
 /// Whether a unit reads as it is typed.
 fn is_plain(unit: &str) -> bool {
-    unit.starts_with(char::is_alphabetic) && !unit.contains(['^', '*', '('])
+    let higher = unit.replace("^2", "").replace("^3", "");
+    unit.starts_with(char::is_alphabetic) && !higher.contains(['^', '*', '('])
 }
 
 /// Words of two letters that are no symbols in a sentence.

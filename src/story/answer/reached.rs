@@ -69,8 +69,13 @@ impl Need {
 /// The scene where all that is needed holds.
 pub(in crate::story) fn part(scene: &Scene, needs: &[Need]) -> Scene {
     let mut scene = scene.clone();
-    let relations = needs.iter().map(|need| need.relation.clone());
-    scene.domains.relations.extend(relations);
+    for Need { relation, .. } in needs {
+        let known = scene.domains.relations.iter_mut();
+        match known.into_iter().find(|r| r.excess == relation.excess) {
+            Some(known) => known.so_that.clone_from(&relation.so_that),
+            None => scene.domains.relations.push(relation.clone()),
+        }
+    }
     scene
 }
 
