@@ -320,7 +320,7 @@ mod tests {
             excess: large.clone() - small.clone(),
             closed: *closed,
             words: String::new(),
-            so_that: String::new(),
+            origin: crate::domain::Origin::Stated,
         });
         Domains {
             relations: relations.collect(),

@@ -5,10 +5,12 @@
 
 use std::collections::BTreeSet;
 
-use super::calc::{essential, is_zero, tidy};
-use super::{Answer, Check, Form, Known, Refused, inequality, limit, optimum, threshold, zeros};
+use super::calc::{Seen, at_least_zero, essential, is_zero, sign, tidy};
+use super::{
+    Answer, Check, Form, Known, Refused, inequality, limit, optimum, solve, threshold, zeros,
+};
 use crate::dimension::{self, Dimension};
-use crate::domain::Domains;
+use crate::domain::{Domain, Domains, Origin};
 use crate::equality::{self, Equality, How};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Relation, write_plain};
@@ -38,7 +40,7 @@ pub fn about<'a>(
 
 /// Later formulas may use the answers by name; what is known of a name already stays, and the name of a parameter stands for
 /// the parameter.
-pub(super) fn remember(scene: &Scene, answers: &[Answer], known: &mut Known) {
+pub fn remember(scene: &Scene, answers: &[Answer], known: &mut Known) {
     let is_given = |a: &Answer| scene.parameter(&a.name).is_some();
     for answer in answers.iter().filter(|a| !is_given(a)) {
         if let Some(formula) = answer.formula() {
@@ -139,6 +141,10 @@ type Stated<'e> = (&'e Expr, Relation, &'e Expr);
 impl Work<'_> {
     /// The answers, of `of` in place of what the question names where a component is asked; a maximum also tells its place.
     fn answers(&self, of: Option<&Expr>) -> Result<Vec<Answer>, Refused> {
+        let given = match self.admitted() {
+            Ok(given) => given,
+            Err(why) => return Ok(vec![self.blank("what is asked").leave_open(why)]),
+        };
         let one = match &self.question.ask {
             Ask::Value {
                 formula,
@@ -174,7 +180,55 @@ impl Work<'_> {
             } => self.show((left, *relation, right), with, unless, claim),
             _ => return Ok(Vec::new()),
         };
-        Ok(vec![one?])
+        let mut one = one?;
+        one.assumptions.extend(given);
+        Ok(vec![one])
+    }
+
+    /// What must hold so that the values put in lie within the domain, ends included; `Err` where they do not.
+    fn admitted(&self) -> Result<Vec<Sentence>, Sentence> {
+        let domains = &self.scene.domains;
+        let with = self.question.ask.with().iter();
+        let with: Known = with
+            .map(|(s, v)| (s.clone(), v.substitute(self.known)))
+            .collect();
+        let mut given = Vec::new();
+        for (name, value) in &with {
+            let mut domain = domains
+                .symbols
+                .get(name)
+                .cloned()
+                .unwrap_or_else(Domain::positive);
+            let ends = [&mut domain.low, &mut domain.high].into_iter().flatten();
+            ends.for_each(|end| end.open = false);
+            let needs = solve::placed(name, value, &domain, domains)?.into_iter();
+            given.extend(needs.map(|(need, _)| {
+                let least = Sentence::not_negative(&need);
+                sentence!("{}, so that {} lies within its domain", least, name)
+            }));
+        }
+        let stated = domains.relations.iter().filter(|r| {
+            r.origin == Origin::Stated && with.keys().any(|name| r.excess.mentions(name))
+        });
+        for relation in stated {
+            let there = relation.excess.substitute(&with);
+            match sign(&there, domains) {
+                Seen::Proved(s) if s.is_not_negative() => {}
+                Seen::Proved(_) => {
+                    let put = with
+                        .iter()
+                        .map(|(name, value)| sentence!("{} = {}", name, value));
+                    let put = Sentence::join(put, " and ");
+                    return Err(sentence!("{}, against {}", put, solve::stated(relation)));
+                }
+                _ => given.push(sentence!(
+                    "{}, so that {}",
+                    at_least_zero(&there, domains),
+                    solve::stated(relation)
+                )),
+            }
+        }
+        Ok(given)
     }
 
     /// A formula in parameters alone, with some of them at given values.

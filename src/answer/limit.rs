@@ -341,9 +341,9 @@ fn bounded(parameter: &Symbol, domains: &Domains) -> Option<Sentence> {
 
 /// What a relation holds against a place that breaks it.
 fn against(relation: &crate::domain::Relation) -> Sentence {
-    match relation.so_that.as_str() {
-        "" => sentence!("the scene states {}", &relation.words),
-        needed => sentence!("{} is needed so that {}", stated(relation), needed),
+    match relation.origin.so_that() {
+        None => sentence!("the scene states {}", &relation.words),
+        Some(needed) => sentence!("{} is needed so that {}", stated(relation), needed),
     }
 }
 

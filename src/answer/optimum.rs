@@ -256,8 +256,8 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
     let value = search.at(&place, f)?;
     out.dimension = super::formulas::dimension_of(scene, &value, &name)?;
     let there = BTreeMap::from([(p.clone(), place.clone())]);
-    out.put_in
-        .push((f.substitute(&there), value.clone(), "the value there"));
+    let raw = tidy_under_roots(&f.substitute(&there), domains);
+    out.put_in.push((raw, value.clone(), "the value there"));
     out.range.push((Expr::symbol(p), Relation::Equal, place));
     out.form = Form::value(value);
     Ok(vec![out])
@@ -436,6 +436,18 @@ impl Search<'_> {
             out.text.push(sentence!("the largest value is {}", bound));
         }
         Ok(place.clone())
+    }
+}
+
+/// The same with what stands under roots tidied: at an end of the domain it is often a difference that vanishes, of which doubles
+/// leave their rounding.
+fn tidy_under_roots(e: &Expr, domains: &Domains) -> Expr {
+    let e = e.map_parts(|part| tidy_under_roots(part, domains));
+    match e.node() {
+        Node::Power(base, k) if k.as_number().is_some_and(|k| !k.is_integer()) => {
+            tidy(base, domains).map_or_else(|_| e.clone(), |base| base.power(k.clone()))
+        }
+        _ => e,
     }
 }
 

@@ -7,7 +7,7 @@ use num_integer::Integer;
 
 use super::calc::{Seen, decisive, essential, is_zero, seen, sign, tidy};
 use crate::algebra::{self, Element, Field, Powers, Sign, Stop};
-use crate::domain::{Domain, Domains, Relation};
+use crate::domain::{Domain, Domains, Origin, Relation};
 use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{Sentence, sentence};
 
@@ -106,7 +106,7 @@ impl From<Stop> for Unsolved {
 pub fn solve(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unsolved> {
     // That the scene gets there with some value of the symbol says nothing of the others.
     let mut apart = domains.clone();
-    (apart.relations).retain(|r| r.so_that.is_empty() || !r.excess.mentions(symbol));
+    (apart.relations).retain(|r| r.origin == Origin::Stated || !r.excess.mentions(symbol));
     // Of a unit vector the component that is sought is the one that the other follows from.
     let mine = apart.unit_vectors.iter_mut();
     mine.filter(|[_, b]| b == symbol)
@@ -135,9 +135,9 @@ pub fn solve(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unso
                             true => Sentence::not_negative(&need),
                             false => Sentence::positive(&need),
                         };
-                        let so_that = match relation.so_that.as_str() {
-                            "" => stated(relation),
-                            needed => Sentence::words(needed),
+                        let so_that = match relation.origin.so_that() {
+                            None => stated(relation),
+                            Some(needed) => Sentence::words(needed),
                         };
                         root.given.push(sentence!("{}, so that {}", holds, so_that));
                         root.needs.push((need, relation.closed));
@@ -146,9 +146,9 @@ pub fn solve(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unso
                     continue;
                 }
             }
-            let against = match relation.so_that.as_str() {
-                "" => sentence!(", against {}", stated(relation)),
-                needed => sentence!(": {} is needed so that {}", stated(relation), needed),
+            let against = match relation.origin.so_that() {
+                None => sentence!(", against {}", stated(relation)),
+                Some(needed) => sentence!(": {} is needed so that {}", stated(relation), needed),
             };
             let why = sentence!("{} = {}{}", symbol, &root.value, against);
             out.discarded.push(why);

@@ -6,12 +6,12 @@
 use std::collections::BTreeSet;
 
 use super::Check;
-use super::calc::{Seen, above_zero, by_signs, essential, sign, tidy};
+use super::calc::{Seen, above_zero, by_signs, essential, is_zero, sign, tidy};
 use super::inequality::{everywhere, sign_words};
 use super::solve::{Roots, Unsolved, end_of, solve};
 use super::{Answer, Form, intervals, limit, undo};
 use crate::algebra::Sign;
-use crate::domain::{Domain, Domains, Limit};
+use crate::domain::{Domain, Domains, Limit, Origin};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::Relation;
 use crate::formula::{Sentence, sentence};
@@ -228,6 +228,10 @@ fn sides(
         false => [falls, grows],
     };
     let strict = matches!(relation, Relation::Less | Relation::Greater);
+    let ends = |upper: bool| ends_at(parameter, value, upper, domains);
+    if holds_below && ends(false) || holds_above && ends(true) {
+        return at_the_end(out, parameter, value, strict);
+    }
     let found = match strict {
         true if holds_below => Some(Relation::Less),
         false if holds_below => Some(Relation::LessEqual),
@@ -245,6 +249,47 @@ fn sides(
             out.checks.push(by_signs("sign", words, proved));
         }
         None => intervals::fill(out, parameter, gap, relation, &roots.inside, domains),
+    }
+}
+
+/// Whether the domain of a parameter ends at a value. Where a motion comes to its end just from there on, what is asked of it has a
+/// value on both sides.
+fn ends_at(parameter: &Symbol, value: &Expr, upper: bool, domains: &Domains) -> bool {
+    let is_it = |end: &Expr| is_zero(&(value - end), domains) == Some(true);
+    let own = domains.symbols.get(parameter);
+    let own = own.and_then(|d| {
+        if upper {
+            d.high.as_ref()
+        } else {
+            d.low.as_ref()
+        }
+    });
+    let bounds = domains.relations.iter().filter(|r| {
+        let is_ending = matches!(r.origin, Origin::Ending(_));
+        !is_ending && r.excess.mentions(parameter)
+    });
+    let mut ends = bounds.filter_map(|r| end_of(parameter, r, domains));
+    own.is_some_and(|end| is_it(&end.expr()))
+        || ends.any(|(end, is_upper)| is_upper == upper && is_it(&end))
+}
+
+/// The sides meet at the end of the domain beyond which the inequality would hold: it holds there alone, or nowhere.
+fn at_the_end(out: &mut Answer, parameter: &Symbol, value: &Expr, strict: bool) {
+    if strict {
+        out.form = Form::Words;
+        out.put_in.clear();
+        out.checks.clear();
+        out.text.push(sentence!(
+            "it never holds: the sides meet at {} = {}, where the domain ends",
+            parameter,
+            value
+        ));
+    } else {
+        out.range
+            .push((Expr::symbol(parameter), Relation::Equal, value.clone()));
+        out.text.push(Sentence::words(
+            "it holds there alone, where the domain ends",
+        ));
     }
 }
 
@@ -404,14 +449,17 @@ fn always(gap: &Expr, relation: Relation, domains: &Domains) -> Sentence {
         ),
     };
     let sign_words = sign_words(s);
-    let how = if s.is_proved() {
-        ""
-    } else {
-        " (seen at points, not proved)"
-    };
     match everywhere(s, relation) {
-        Some(true) => sentence!("it always holds: {}{}", reason(sign_words), how),
-        Some(false) => sentence!("it never holds: {}{}", reason(sign_words), how),
+        Some(true) if s.is_proved() => sentence!("it always holds: {}", reason(sign_words)),
+        Some(false) if s.is_proved() => sentence!("it never holds: {}", reason(sign_words)),
+        Some(_) => {
+            let seen = format!("{sign_words} at the points tried");
+            sentence!(
+                "not decided: left side minus right side is {}, which is {}",
+                gap,
+                seen
+            )
+        }
         None => sentence!("not decided: {}", reason(sign_words)),
     }
 }

@@ -40,6 +40,7 @@ pub(super) fn replay(
     let mut points = Vec::new();
     let mut apart: Vec<Option<String>> = vec![None; impacts.len()];
     let mut compared = vec![false; impacts.len()];
+    let mut otherwise: Vec<Option<&str>> = vec![None; impacts.len()];
     for seed in 1..=TRIES {
         if points.len() as u64 >= POINTS && compared.iter().all(|c| *c) {
             break;
@@ -59,9 +60,12 @@ pub(super) fn replay(
         };
         for (i, (impact, apart)) in impacts.iter().zip(&mut apart).enumerate() {
             let passed = stages[impact.stage];
-            let goes_so = goes_so(impact, passed) && holds(&impact.needs, &doubles);
-            let found = goes_so.then_some(passed);
+            let is_needed = holds(&impact.needs, &doubles);
+            let found = (is_needed && goes_so(impact, passed)).then_some(passed);
             compared[i] |= found.is_some();
+            if is_needed && found.is_none() {
+                otherwise[i] = otherwise[i].or_else(|| mode(passed));
+            }
             if let (None, Some(found)) = (&apart, found) {
                 let here = |name: &Symbol| follow::named(scene, &followed, name, &doubles);
                 *apart = earlier_differs(impact, &doubles, here)
@@ -71,7 +75,10 @@ pub(super) fn replay(
         // Symbols of answers mean the first of several outcomes.
         let is_first = |passed: &Passed, i: usize| {
             let first = impacts.iter().find(|impact| impact.stage == i);
-            first.is_none_or(|impact| goes_so(impact, passed) && holds(&impact.needs, &doubles))
+            // Which way a contact slips its mode does not tell.
+            let slips_so =
+                |impact: &Impact| impact.mode.is_none() || holds(&impact.needs, &doubles);
+            first.is_none_or(|impact| goes_so(impact, passed) && slips_so(impact))
         };
         let mut each = stages.iter().enumerate();
         if points.len() as u64 >= POINTS
@@ -95,9 +102,16 @@ pub(super) fn replay(
         let what = String::from("the motion from stage to stage");
         report.open.push(what);
     }
-    for ((impact, apart), compared) in impacts.iter().zip(apart).zip(compared) {
+    for (i, (impact, apart)) in impacts.iter().zip(apart).enumerate() {
         let name = impact.name.clone().unwrap_or_default();
+        let compared = compared[i];
         match apart {
+            // Where all that it supposes holds, its contact never does what is told.
+            None if !compared && impact.mode.is_some() && otherwise[i].is_some() => {
+                let does = otherwise[i].unwrap_or_default();
+                let why = format!("where it is so, the contact {does} when followed");
+                report.fail(&name, "what friction does in the impact", why);
+            }
             // No point was found at which the scene goes this way.
             None if !compared => report.open.push(name),
             Some(why) => {
@@ -108,6 +122,14 @@ pub(super) fn replay(
         }
     }
     super::replay::compare(points, meanings, claims, report);
+}
+
+/// What a contact with friction did, in words.
+fn mode(passed: &Passed) -> Option<&'static str> {
+    match &passed.what {
+        What::Impact(found) => found.mode.map(Mode::words),
+        What::Motion(_) => None,
+    }
 }
 
 /// Whether the supports and strings that act are those of the outcome that the solution tells, and friction does the same.

@@ -19,7 +19,7 @@ use crate::expr::{Expr, Int, Rational, Symbol, ratio};
 
 pub use coordinate::Coordinate;
 pub use generic::generic_point;
-pub use relation::Relation;
+pub use relation::{Origin, Relation};
 pub use roles::{Role, Roles, roles};
 pub use sample::{Sample, at_ends, far, samples, samples_until, within};
 

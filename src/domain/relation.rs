@@ -18,8 +18,30 @@ pub struct Relation {
     pub closed: bool,
     /// As stated, such as `M > m`.
     pub words: String,
-    /// What it is needed for, such as "`round` comes to its end"; empty for what the scene states.
-    pub so_that: String,
+    /// Where it comes from.
+    pub origin: Origin,
+}
+
+/// Where a relation comes from.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub enum Origin {
+    /// It is stated.
+    #[default]
+    Stated,
+    /// An outcome of an impact needs it: which one, such as "`C` slides".
+    Outcome(String),
+    /// A motion needs it to come to its end, as in "`round` comes to its end"; formulas of its end have values beyond it.
+    Ending(String),
+}
+
+impl Origin {
+    /// What it is needed for; nothing where it is stated.
+    pub fn so_that(&self) -> Option<&str> {
+        match self {
+            Origin::Stated => None,
+            Origin::Outcome(what) | Origin::Ending(what) => Some(what),
+        }
+    }
 }
 
 impl Relation {
@@ -46,7 +68,7 @@ impl Domains {
             excess: excess.clone(),
             closed,
             words: String::new(),
-            so_that: String::new(),
+            origin: Origin::Stated,
         });
         domains
     }
@@ -145,7 +167,7 @@ mod tests {
                 sides: [small, large],
                 closed,
                 words: String::new(),
-                so_that: String::new(),
+                origin: Origin::Stated,
             }
         };
         Domains {

@@ -89,7 +89,7 @@ pub(super) fn add(
         excess,
         closed,
         words,
-        so_that: String::new(),
+        origin: crate::domain::Origin::Stated,
     };
     scene.domains.relations.push(relation);
     if let Some(fault) = broken(scene, span) {

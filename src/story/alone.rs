@@ -86,21 +86,29 @@ pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
 
 /// What is asked about the answers, where the bodies collide.
 fn about_answers(scene: &Scene, case: &Case) -> Result<Vec<Answer>, Refused> {
-    let needs = super::answer::approaching(scene, case);
-    let known = case.derivation.known();
-    let part = super::answer::part(scene, &needs);
-    let mut answers = answer::about(&part, scene.asked_of_answers(), &known)?;
-    for answer in &mut answers {
-        // With what they approach is told besides.
-        let is_told = |words: &Sentence| !needs.is_empty() && words.to_string() == APPROACH;
-        answer
-            .assumptions
-            .extend(case.assumptions().filter(|words| !is_told(words)));
-        if let Some(question) = scene.question(&answer.question) {
+    let mut known = case.derivation.known();
+    let mut out: Vec<Answer> = Vec::new();
+    for question in scene.asked_of_answers() {
+        let needs = match super::answer::of_impact(scene, case, question, &known) {
+            Ok(needs) => needs,
+            Err(why) => {
+                out.push(super::answer::unanswered(question, &why));
+                continue;
+            }
+        };
+        let part = super::answer::part(scene, &needs);
+        let mut answers = answer::formulas(&part, question, &known)?.unwrap_or_default();
+        answer::remember(scene, &answers, &mut known);
+        for answer in &mut answers {
+            // With what they approach is told besides.
+            let is_told = |words: &Sentence| !needs.is_empty() && words.to_string() == APPROACH;
+            let given = case.assumptions().filter(|words| !is_told(words));
+            answer.assumptions.extend(given);
             super::answer::tell(scene, &question.ask, &needs, answer);
         }
+        out.extend(answers);
     }
-    Ok(answers)
+    Ok(out)
 }
 
 /// The answers of the impact as they were derived.

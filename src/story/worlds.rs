@@ -9,6 +9,7 @@ use super::StageTold;
 use super::answer::number_case;
 use crate::answer::calc::{Seen, sign};
 use crate::answer::{Answer, Known, Refused};
+use crate::domain::Origin;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, sentence};
 use crate::scene::{Question, Scene};
@@ -31,11 +32,12 @@ impl World {
     /// The scene on the part of the domain where it goes this way.
     pub fn part_of(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
-        for (_, e) in &self.given {
+        for (why, e) in &self.given {
             scene.domains = scene.domains.given(e, true);
             let mut relations = scene.domains.relations.iter_mut();
             if let Some(relation) = relations.find(|r| r.excess == *e && r.words.is_empty()) {
                 relation.words = Sentence::not_negative(e).to_string();
+                relation.origin = Origin::Outcome(why.clone());
             }
         }
         scene

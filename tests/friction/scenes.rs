@@ -282,7 +282,7 @@ fn what_is_made_of_the_answers_of_a_case_stands_with_them() {
     for (scene, line, times, why) in [
         (
             "puck-glances-off-a-rough-rail",
-            "phi = −atan((μ (1 + e) cosα − sinα)/(e cosα))",
+            "phi = atan((sinα − μ (1 + e) cosα)/(e cosα))",
             1,
             "one case where it slides",
         ),

@@ -11,10 +11,10 @@ use super::supposed;
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, at_least_zero, essential, is_zero, sign, tidy};
 use crate::answer::{Answer, Form, Known, given_alike, limit};
-use crate::domain::{Domain, Domains, Relation};
+use crate::domain::{Domain, Domains, Origin, Relation};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Sentence, sentence};
-use crate::scene::{Ask, Question, Scene, StageKind};
+use crate::scene::{Ask, ContactLaw, Question, Scene, StageKind};
 use crate::verify::possible::Rule;
 
 /// A step upwards from a value.
@@ -29,7 +29,7 @@ pub(in crate::story) struct Need {
 }
 
 impl Need {
-    fn new(excess: &Expr, closed: bool, so_that: String, told: Sentence) -> Need {
+    fn new(excess: &Expr, closed: bool, origin: Origin, told: Sentence) -> Need {
         let beyond = match closed {
             true => Sentence::not_negative(excess),
             false => Sentence::positive(excess),
@@ -39,7 +39,7 @@ impl Need {
             excess: excess.clone(),
             closed,
             words: beyond.to_string(),
-            so_that,
+            origin,
         };
         Need { relation, told }
     }
@@ -51,19 +51,53 @@ impl Need {
         if is_sure {
             return None;
         }
-        let (closed, so_that) = (self.relation.closed, &self.relation.so_that);
-        let told = match excess == self.relation.excess {
-            true => self.told.clone(),
-            false => sentence!("{}, so that {}", at_least_zero(&excess, domains), so_that),
+        let (closed, origin) = (self.relation.closed, &self.relation.origin);
+        let told = match origin.so_that() {
+            Some(so_that) if excess != self.relation.excess => {
+                sentence!("{}, so that {}", at_least_zero(&excess, domains), so_that)
+            }
+            _ => self.told.clone(),
         };
-        Some(Need::new(&excess, closed, so_that.clone(), told))
+        Some(Need::new(&excess, closed, origin.clone(), told))
     }
 
     /// Whether it is proved not to hold at any values.
     fn is_broken(&self, domains: &Domains) -> bool {
-        let seen = sign(&self.relation.excess, domains);
-        seen == Seen::Proved(Sign::Negative)
+        match sign(&self.relation.excess, domains) {
+            Seen::Proved(Sign::Negative) => true,
+            Seen::Proved(Sign::NotPositive | Sign::Zero) => !self.relation.closed,
+            _ => false,
+        }
     }
+}
+
+/// What is needed besides the domain where a question puts in values, each once; `Err` with the reason where they keep the scene
+/// from there.
+fn put_in(
+    all: impl Iterator<Item = Need>,
+    with: &Known,
+    domains: &Domains,
+) -> Result<Vec<Need>, Sentence> {
+    let mut out: Vec<Need> = Vec::new();
+    for whole in all {
+        let Some(need) = whole.put(with, domains) else {
+            continue;
+        };
+        if need.is_broken(domains) {
+            let each = with.iter();
+            let each = each.map(|(name, value)| sentence!("{} = {}", name, value));
+            let with = Sentence::join(each, " and ");
+            return Err(match with.to_string().as_str() {
+                "" => sentence!("{} is needed, which never is so", whole.told),
+                _ => sentence!("with {} the scene does not get there: {}", with, whole.told),
+            });
+        }
+        let excess = &need.relation.excess;
+        if !out.iter().any(|n| n.relation.excess == *excess) {
+            out.push(need);
+        }
+    }
+    Ok(out)
 }
 
 /// The scene where all that is needed holds.
@@ -72,24 +106,63 @@ pub(in crate::story) fn part(scene: &Scene, needs: &[Need]) -> Scene {
     for Need { relation, .. } in needs {
         let known = scene.domains.relations.iter_mut();
         match known.into_iter().find(|r| r.excess == relation.excess) {
-            Some(known) => known.so_that.clone_from(&relation.so_that),
+            Some(known) => known.origin.clone_from(&relation.origin),
             None => scene.domains.relations.push(relation.clone()),
         }
     }
     scene
 }
 
-/// What must hold so that the bodies collide as the one impact of a scene has it.
-pub(in crate::story) fn approaching(scene: &Scene, case: &Case) -> Vec<Need> {
+/// What must hold so that the bodies collide as the one impact of a scene has it, and its contact does what is told; `Err` with
+/// the reason where what a question puts in keeps it from there.
+pub(in crate::story) fn of_impact(
+    scene: &Scene,
+    case: &Case,
+    question: &Question,
+    known: &Known,
+) -> Result<Vec<Need>, Sentence> {
     let open = case.possible.open().into_iter();
     let approach = open.filter(|c| c.rule == Rule::Approach && !c.is_equation);
-    let needs = approach.filter_map(|c| {
+    let approach = approach.filter_map(|c| {
         let excess = c.essential.as_ref()?;
         let told = sentence!("{} ({})", Sentence::positive(excess), &c.words);
-        Some(Need::new(excess, false, c.words.clone(), told))
+        Some(Need::new(
+            excess,
+            false,
+            Origin::Outcome(c.words.clone()),
+            told,
+        ))
     });
-    needs
-        .filter(|need| !need.is_broken(&scene.domains))
+    let decided = scene.contacts.iter().filter_map(|c| match &c.law {
+        ContactLaw::Decided(decided) => Some((&c.name, decided)),
+        _ => None,
+    });
+    let does = decided.flat_map(|(name, decided)| {
+        decided.when.iter().map(move |(left, relation, right)| {
+            let excess = match relation.is_below() {
+                true => right - left,
+                false => left - right,
+            };
+            let told = sentence!("{} {} {}", left, relation.sign(), right);
+            Need::new(&excess, true, Origin::Outcome(decided.mode.of(name)), told)
+        })
+    });
+    // A coefficient at which friction does something else is asked of no outcome.
+    let of_outcome =
+        |q: &&Question| q.name != question.name && !matches!(q.ask, Ask::Friction { .. });
+    let uses = chain(&scene.questions, question);
+    let uses = uses
+        .iter()
+        .any(|q| of_outcome(q) && q.ask.formulas().is_empty());
+    let all = approach.chain(does).filter(|_| uses);
+    let possible = all.filter(|need| !need.is_broken(&scene.domains));
+    put_in(possible, &with(question, known), &scene.domains)
+}
+
+/// The values that a question puts in for parameters.
+fn with(question: &Question, known: &Known) -> Known {
+    let with = question.ask.with().iter();
+    with.map(|(name, value)| (name.clone(), value.substitute(known)))
         .collect()
 }
 
@@ -102,50 +175,24 @@ pub(super) fn needs(
     question: &Question,
     earlier: &[Answer],
 ) -> Result<Vec<Need>, Sentence> {
-    let with: Known = question.ask.with().iter().cloned().collect();
-    let with: Known = (with.iter())
-        .map(|(name, value)| (name.clone(), value.substitute(&world.known)))
-        .collect();
-    let mut out: Vec<Need> = Vec::new();
-    for i in leading(stages, world, &chain(&scene.questions, question), earlier) {
+    let leading = leading(stages, world, &chain(&scene.questions, question), earlier);
+    let all = leading.into_iter().flat_map(|i| {
         let told = &stages[i];
         let ends = told.needs.iter().map(|need| {
             let so_that = format!("`{}` comes to its end", told.name);
             let need = essential(need, &scene.domains);
-            let words = sentence!(
-                "{}, so that {}",
-                at_least_zero(&need, &scene.domains),
-                &so_that
-            );
-            Need::new(&need, true, so_that, words)
+            let least = at_least_zero(&need, &scene.domains);
+            let words = sentence!("{}, so that {}", least, &so_that);
+            Need::new(&need, true, Origin::Ending(so_that), words)
         });
         let case = world.outcome.get(&i).and_then(|k| told.cases.get(*k));
         let conditions = case.into_iter().flat_map(|case| &case.conditions);
-        let conditions = conditions
-            .map(|condition @ (why, e)| Need::new(e, true, why.clone(), supposed(condition)));
-        for need in ends.chain(conditions) {
-            let Some(need) = need.put(&with, &scene.domains) else {
-                continue;
-            };
-            if need.is_broken(&scene.domains) {
-                let each = with
-                    .iter()
-                    .map(|(name, value)| sentence!("{} = {}", name, value));
-                let with = Sentence::join(each, " and ");
-                return Err(match with.to_string().as_str() {
-                    "" => sentence!("{} is needed, which never is so", need.told),
-                    _ => sentence!("with {} the scene does not get there: {}", with, need.told),
-                });
-            }
-            if !out
-                .iter()
-                .any(|n| n.relation.excess == need.relation.excess)
-            {
-                out.push(need);
-            }
-        }
-    }
-    Ok(out)
+        let conditions = conditions.map(|condition @ (why, e)| {
+            Need::new(e, true, Origin::Outcome(why.clone()), supposed(condition))
+        });
+        ends.chain(conditions)
+    });
+    put_in(all, &with(question, &world.known), &scene.domains)
 }
 
 /// Lets an answer about a stage tell what the motions suppose that lead there, and what the impacts need.
