@@ -285,6 +285,7 @@ fn at_the_end(out: &mut Answer, parameter: &Symbol, value: &Expr, strict: bool) 
             value
         ));
     } else {
+        out.form = Form::value(value.clone());
         out.range
             .push((Expr::symbol(parameter), Relation::Equal, value.clone()));
         out.text.push(Sentence::words(

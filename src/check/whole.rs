@@ -38,11 +38,9 @@ pub(super) fn replay(
     }
     let needed = super::replay::needed(needed, meanings, claims);
     let mut points = Vec::new();
-    let mut apart: Vec<Option<String>> = vec![None; impacts.len()];
-    let mut compared = vec![false; impacts.len()];
-    let mut otherwise: Vec<Option<&str>> = vec![None; impacts.len()];
+    let mut found: Vec<Found> = vec![Found::default(); impacts.len()];
     for seed in 1..=TRIES {
-        if points.len() as u64 >= POINTS && compared.iter().all(|c| *c) {
+        if points.len() as u64 >= POINTS && found.iter().all(|f| f.compared) {
             break;
         }
         let draw = match seed {
@@ -58,18 +56,19 @@ pub(super) fn replay(
         let Some(stages) = stages.collect::<Option<Vec<&Passed>>>() else {
             continue;
         };
-        for (i, (impact, apart)) in impacts.iter().zip(&mut apart).enumerate() {
+        for (impact, found) in impacts.iter().zip(&mut found) {
             let passed = stages[impact.stage];
-            let is_needed = holds(&impact.needs, &doubles);
-            let found = (is_needed && goes_so(impact, passed)).then_some(passed);
-            compared[i] |= found.is_some();
-            if is_needed && found.is_none() {
-                otherwise[i] = otherwise[i].or_else(|| mode(passed));
-            }
-            if let (None, Some(found)) = (&apart, found) {
-                let here = |name: &Symbol| follow::named(scene, &followed, name, &doubles);
-                *apart = earlier_differs(impact, &doubles, here)
-                    .or_else(|| differs(impact, &doubles, &found.before.bodies, &followed.sizes()));
+            let here = |name: &Symbol| follow::named(scene, &followed, name, &doubles);
+            match (holds(&impact.needs, &doubles), goes_so(impact, passed)) {
+                (true, true) if found.apart.is_none() => {
+                    let sizes = followed.sizes();
+                    let apart = earlier_differs(impact, &doubles, here);
+                    let bodies = &passed.before.bodies;
+                    found.apart = apart.or_else(|| differs(impact, &doubles, bodies, &sizes));
+                    found.compared = true;
+                }
+                (true, false) => found.otherwise = found.otherwise.or_else(|| mode(passed)),
+                _ => {}
             }
         }
         // Symbols of answers mean the first of several outcomes.
@@ -102,26 +101,40 @@ pub(super) fn replay(
         let what = String::from("the motion from stage to stage");
         report.open.push(what);
     }
-    for (i, (impact, apart)) in impacts.iter().zip(apart).enumerate() {
+    for (impact, found) in impacts.iter().zip(found) {
+        found.tell(impact, report);
+    }
+    super::replay::compare(points, meanings, claims, report);
+}
+
+/// What was found of an impact at the points where the scene was followed.
+#[derive(Clone, Default)]
+struct Found {
+    /// Whether a point was found at which it goes as told.
+    compared: bool,
+    /// What is otherwise there.
+    apart: Option<String>,
+    /// What its contact did where all that it supposes holds and it does not go as told.
+    otherwise: Option<&'static str>,
+}
+
+impl Found {
+    fn tell(self, impact: &Impact, report: &mut Report) {
         let name = impact.name.clone().unwrap_or_default();
-        let compared = compared[i];
-        match apart {
-            // Where all that it supposes holds, its contact never does what is told.
-            None if !compared && impact.mode.is_some() && otherwise[i].is_some() => {
-                let does = otherwise[i].unwrap_or_default();
+        match (self.apart, self.otherwise) {
+            (Some(why), _) => {
+                let claim = "where the bodies are and how they move into the impact";
+                report.fail(&name, claim, why);
+            }
+            (None, _) if self.compared => report.held += 1,
+            (None, Some(does)) if impact.mode.is_some() => {
                 let why = format!("where it is so, the contact {does} when followed");
                 report.fail(&name, "what friction does in the impact", why);
             }
             // No point was found at which the scene goes this way.
-            None if !compared => report.open.push(name),
-            Some(why) => {
-                let claim = "where the bodies are and how they move into the impact";
-                report.fail(&name, claim, why);
-            }
-            None => report.held += 1,
+            _ => report.open.push(name),
         }
     }
-    super::replay::compare(points, meanings, claims, report);
 }
 
 /// What a contact with friction did, in words.

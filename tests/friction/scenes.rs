@@ -293,6 +293,24 @@ fn what_is_made_of_the_answers_of_a_case_stands_with_them() {
             "two where it sticks",
         ),
         (
+            "ball-asked-in-each-case",
+            "the difference of its sides is (2 u − 7 μ v (1 + e))/7, which is not negative",
+            1,
+            "what is to be shown is shown where the ball slides",
+        ),
+        (
+            "ball-asked-in-each-case",
+            "μ cannot grow beyond all bounds: 2 u/(7 v (1 + e)) ≥ μ is needed so that `C` slides",
+            1,
+            "with much friction it does not slide",
+        ),
+        (
+            "ball-asked-in-each-case",
+            "slow = 5 μ v/7",
+            1,
+            "at u = μ v it sticks in compression alone",
+        ),
+        (
             "ball-bounces-back-along-its-path",
             "mu_0 = u/v",
             2,
