@@ -342,7 +342,8 @@ fn pound_for_weight(found: &Dimension, quantity: Quantity) -> Option<String> {
 /// What to write for a number with a unit that is also the name of a parameter: `3 m` where m is a mass.
 fn named_like_its_unit(text: &str, quantity: Quantity) -> Option<String> {
     let text = text.trim();
-    let unit = text.trim_start_matches(|c: char| c.is_ascii_digit() || matches!(c, '.' | ' '));
+    let unit =
+        text.trim_start_matches(|c: char| c.is_ascii_digit() || matches!(c, '.' | ' ' | '-'));
     let number = text.strip_suffix(unit).map(str::trim)?;
     let is_meant = dimension::unit(unit).is_ok_and(|u| u == Unit::coherent(quantity.dimension()));
     (is_meant && !number.is_empty()).then(|| {

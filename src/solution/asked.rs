@@ -444,7 +444,7 @@ fn is_largest(ask: &Ask, answer: &Answer) -> bool {
 fn said(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer) {
     // At which values a formula is taken stands in the heading.
     let in_heading = match ask {
-        Ask::Value { with, .. } => with.len(),
+        Ask::Value { with, .. } if !matches!(answer.form, Form::Open(_)) => with.len(),
         _ => 0,
     };
     let mut text: Vec<Vec<Inline>> = answer

@@ -7,6 +7,7 @@ use num_traits::{One, Signed, Zero};
 
 use super::cells::Cases;
 use super::{Normal, equation, undone};
+use crate::algebra::tidy;
 use crate::domain::Domains;
 use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
 use crate::formula::{Relation, write_plain};
@@ -32,6 +33,15 @@ pub(super) fn plain(cases: &Cases, domains: &Domains) -> Option<Any> {
             for part in n.difference.parts() {
                 needed.extend(has_value(part)?);
             }
+            // What cancels has left what it needs.
+            let tidy = tidy(&n.difference, domains).unwrap_or_else(|_| n.difference.clone());
+            let asks =
+                |part: &&Expr| !part.is_constant() && matches!(has_value(part), Some(Some(_)));
+            let cancels = |part: &Expr| !tidy.parts().any(|left| left == part);
+            let n = match n.difference.parts().filter(asks).any(cancels) {
+                true => &n.of(tidy),
+                false => n,
+            };
             for need in needed.iter().chain([n]) {
                 all = both(all, without(need, domains, DEPTH)?)?;
             }
@@ -42,7 +52,7 @@ pub(super) fn plain(cases: &Cases, domains: &Domains) -> Option<Any> {
 }
 
 /// What has to hold for a part to have a value beside the parts in it; `None` where that is not known.
-fn has_value(part: &Expr) -> Option<Option<Normal>> {
+pub(super) fn has_value(part: &Expr) -> Option<Option<Normal>> {
     let positive = |e: &Expr| Normal::new(-e, Relation::Less);
     Some(match part.node() {
         Node::Call(Function::Ln, inside) => Some(positive(inside)),

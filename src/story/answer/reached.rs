@@ -9,7 +9,7 @@ use super::super::worlds::{World, without_case};
 use super::super::{Case, StageTold, line};
 use super::supposed;
 use crate::algebra::Sign;
-use crate::answer::calc::{Seen, at_least_zero, essential, is_zero, sign, tidy};
+use crate::answer::calc::{Seen, above_zero, at_least_zero, essential, is_zero, sign, tidy};
 use crate::answer::{Answer, Form, Known, given_alike, limit};
 use crate::domain::{Domain, Domains, Origin, Relation};
 use crate::expr::{Expr, Symbol};
@@ -47,14 +47,22 @@ impl Need {
     /// The same with values for parameters; nothing where it holds for certain.
     fn put(&self, with: &Known, domains: &Domains) -> Option<Need> {
         let excess = self.relation.excess.substitute(with);
-        let is_sure = matches!(sign(&excess, domains), Seen::Proved(s) if s.is_not_negative());
+        let closed = self.relation.closed;
+        let is_sure = match sign(&excess, domains) {
+            Seen::Proved(s) => s == Sign::Positive || closed && s.is_not_negative(),
+            _ => false,
+        };
         if is_sure {
             return None;
         }
         let (closed, origin) = (self.relation.closed, &self.relation.origin);
         let told = match origin.so_that() {
             Some(so_that) if excess != self.relation.excess => {
-                sentence!("{}, so that {}", at_least_zero(&excess, domains), so_that)
+                let beyond = match closed {
+                    true => at_least_zero(&excess, domains),
+                    false => above_zero(&excess, domains),
+                };
+                sentence!("{}, so that {}", beyond, so_that)
             }
             _ => self.told.clone(),
         };
@@ -93,8 +101,11 @@ fn put_in(
             });
         }
         let excess = &need.relation.excess;
-        if !out.iter().any(|n| n.relation.excess == *excess) {
-            out.push(need);
+        match out.iter_mut().find(|n| n.relation.excess == *excess) {
+            // Of the same twice the stricter one holds.
+            Some(known) if known.relation.closed => *known = need,
+            Some(_) => {}
+            None => out.push(need),
         }
     }
     Ok(out)
@@ -181,9 +192,16 @@ pub(super) fn needs(
         let ends = told.needs.iter().map(|need| {
             let so_that = format!("`{}` comes to its end", told.name);
             let need = essential(need, &scene.domains);
-            let least = at_least_zero(&need, &scene.domains);
+            // Whether it may be zero stands in what the motion takes for granted.
+            let strict = above_zero(&need, &scene.domains).to_string();
+            let mut granted = told.assumptions.iter().map(ToString::to_string);
+            let closed = !granted.any(|words| words.starts_with(&strict));
+            let least = match closed {
+                true => at_least_zero(&need, &scene.domains),
+                false => above_zero(&need, &scene.domains),
+            };
             let words = sentence!("{}, so that {}", least, &so_that);
-            Need::new(&need, true, Origin::Ending(so_that), words)
+            Need::new(&need, closed, Origin::Ending(so_that), words)
         });
         let case = world.outcome.get(&i).and_then(|k| told.cases.get(*k));
         let conditions = case.into_iter().flat_map(|case| &case.conditions);
@@ -275,6 +293,9 @@ pub(in crate::story) fn tell(scene: &Scene, ask: &Ask, needs: &[Need], answer: &
     for need in left.clone() {
         match need.put(&place, &besides(&need, &left)) {
             Some(Need { told, .. }) if answer.assumptions.contains(&told) => {}
+            // The place lies where it ends.
+            Some(Need { relation, .. })
+                if is_zero(&relation.excess, &scene.domains) == Some(true) => {}
             Some(Need { told, .. }) => answer.assumptions.push(told),
             // What the others grant is not told besides.
             None => left.retain(|n| *n != need),
