@@ -8,6 +8,7 @@
 mod arrows;
 mod cause;
 mod desk;
+mod impact;
 mod link;
 mod names;
 mod rounded;

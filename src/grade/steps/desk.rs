@@ -4,9 +4,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::sheet::Sheet;
+use super::impact::Stand;
 use super::names::MARKS;
 use super::sought::{self, Sought};
-use super::vectors::{Stand, in_products, is_marked, marked_after};
+use super::vectors::{in_products, is_marked, marked_after};
 use super::{Final, text};
 use crate::answer::Form;
 use crate::derive::Moment;

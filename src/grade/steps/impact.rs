@@ -1,0 +1,434 @@
+//! The vectors of an impact by name, `\vec{v}_B^{+}`, `\vec{H}_C^{-}` or `\vec{r}_{B/C}`: their components in the scene.
+//!
+//! A letter says what it is of the point or body in its index: v its velocity, r its place, P the impulse there, H the
+//! angular momentum about it, n the normal at it, ω the spin of the body. The mark says when; H and P are of a system of
+//! bodies, first of all that move. Of how pages use these names nothing is known here.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::derive::Names;
+use crate::expr::{Expr, Symbol, Vector, cross, minus};
+use crate::formula;
+use crate::laws::{self, Affine, Geometry, Kinematics, Place, Unknown};
+use crate::scene::{Ask, Scene};
+
+/// Most bodies of which each pair is a system, too.
+const MOST_PAIRED: usize = 3;
+
+/// An impact, with what its unknowns stand for.
+pub(super) struct Impact<'a> {
+    scene: &'a Scene,
+    geometry: Geometry<Expr>,
+    after: Kinematics<Expr>,
+    names: &'a Names,
+    value: &'a dyn Fn(&Symbol) -> Option<Expr>,
+}
+
+/// What names leave open.
+struct Meant {
+    /// The bodies of which H and P are.
+    system: Vec<usize>,
+    /// Which of the two bodies at a joint an impulse is counted on; by the system where it is not said.
+    on: Option<usize>,
+    /// The moment of a vector without a mark.
+    when: When,
+}
+
+/// A moment of an impact, or any motion that bodies can have.
+#[derive(Clone, Copy, PartialEq)]
+enum When {
+    Before,
+    After,
+    Whatever,
+}
+
+/// The vectors of a page at a moment, of one system of bodies.
+pub(super) struct Stand {
+    /// Words for the moment and the system.
+    pub when: String,
+    /// Components by name.
+    pub values: BTreeMap<Symbol, Expr>,
+    /// Of impulses and points that two bodies share: on which of them, by letter and index.
+    pub of: BTreeMap<String, usize>,
+    /// What is the same before and after.
+    pub still: BTreeSet<Symbol>,
+}
+
+/// A point of a scene and the bodies that are there, those that can move first.
+struct Point {
+    at: Vector,
+    bodies: Vec<usize>,
+}
+
+impl<'a> Impact<'a> {
+    pub fn new(
+        scene: &'a Scene,
+        names: &'a Names,
+        value: &'a dyn Fn(&Symbol) -> Option<Expr>,
+    ) -> Impact<'a> {
+        let geometry = Geometry::symbolic(scene);
+        let after = Kinematics::full(scene, &geometry);
+        Impact {
+            scene,
+            geometry,
+            after,
+            names,
+            value,
+        }
+    }
+
+    /// What a form in the unknowns comes to; nothing where one of them has no value.
+    fn put_in(&self, form: &Affine<Expr>) -> Option<Expr> {
+        let term = |(unknown, factor): &(Unknown, Expr)| {
+            let value = (self.value)(&Symbol::from(self.names.plain(*unknown)))?;
+            let value = if self.names.is_reversed(*unknown) {
+                -value
+            } else {
+                value
+            };
+            Some(factor * &value)
+        };
+        let terms: Option<Vec<Expr>> = form.terms.iter().map(term).collect();
+        Some(&form.constant + &Expr::sum(terms?))
+    }
+
+    fn moving(&self) -> Vec<usize> {
+        let bodies = self.scene.bodies.iter().enumerate();
+        let free = bodies.filter(|(_, body)| !body.is_fixed());
+        free.map(|(b, _)| b).collect()
+    }
+
+    /// All that moves, then each body alone, then pairs where there are few.
+    fn systems(&self) -> Vec<Vec<usize>> {
+        let all = self.moving();
+        let mut systems = vec![all.clone()];
+        if all.len() > 1 {
+            systems.extend(all.iter().map(|&b| vec![b]));
+        }
+        if all.len() == MOST_PAIRED {
+            systems.extend((0..MOST_PAIRED).map(|out| [&all[..out], &all[out + 1..]].concat()));
+        }
+        systems
+    }
+
+    fn body(&self, index: &str) -> Option<usize> {
+        let moving = self.moving();
+        let mut bodies = self.scene.bodies.iter();
+        match (bodies.position(|body| is_index(&body.name, index)), index) {
+            (Some(b), "G") if !self.scene.bodies[b].is_fixed() => Some(b),
+            (_, "G" | "") if moving.len() == 1 => Some(moving[0]),
+            (found, _) => found,
+        }
+    }
+
+    /// The place a label names, with the bodies there; `C,rod` is C on the rod.
+    fn point(&self, index: &str) -> Option<Point> {
+        if let Some((index, body)) = index.split_once(',') {
+            let point = self.point(index)?;
+            let body = self.body(body).filter(|b| point.bodies.contains(b))?;
+            return Some(Point {
+                bodies: vec![body],
+                ..point
+            });
+        }
+        let scene = self.scene;
+        let contacts = scene.contacts.iter();
+        let contacts = contacts.map(|c| (&c.name, &c.at, c.bodies.to_vec()));
+        let hinges = scene.hinges.iter();
+        let hinges = hinges.map(|h| (&h.name, &h.at, h.bodies.to_vec()));
+        let blows = scene.blows.iter().map(|b| (&b.name, &b.at, vec![b.body]));
+        let mut places = contacts.chain(hinges).chain(blows);
+        if let Some((_, at, mut bodies)) = places.find(|(name, ..)| is_index(name, index)) {
+            bodies.sort_by_key(|&b| scene.bodies[b].is_fixed());
+            let at = at.clone();
+            return Some(Point { at, bodies });
+        }
+        if let Some(b) = self.body(index) {
+            let at = scene.bodies[b].center.clone();
+            return Some(Point {
+                at,
+                bodies: vec![b],
+            });
+        }
+        let mut points = scene.points.iter();
+        let point = points.find(|point| is_index(&point.name, index))?;
+        let mut bodies = self.moving();
+        if bodies.len() > 1 {
+            bodies.retain(|&b| scene.bodies[b].center == point.at);
+        }
+        Some(Point {
+            at: point.at.clone(),
+            bodies,
+        })
+    }
+
+    /// The center of the body whose velocity a question of this name asks for, as `v1` does.
+    fn asked_of(&self, name: &str) -> Option<Point> {
+        let mut asked = self.scene.questions.iter();
+        asked.find_map(|q| match q.ask {
+            Ask::Velocity {
+                body,
+                point: None,
+                along: None,
+            } if is_index(&q.name, name) => Some(Point {
+                at: self.scene.bodies[body].center.clone(),
+                bodies: vec![body],
+            }),
+            _ => None,
+        })
+    }
+
+    fn velocity(&self, b: usize, at: &Vector, when: When) -> Option<Vector> {
+        match when {
+            When::Before => Some(self.geometry.velocity_before(b, at)),
+            When::After => {
+                let [x, y] = self.after.velocity_of(&self.geometry, b, at);
+                Some([self.put_in(&x)?, self.put_in(&y)?])
+            }
+            When::Whatever => {
+                let [x, y] = minus(at, &self.scene.bodies[b].center);
+                let spin = &self.spin(b, when)?;
+                let of = |axis: &str| Expr::symbol(&format!("any {axis} of {b}"));
+                Some([of("x") - spin * &y, of("y") + spin * &x])
+            }
+        }
+    }
+
+    fn spin(&self, b: usize, when: When) -> Option<Expr> {
+        match when {
+            When::After => self.put_in(&self.after.spin[b]),
+            When::Before => Some(self.geometry.before(b).1.clone()),
+            When::Whatever => Some(Expr::symbol(&format!("any spin of {b}"))),
+        }
+    }
+
+    /// Angular momentum of a system about a point, Σ r × m v + I ω.
+    fn angular_momentum(&self, system: &[usize], about: &Vector, when: When) -> Option<Expr> {
+        let of = |&b: &usize| {
+            let body = &self.scene.bodies[b];
+            let velocity = self.velocity(b, &body.center, when)?;
+            let orbital = &body.mass * &cross(&minus(&body.center, about), &velocity);
+            if body.is_particle() {
+                return Some(orbital);
+            }
+            Some(orbital + &(&body.inertia * &self.spin(b, when)?))
+        };
+        let all: Option<Vec<Expr>> = system.iter().map(of).collect();
+        Some(Expr::sum(all?))
+    }
+
+    /// The joint of a name, and its two bodies.
+    fn joint(&self, index: &str) -> Option<(Place, [usize; 2])> {
+        let scene = self.scene;
+        let named = |name: &str| is_index(name, index);
+        let contact = scene.contacts.iter().position(|c| named(&c.name));
+        let hinge = scene.hinges.iter().position(|h| named(&h.name));
+        let blow = scene.blows.iter().position(|b| named(&b.name));
+        Some(match (contact, hinge, blow) {
+            (Some(c), ..) => (Place::Contact(c), scene.contacts[c].bodies),
+            (_, Some(h), _) => (Place::Hinge(h), scene.hinges[h].bodies),
+            (_, _, Some(b)) => (Place::Blow(b), [scene.blows[b].body; 2]),
+            _ => return None,
+        })
+    }
+
+    /// Which of the two bodies at a joint an impulse is counted on: one that can move, else one of a system that the joint is not
+    /// inside of.
+    fn counted_on(&self, bodies: [usize; 2], meant: &Meant) -> Option<usize> {
+        match meant.on {
+            Some(k) => {
+                let acts = bodies[0] != bodies[1] && !self.scene.bodies[bodies[k]].is_fixed();
+                acts.then_some(k)
+            }
+            None => match bodies.map(|b| meant.system.contains(&b)) {
+                [true, false] => Some(0),
+                [false, true] => Some(1),
+                [inside, _] => Some(1).filter(|_| inside && bodies[0] == bodies[1]),
+            },
+        }
+    }
+
+    fn impulse(&self, index: &str, meant: &Meant) -> Option<Vector> {
+        let (place, bodies) = self.joint(index)?;
+        let on = self.counted_on(bodies, meant)?;
+        let [x, y] = laws::impulse_at(self.scene, &self.geometry, place);
+        let impulse = [self.put_in(&x)?, self.put_in(&y)?];
+        Some(match on {
+            0 => impulse.map(|p| -p),
+            _ => impulse,
+        })
+    }
+
+    /// The body whose velocity at a point is meant, and the point.
+    fn body_at(&self, index: &str, meant: &Meant) -> Option<(usize, Vector, bool)> {
+        let asked = || self.asked_of(&format!("v{index}"));
+        let point = self.point(index).or_else(asked)?;
+        let free = point
+            .bodies
+            .iter()
+            .filter(|&&b| !self.scene.bodies[b].is_fixed());
+        let shared = free.count() > 1;
+        let mut bodies = point.bodies.iter();
+        let system = &meant.system;
+        let b = bodies.find(|b| system.contains(b));
+        Some((*b.or(point.bodies.first())?, point.at, shared))
+    }
+
+    /// Of what two bodies share: which of them is meant.
+    fn shared(&self, name: &Symbol, meant: &Meant) -> Option<(String, usize)> {
+        let (base, index, _) = formula::vector_name(name)?;
+        let body = match &*base {
+            "P" => {
+                let (_, bodies) = self.joint(&index)?;
+                let both = bodies.iter().all(|&b| !self.scene.bodies[b].is_fixed());
+                let on = self.counted_on(bodies, meant)?;
+                (both && bodies[0] != bodies[1]).then_some(bodies[on])
+            }
+            "v" => {
+                let (b, _, shared) = self.body_at(&index, meant)?;
+                shared.then_some(b)
+            }
+            _ => None,
+        };
+        Some((shared_key(&base, &index), body?))
+    }
+
+    /// The vector that a name stands for, of a system of bodies.
+    fn vector(&self, name: &Symbol, meant: &Meant) -> Option<[Expr; 3]> {
+        let system = &meant.system;
+        let (base, index, mark) = formula::vector_name(name)?;
+        let when = match &*mark {
+            _ if meant.when == When::Whatever => When::Whatever,
+            "" => meant.when,
+            "'" | "^+" => When::After,
+            "^-" => When::Before,
+            _ => return None,
+        };
+        let flat = |[x, y]: Vector| [x, y, Expr::zero()];
+        let out_of_page = |z: Expr| [Expr::zero(), Expr::zero(), z];
+        match &*base {
+            "v" => {
+                let of = |index: &str| {
+                    let (b, at, _) = self.body_at(index, meant)?;
+                    self.velocity(b, &at, when)
+                };
+                match index.split_once('/') {
+                    Some((of_one, from)) => Some(flat(minus(&of(of_one)?, &of(from)?))),
+                    None => of(&index).map(flat),
+                }
+            }
+            "omega" => self.spin(self.body(&index)?, when).map(out_of_page),
+            "r" => {
+                let (to, from) = index.split_once('/')?;
+                let [to, from] = [self.point(to)?, self.point(from)?];
+                Some(flat(minus(&to.at, &from.at)))
+            }
+            "H" => {
+                let (about, only) = match index.split_once(',') {
+                    Some((about, body)) => (about, vec![self.body(body)?]),
+                    None => (&*index, system.to_vec()),
+                };
+                let about = self.point(about)?.at;
+                self.angular_momentum(&only, &about, when).map(out_of_page)
+            }
+            "P" if when != When::Whatever => self.impulse(&index, meant).map(flat),
+            "n" => {
+                let mut contacts = self.scene.contacts.iter();
+                let contacts: Vec<_> = contacts.by_ref().filter(|c| c.normal.is_some()).collect();
+                let named = contacts.iter().find(|c| is_index(&c.name, &index));
+                let only = contacts
+                    .first()
+                    .filter(|_| index.is_empty() && contacts.len() == 1);
+                named.or(only)?.normal.clone().map(flat)
+            }
+            _ => None,
+        }
+    }
+
+    /// The vectors of each system by what they are read as, without a mark just after and just before, and words for which they are.
+    pub fn moments(&self, names: &[(Symbol, Symbol)], impact: &str) -> Vec<Stand> {
+        let mut all: Vec<Stand> = Vec::new();
+        let whole = self.moving();
+        let times = [When::After, When::Before];
+        let ways = [None, Some(1), Some(0)].into_iter();
+        let ways: Vec<_> = ways.flat_map(|on| times.map(|when| (on, when))).collect();
+        for system in self.systems() {
+            let of = match system == whole {
+                true => String::new(),
+                false => format!(", of {} alone", self.listed(&system)),
+            };
+            for &(on, when) in &ways {
+                let system = system.clone();
+                let meant = Meant { system, on, when };
+                let values = self.components(names, &meant);
+                if all.iter().any(|other| other.values == values) {
+                    continue;
+                }
+                let shared = names
+                    .iter()
+                    .filter_map(|(name, _)| self.shared(name, &meant));
+                let unmoved = names.iter().filter(|(name, _)| self.is_still(name, &meant));
+                let word = if when == When::After {
+                    "after"
+                } else {
+                    "before"
+                };
+                all.push(Stand {
+                    when: format!("just {word} {impact}{of}"),
+                    of: shared.collect(),
+                    still: unmoved.map(|(_, key)| key.clone()).collect(),
+                    values,
+                });
+            }
+        }
+        all
+    }
+
+    fn listed(&self, bodies: &[usize]) -> String {
+        let names = bodies
+            .iter()
+            .map(|&b| format!("`{}`", self.scene.bodies[b].name));
+        formula::listed(&names.collect::<Vec<_>>())
+    }
+
+    /// The vectors of all that moves in whatever motion.
+    pub fn of_whatever_motion(&self, names: &[(Symbol, Symbol)]) -> BTreeMap<Symbol, Expr> {
+        let meant = Meant {
+            system: self.moving(),
+            on: None,
+            when: When::Whatever,
+        };
+        self.components(names, &meant)
+    }
+
+    /// Whether a vector is the same before the impact as after it.
+    fn is_still(&self, name: &Symbol, meant: &Meant) -> bool {
+        let at = |mark: &str| {
+            let plain = name.split(['^', '\'']).next().unwrap_or_default();
+            self.vector(&Symbol::from(format!("{plain}{mark}")), meant)
+        };
+        at("^-").is_some_and(|before| at("^+") == Some(before))
+    }
+
+    /// The components of all that have a value.
+    fn components(&self, names: &[(Symbol, Symbol)], meant: &Meant) -> BTreeMap<Symbol, Expr> {
+        let known = names.iter().filter_map(|(name, key)| {
+            let vector = self.vector(name, meant)?;
+            let along = |axis: &str| Symbol::from(format!("{key}_{axis}"));
+            Some(["x", "y", "z"].map(along).into_iter().zip(vector))
+        });
+        known.flatten().collect()
+    }
+}
+
+/// What names without their marks are told apart by.
+pub(super) fn shared_key(base: &str, index: &str) -> String {
+    format!("{base} {index}")
+}
+
+/// Whether an index is this name, written without what cannot stand in one.
+fn is_index(name: &str, index: &str) -> bool {
+    name.chars()
+        .filter(|c| *c != '_')
+        .eq(index.chars().filter(|c| *c != '_'))
+}
