@@ -17,6 +17,7 @@ mod points;
 mod solved;
 mod system;
 mod undone;
+mod values;
 
 use std::collections::BTreeSet;
 use std::slice::from_ref;
@@ -24,9 +25,8 @@ use std::slice::from_ref;
 use super::Verdict;
 use super::compare::{Context, Finding};
 use crate::algebra::{self, Field, Sign};
-use crate::answer::calc::constant;
 use crate::domain::{Domain, Domains, roles};
-use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
+use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{Content, Join, Relation, is_angle_name, write_plain};
 use crate::interval::{Big, Outcome, evaluate};
 use cells::Cases;
@@ -36,9 +36,10 @@ use num_traits::Signed;
 use points::{apart_at_points, apart_in_cases};
 pub(super) use solved::solve_for;
 use solved::{lies_in, solved_in, unknowns};
+use values::{cancelled, has_values, may_lack_values};
 
 /// `left − right  rel  0`, turned so that the relation is one of =, ≠, <, ≤.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 struct Normal {
     difference: Expr,
     relation: Relation,
@@ -233,20 +234,6 @@ fn cases(content: &Content) -> Option<Vec<Vec<Normal>>> {
     }
 }
 
-/// Whether a relation has a value everywhere, or is in several symbols, where a product stands for its factors.
-fn has_values(n: &Normal) -> bool {
-    let everywhere = |part: &Expr| match part.node() {
-        Node::Power(base, k) => {
-            base.is_constant()
-                || k.as_number()
-                    .is_some_and(|k| k.is_integer() && !k.is_negative())
-        }
-        Node::Call(function, x) => *function != Function::Ln || x.is_constant(),
-        _ => true,
-    };
-    n.difference.symbols().len() > 1 || n.difference.parts().all(everywhere)
-}
-
 /// The equation that holds where one of several does.
 fn one_of(parts: &[Vec<Vec<Normal>>]) -> Option<Normal> {
     let alone = |cases: &Vec<Vec<Normal>>| match cases.as_slice() {
@@ -294,75 +281,6 @@ fn links(sides: &[Content], signs: &[Relation]) -> Option<Vec<Normal>> {
         }
     }
     (!out.is_empty()).then_some(out)
-}
-
-/// What has to hold for the sides of a relation in one symbol to have values, of the parts that their difference has not.
-fn cancelled(sides: [&Expr; 2], difference: &Expr) -> Vec<Normal> {
-    let symbols: BTreeSet<Symbol> = sides.iter().flat_map(|side| side.symbols()).collect();
-    if symbols.len() != 1 {
-        return Vec::new();
-    }
-    let mut out: Vec<Normal> = Vec::new();
-    let parts = sides.into_iter().flat_map(Expr::parts);
-    for part in parts.filter(|part| !difference.parts().any(|left| left == *part)) {
-        let Some(Some(need)) = plain::has_value(part) else {
-            continue;
-        };
-        let same = |n: &Normal| n.relation == need.relation && n.difference == need.difference;
-        if !need.difference.is_constant() && !out.iter().any(same) {
-            out.push(need);
-        }
-    }
-    out
-}
-
-/// Whether a logarithm or a root that only one of two relations in one symbol has may leave it without a value where the other
-/// has one.
-fn may_lack_values(expected: &Normal, answer: &Normal, domains: &Domains) -> bool {
-    let sides = [&expected.difference, &answer.difference];
-    let symbols: BTreeSet<Symbol> = sides.iter().flat_map(|side| side.symbols()).collect();
-    if symbols.len() != 1 {
-        return false;
-    }
-    let inside = |e: &Expr| -> Vec<Expr> {
-        let inside = e.parts().filter_map(|part| match part.node() {
-            Node::Call(Function::Ln, x) => Some(x.clone()),
-            Node::Power(base, k) => {
-                // Of an odd root a negative has a value too.
-                let even = |k: &Rational| !k.is_integer() && (k * ratio(4, 1)).is_integer();
-                let is_root = k.as_number().is_some_and(even);
-                is_root.then(|| base.clone())
-            }
-            _ => None,
-        });
-        inside.filter(|x| !x.is_constant()).collect()
-    };
-    let domains = &domains.of(&sides);
-    let [own, other] = sides.map(inside);
-    // Where a relation holds: at the one value of a solved equation, else on its side of the domain.
-    let is_there = |x: &Expr, n: &Normal| {
-        let name = symbols.iter().next();
-        let slope = name.map(|name| n.difference.derivative(name));
-        match (n.relation, name, slope) {
-            (Relation::Equal, Some(name), Some(slope)) if slope.is_constant() => {
-                let value = -(&n.difference.put(name, &Expr::zero()) / &slope);
-                let x = x.put(name, &value);
-                let sign = sign_of(&x, domains).or_else(|| constant(&x));
-                sign.is_some_and(Sign::is_not_negative)
-            }
-            (Relation::Less | Relation::LessEqual, ..) => {
-                let held = domains.given(&-&n.difference, n.relation == Relation::LessEqual);
-                sign_of(x, &held).is_some_and(Sign::is_not_negative)
-            }
-            _ => false,
-        }
-    };
-    let only = |a: &[Expr], b: &[Expr], n: &Normal| {
-        let mut alone = a.iter().filter(|x| !b.contains(x));
-        let always = |x: &Expr| sign_of(x, domains).is_some_and(Sign::is_not_negative);
-        alone.any(|x| !always(x) && !is_there(x, n))
-    };
-    only(&own, &other, answer) || only(&other, &own, expected)
 }
 
 fn either<'e>(pairs: impl Iterator<Item = (&'e Expr, &'e Expr)>, relation: Relation) -> Normal {

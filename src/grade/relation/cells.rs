@@ -5,16 +5,13 @@
 
 use std::cmp::Ordering;
 
-use num_traits::{Signed, Zero};
-
 use super::plain::plain;
-use super::{Normal, differences, equation};
+use super::{Normal, differences};
 use crate::algebra::{Cell, Field};
-use crate::domain::{Domain, Domains, Limit, roles};
+use crate::domain::{Domains, roles};
 use crate::equality::divisors;
-use crate::expr::number::sqrt_exact;
 use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
-use crate::formula::{Relation, write_plain};
+use crate::formula::Relation;
 use crate::interval::Enclosure;
 
 /// Most different absolute values.
@@ -50,126 +47,14 @@ pub(super) fn compare(first: &Cases, second: &Cases, domains: &Domains) -> Optio
     if let (Some(first), Some(second)) = (plain(first, &domains), plain(second, &domains)) {
         return along(&first, &second, name, &domains);
     }
-    match radicand(&all, name)? {
-        None => along(first, second, name, &domains),
-        Some(inside) => under_root(first, second, (name, &inside), &domains),
-    }
-}
-
-/// What stands under square roots, where that is linear in the symbol and the same in all; `None` where it is not.
-fn radicand(all: &[&Expr], name: &Symbol) -> Option<Option<Expr>> {
-    let mut found: Vec<Expr> = Vec::new();
-    for part in all.iter().flat_map(|e| e.parts()) {
-        if let Node::Power(base, k) = part.node()
-            && k.as_number().is_some_and(|k| !k.is_integer())
-            && !found.contains(base)
-        {
-            found.push(base.clone());
+    let is_rooted = |part: &Expr| match part.node() {
+        Node::Power(base, k) => {
+            base.mentions(name) && k.as_number().is_some_and(|k| !k.is_integer())
         }
-    }
-    found.retain(|base| base.symbols().contains(name));
-    match found.as_slice() {
-        [] => Some(None),
-        [base] => {
-            let slope = base.derivative(name);
-            let linear = slope.as_number().is_some_and(|k| !k.is_zero());
-            linear.then(|| Some(base.clone()))
-        }
-        _ => None,
-    }
-}
-
-/// Two systems with square roots of one linear radicand k x + c: where it is not negative, x is (s² − c)/k of the root s;
-/// elsewhere no relation with the root holds.
-fn under_root(
-    first: &Cases,
-    second: &Cases,
-    (name, inside): (&Symbol, &Expr),
-    domains: &Domains,
-) -> Option<Along> {
-    let constant = inside.put(name, &Expr::zero()).as_number()?.clone();
-    let slope = inside.derivative(name).as_number()?.clone();
-    let domain = domains.symbols.get(name)?;
-    let (low, high) = match slope.is_positive() {
-        true => (&domain.low, &domain.high),
-        false => (&domain.high, &domain.low),
+        _ => false,
     };
-    let value = |limit: &Limit| (!limit.of_pi).then(|| &(&limit.value * &slope) + &constant);
-    let none = Limit::number(Rational::zero(), false);
-    let mut below = None;
-    let mut end = |limit: &Option<Limit>, is_low: bool| match limit {
-        None if is_low => {
-            below = Some(());
-            Some(Some(none.clone()))
-        }
-        None => Some(None),
-        Some(limit) => {
-            let v = value(limit)?;
-            if v.is_negative() {
-                below = is_low.then_some(());
-                return is_low.then(|| Some(none.clone()));
-            }
-            Some(Some(Limit::number(sqrt_exact(&v)?, limit.open)))
-        }
-    };
-    let ends = Domain::new(end(low, true)?, end(high, false)?);
-    let root: Symbol = write_plain(&inside.sqrt()).into();
-    let s = Expr::symbol(&root);
-    let back = (s.powi(2) - Expr::from(constant.clone())) * Expr::from(slope.recip());
-    let put = |n: &Normal| n.of(rootless(&n.difference, inside, &s).put(name, &back));
-    let each = |cases: &Cases, change: &dyn Fn(&Normal) -> Normal| {
-        let system = |system: &Vec<Normal>| system.iter().map(change).collect();
-        cases.iter().map(system).collect::<Vec<Vec<Normal>>>()
-    };
-    let systems = [first, second].map(|cases| each(cases, &put));
-    let mut inner = domains.clone();
-    inner.symbols.insert(root.clone(), ends);
-    let mut out = along(&systems[0], &systems[1], &root, &inner)?;
-    if below.is_some() {
-        let turn = -(&constant / &slope);
-        let limit = Some(Limit::number(turn, true));
-        let rest = match slope.is_positive() {
-            true => Domain::new(domain.low.clone(), limit),
-            false => Domain::new(limit, domain.high.clone()),
-        };
-        // Nothing that has the root holds there.
-        let rooted = |n: &Normal| rootless(&n.difference, inside, &s) != n.difference;
-        if [first, second]
-            .iter()
-            .all(|cases| cases.iter().all(|system| system.iter().any(rooted)))
-        {
-            out.holds.iter_mut().for_each(|seen| seen[1] = true);
-            return Some(out);
-        }
-        let never = |n: &Normal| match rooted(n) {
-            false => n.clone(),
-            true => equation(&Expr::one()),
-        };
-        let systems = [first, second].map(|cases| each(cases, &never));
-        inner.symbols.insert(name.clone(), rest);
-        let outside = along(&systems[0], &systems[1], name, &inner)?;
-        out.lost = out.lost.or(outside.lost);
-        out.gained = out.gained.or(outside.gained);
-        let more = outside.holds.iter().flatten();
-        for (seen, more) in out.holds.iter_mut().flatten().zip(more) {
-            *seen |= more;
-        }
-        for (count, more) in out.count.iter_mut().zip(outside.count) {
-            *count = count.zip(more).map(|(a, b)| a + b);
-        }
-    }
-    Some(out)
-}
-
-/// A formula with the powers of a radicand as whole powers of its root.
-fn rootless(e: &Expr, inside: &Expr, root: &Expr) -> Expr {
-    match e.node() {
-        Node::Power(base, k) if base == inside => match k.as_number() {
-            Some(k) => root.power(Expr::from(k * &ratio(2, 1))),
-            None => e.clone(),
-        },
-        _ => e.map_parts(|part| rootless(part, inside, root)),
-    }
+    let rooted = all.iter().any(|e| e.parts().any(is_rooted));
+    (!rooted).then(|| along(first, second, name, &domains))?
 }
 
 /// The comparison along the domain of the symbol.

@@ -6,6 +6,7 @@ use std::cmp::Ordering;
 use num_traits::{One, Signed, Zero};
 
 use super::cells::Cases;
+use super::values::{asked_by, has_value};
 use super::{Normal, equation, undone};
 use crate::algebra::tidy;
 use crate::domain::Domains;
@@ -35,10 +36,8 @@ pub(super) fn plain(cases: &Cases, domains: &Domains) -> Option<Any> {
             }
             // What cancels has left what it needs.
             let tidy = tidy(&n.difference, domains).unwrap_or_else(|_| n.difference.clone());
-            let asks =
-                |part: &&Expr| !part.is_constant() && matches!(has_value(part), Some(Some(_)));
             let cancels = |part: &Expr| !tidy.parts().any(|left| left == part);
-            let n = match n.difference.parts().filter(asks).any(cancels) {
+            let n = match asked_by(&n.difference).any(|(part, _)| cancels(part)) {
                 true => &n.of(tidy),
                 false => n,
             };
@@ -49,26 +48,6 @@ pub(super) fn plain(cases: &Cases, domains: &Domains) -> Option<Any> {
         out.extend(all);
     }
     (out.len() <= MOST_CASES).then_some(out)
-}
-
-/// What has to hold for a part to have a value beside the parts in it; `None` where that is not known.
-pub(super) fn has_value(part: &Expr) -> Option<Option<Normal>> {
-    let positive = |e: &Expr| Normal::new(-e, Relation::Less);
-    Some(match part.node() {
-        Node::Call(Function::Ln, inside) => Some(positive(inside)),
-        Node::Call(Function::Abs | Function::Exp, _) => None,
-        Node::Call(..) if !part.symbols().is_empty() => return None,
-        Node::Power(base, k) => match k.as_number() {
-            Some(k) if k.is_integer() => k
-                .is_negative()
-                .then(|| Normal::new(base.clone(), Relation::NotEqual)),
-            Some(k) if *k.denom() != *ratio(2, 1).numer() => return None,
-            Some(k) if k.is_negative() => Some(positive(base)),
-            Some(_) => Some(Normal::new(-base, Relation::LessEqual)),
-            None => Some(positive(base)),
-        },
-        _ => None,
-    })
 }
 
 /// Both of two alternatives, without what says nothing.
@@ -90,8 +69,7 @@ fn both(one: Any, other: Any) -> Option<Any> {
         for b in &other {
             let mut all: Vec<Normal> = Vec::new();
             for n in a.iter().chain(b).filter(|n| holds(n) != Some(true)) {
-                let same = |m: &Normal| m.relation == n.relation && m.difference == n.difference;
-                if !all.iter().any(same) {
+                if !all.contains(n) {
                     all.push(n.clone());
                 }
             }
