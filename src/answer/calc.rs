@@ -117,6 +117,17 @@ pub fn sign(e: &Expr, domains: &Domains) -> Seen {
     seen(e, domains)
 }
 
+/// Whether something is proved to be positive, or not negative where `closed`, on the whole domain, or nowhere.
+pub fn keeps_to(e: &Expr, closed: bool, domains: &Domains) -> Option<bool> {
+    match sign(e, domains) {
+        Seen::Proved(Sign::Positive) => Some(true),
+        Seen::Proved(s) if closed && s.is_not_negative() => Some(true),
+        Seen::Proved(Sign::Negative) => Some(false),
+        Seen::Proved(Sign::NotPositive | Sign::Zero) if !closed => Some(false),
+        _ => None,
+    }
+}
+
 /// The sign of a formula without symbols, such as cos(π/18) − 0.98: its enclosure proves it.
 pub fn constant(e: &Expr) -> Option<Sign> {
     if !e.is_constant() {
@@ -258,7 +269,7 @@ pub fn above_zero(e: &Expr, domains: &Domains) -> Sentence {
 }
 
 /// `e > 0` where zero is excluded, else `e ≥ 0`.
-pub(super) fn beyond_zero(e: &Expr, domains: &Domains, open: bool) -> Sentence {
+pub fn beyond_zero(e: &Expr, domains: &Domains, open: bool) -> Sentence {
     let e = decisive(e, domains, open);
     match open {
         true => Sentence::positive(&e),

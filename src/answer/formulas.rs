@@ -5,12 +5,12 @@
 
 use std::collections::BTreeSet;
 
-use super::calc::{Seen, at_least_zero, essential, is_zero, sign, tidy};
+use super::calc::{beyond_zero, essential, is_zero, keeps_to, tidy};
 use super::{
     Answer, Check, Form, Known, Refused, inequality, limit, optimum, solve, threshold, zeros,
 };
 use crate::dimension::{self, Dimension};
-use crate::domain::{Domain, Domains, Origin};
+use crate::domain::{Domain, Domains};
 use crate::equality::{self, Equality, How};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Relation, write_plain};
@@ -68,6 +68,17 @@ pub fn formulas(
         Ask::Condition { .. } | Ask::Maximum { .. } | Ask::Show { .. } => None,
         _ => return Ok(None),
     };
+    let (domains, given) = match with_put_in(scene, question, known) {
+        Ok(there) => there,
+        Err(why) => {
+            let open = Answer::blank(question, &question.name, "what is asked").leave_open(why);
+            return Ok(Some(vec![open]));
+        }
+    };
+    let scene = &Scene {
+        domains,
+        ..scene.clone()
+    };
     let work = |name: &str, of: Option<&Expr>| {
         let work = Work {
             scene,
@@ -75,7 +86,11 @@ pub fn formulas(
             name,
             known,
         };
-        work.answers(of)
+        let mut answers = work.answers(of)?;
+        for answer in &mut answers {
+            answer.assumptions.extend(given.iter().cloned());
+        }
+        Ok(answers)
     };
     // The name of a vector alone asks for both components.
     let parts = of.and_then(|of| components(of.as_symbol()?, known));
@@ -86,6 +101,70 @@ pub fn formulas(
     let mut out = work(&format!("{name}_x"), Some(&Expr::symbol(&x)))?;
     out.extend(work(&format!("{name}_y"), Some(&Expr::symbol(&y)))?);
     Ok(Some(out))
+}
+
+/// The domain where a question puts in values for parameters, ends of their intervals included, and what these ask for; `Err`
+/// where they lie outside.
+fn with_put_in(
+    scene: &Scene,
+    question: &Question,
+    known: &Known,
+) -> Result<(Domains, Vec<Sentence>), Sentence> {
+    let mut domains = scene.domains.clone();
+    let with = question.ask.with().iter();
+    let with: Known = with
+        .map(|(s, v)| (s.clone(), v.substitute(known)))
+        .collect();
+    let mut given = Vec::new();
+    for (name, value) in &with {
+        let own = scene.domains.symbols.get(name).cloned();
+        let mut own = own.unwrap_or_else(Domain::positive);
+        let ends = [&mut own.low, &mut own.high].into_iter().flatten();
+        ends.for_each(|end| end.open = false);
+        let needs = solve::placed(name, value, &own, &scene.domains)?.into_iter();
+        given.extend(needs.map(|(need, _)| {
+            let least = Sentence::not_negative(&need);
+            sentence!("{}, so that {} lies within its domain", least, name)
+        }));
+    }
+    let is_put = |r: &crate::domain::Relation| with.keys().any(|name| r.excess.mentions(name));
+    let (put, kept) = std::mem::take(&mut domains.relations)
+        .into_iter()
+        .partition(is_put);
+    domains.relations = kept;
+    for relation in Vec::into_iter(put) {
+        let excess = relation.excess.substitute(&with);
+        let stated = solve::stated(&relation);
+        match keeps_to(&excess, relation.closed, &domains) {
+            Some(true) => {}
+            Some(false) => {
+                let put = with
+                    .iter()
+                    .map(|(name, value)| sentence!("{} = {}", name, value));
+                let put = Sentence::join(put, " and ");
+                return Err(match relation.origin.so_that() {
+                    None => sentence!("{}, against {}", put, stated),
+                    Some(needed) => sentence!(
+                        "with {} the scene does not get there: {} is needed so that {}",
+                        put,
+                        stated,
+                        needed
+                    ),
+                });
+            }
+            None => {
+                let least = beyond_zero(&excess, &domains, !relation.closed);
+                let so_that = relation.origin.so_that().map(Sentence::words);
+                given.push(sentence!(
+                    "{}, so that {}",
+                    least,
+                    so_that.unwrap_or(stated)
+                ));
+                domains = domains.given(&excess, relation.closed);
+            }
+        }
+    }
+    Ok((domains, given))
 }
 
 /// The two components of an answer that is a vector.
@@ -141,10 +220,6 @@ type Stated<'e> = (&'e Expr, Relation, &'e Expr);
 impl Work<'_> {
     /// The answers, of `of` in place of what the question names where a component is asked; a maximum also tells its place.
     fn answers(&self, of: Option<&Expr>) -> Result<Vec<Answer>, Refused> {
-        let given = match self.admitted() {
-            Ok(given) => given,
-            Err(why) => return Ok(vec![self.blank("what is asked").leave_open(why)]),
-        };
         let one = match &self.question.ask {
             Ask::Value {
                 formula,
@@ -180,55 +255,7 @@ impl Work<'_> {
             } => self.show((left, *relation, right), with, unless, claim),
             _ => return Ok(Vec::new()),
         };
-        let mut one = one?;
-        one.assumptions.extend(given);
-        Ok(vec![one])
-    }
-
-    /// What must hold so that the values put in lie within the domain, ends included; `Err` where they do not.
-    fn admitted(&self) -> Result<Vec<Sentence>, Sentence> {
-        let domains = &self.scene.domains;
-        let with = self.question.ask.with().iter();
-        let with: Known = with
-            .map(|(s, v)| (s.clone(), v.substitute(self.known)))
-            .collect();
-        let mut given = Vec::new();
-        for (name, value) in &with {
-            let mut domain = domains
-                .symbols
-                .get(name)
-                .cloned()
-                .unwrap_or_else(Domain::positive);
-            let ends = [&mut domain.low, &mut domain.high].into_iter().flatten();
-            ends.for_each(|end| end.open = false);
-            let needs = solve::placed(name, value, &domain, domains)?.into_iter();
-            given.extend(needs.map(|(need, _)| {
-                let least = Sentence::not_negative(&need);
-                sentence!("{}, so that {} lies within its domain", least, name)
-            }));
-        }
-        let stated = domains.relations.iter().filter(|r| {
-            r.origin == Origin::Stated && with.keys().any(|name| r.excess.mentions(name))
-        });
-        for relation in stated {
-            let there = relation.excess.substitute(&with);
-            match sign(&there, domains) {
-                Seen::Proved(s) if s.is_not_negative() => {}
-                Seen::Proved(_) => {
-                    let put = with
-                        .iter()
-                        .map(|(name, value)| sentence!("{} = {}", name, value));
-                    let put = Sentence::join(put, " and ");
-                    return Err(sentence!("{}, against {}", put, solve::stated(relation)));
-                }
-                _ => given.push(sentence!(
-                    "{}, so that {}",
-                    at_least_zero(&there, domains),
-                    solve::stated(relation)
-                )),
-            }
-        }
-        Ok(given)
+        Ok(vec![one?])
     }
 
     /// A formula in parameters alone, with some of them at given values.

@@ -45,6 +45,17 @@ impl Origin {
 }
 
 impl Relation {
+    /// That something is positive, or not negative where `closed`, in words.
+    pub fn needed(excess: &Expr, closed: bool, words: String, origin: Origin) -> Relation {
+        Relation {
+            sides: [Expr::zero(), excess.clone()],
+            excess: excess.clone(),
+            closed,
+            words,
+            origin,
+        }
+    }
+
     /// Whether a value of the excess, told by its bounds, keeps to it; `None` where the bounds do not tell.
     pub fn admits(&self, low: f64, high: f64) -> Option<bool> {
         if low > 0.0 || (self.closed && low == 0.0) {
@@ -57,19 +68,22 @@ impl Relation {
 impl Domains {
     /// The same with something that is positive besides, or not negative where `closed`.
     pub fn given(&self, excess: &Expr, closed: bool) -> Domains {
+        let relation = Relation::needed(excess, closed, String::new(), Origin::Stated);
+        self.with_relation(relation)
+    }
+
+    /// The same with a relation besides; of two that say the same the stricter one holds.
+    pub fn with_relation(&self, relation: Relation) -> Domains {
         let mut domains = self.clone();
         let mut known = domains.relations.iter_mut();
-        if let Some(known) = known.find(|r| r.excess == *excess) {
-            known.closed &= closed;
-            return domains;
+        match known.find(|r| r.excess == relation.excess) {
+            Some(known) if known.words.is_empty() => {
+                let closed = known.closed && relation.closed;
+                *known = Relation { closed, ..relation };
+            }
+            Some(known) => known.closed &= relation.closed,
+            None => domains.relations.push(relation),
         }
-        domains.relations.push(Relation {
-            sides: [Expr::zero(), excess.clone()],
-            excess: excess.clone(),
-            closed,
-            words: String::new(),
-            origin: Origin::Stated,
-        });
         domains
     }
 

@@ -89,13 +89,7 @@ fn about_answers(scene: &Scene, case: &Case) -> Result<Vec<Answer>, Refused> {
     let mut known = case.derivation.known();
     let mut out: Vec<Answer> = Vec::new();
     for question in scene.asked_of_answers() {
-        let needs = match super::answer::of_impact(scene, case, question, &known) {
-            Ok(needs) => needs,
-            Err(why) => {
-                out.push(super::answer::unanswered(question, &why));
-                continue;
-            }
-        };
+        let needs = super::answer::of_impact(scene, case, question);
         let part = super::answer::part(scene, &needs);
         let mut answers = answer::formulas(&part, question, &known)?.unwrap_or_default();
         answer::remember(scene, &answers, &mut known);

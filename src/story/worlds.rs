@@ -9,7 +9,7 @@ use super::StageTold;
 use super::answer::number_case;
 use crate::answer::calc::{Seen, sign};
 use crate::answer::{Answer, Known, Refused};
-use crate::domain::Origin;
+use crate::domain::{Origin, Relation};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, sentence};
 use crate::scene::{Question, Scene};
@@ -33,12 +33,9 @@ impl World {
     pub fn part_of(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         for (why, e) in &self.given {
-            scene.domains = scene.domains.given(e, true);
-            let mut relations = scene.domains.relations.iter_mut();
-            if let Some(relation) = relations.find(|r| r.excess == *e && r.words.is_empty()) {
-                relation.words = Sentence::not_negative(e).to_string();
-                relation.origin = Origin::Outcome(why.clone());
-            }
+            let words = Sentence::not_negative(e).to_string();
+            let relation = Relation::needed(e, true, words, Origin::Outcome(why.clone()));
+            scene.domains = scene.domains.with_relation(relation);
         }
         scene
     }

@@ -41,9 +41,8 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
             let needs = |world: &World| reached::needs(scene, &stages, world, question, &answers);
             let mut shared = needs(&worlds[0]);
             for world in &worlds[1..] {
-                if let (Ok(shared), Ok(own)) = (&mut shared, needs(world)) {
-                    shared.retain(|need| own.contains(need));
-                }
+                let own = needs(world);
+                shared.retain(|need| own.contains(need));
             }
             worlds::each(scene, question, &mut worlds, |world| {
                 if let Some(why) = needs_open(&question.ask, &world.known, &answers) {
@@ -52,10 +51,6 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
                 let (whole, needs) = match is_same {
                     true => (scene, shared.clone()),
                     false => (&world.part_of(scene), needs(world)),
-                };
-                let needs = match needs {
-                    Ok(needs) => needs,
-                    Err(why) => return Ok(vec![unanswered(question, &why)]),
                 };
                 let mut new = formula(&reached::part(whole, &needs), question, &world.known)?;
                 for a in &mut new {

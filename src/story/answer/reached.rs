@@ -8,8 +8,7 @@ use std::collections::BTreeSet;
 use super::super::worlds::{World, without_case};
 use super::super::{Case, StageTold, line};
 use super::supposed;
-use crate::algebra::Sign;
-use crate::answer::calc::{Seen, above_zero, at_least_zero, essential, is_zero, sign, tidy};
+use crate::answer::calc::{self, above_zero, beyond_zero, essential, is_zero, tidy};
 use crate::answer::{Answer, Form, Known, given_alike, limit};
 use crate::domain::{Domain, Domains, Origin, Relation};
 use crate::expr::{Expr, Symbol};
@@ -30,119 +29,82 @@ pub(in crate::story) struct Need {
 
 impl Need {
     fn new(excess: &Expr, closed: bool, origin: Origin, told: Sentence) -> Need {
-        let beyond = match closed {
-            true => Sentence::not_negative(excess),
-            false => Sentence::positive(excess),
-        };
-        let relation = Relation {
-            sides: [Expr::zero(), excess.clone()],
-            excess: excess.clone(),
-            closed,
-            words: beyond.to_string(),
-            origin,
-        };
+        let words = beyond(excess, closed).to_string();
+        let relation = Relation::needed(excess, closed, words, origin);
         Need { relation, told }
     }
 
-    /// The same with values for parameters; nothing where it holds for certain.
-    fn put(&self, with: &Known, domains: &Domains) -> Option<Need> {
-        let excess = self.relation.excess.substitute(with);
-        let closed = self.relation.closed;
-        let is_sure = match sign(&excess, domains) {
-            Seen::Proved(s) => s == Sign::Positive || closed && s.is_not_negative(),
-            _ => false,
-        };
-        if is_sure {
-            return None;
-        }
-        let (closed, origin) = (self.relation.closed, &self.relation.origin);
+    /// The same with values for parameters.
+    fn put(&self, with: &Known, domains: &Domains) -> Need {
+        let Relation {
+            excess,
+            closed,
+            origin,
+            ..
+        } = &self.relation;
+        let there = excess.substitute(with);
         let told = match origin.so_that() {
-            Some(so_that) if excess != self.relation.excess => {
-                let beyond = match closed {
-                    true => at_least_zero(&excess, domains),
-                    false => above_zero(&excess, domains),
-                };
-                sentence!("{}, so that {}", beyond, so_that)
+            Some(so_that) if there != *excess => {
+                sentence!(
+                    "{}, so that {}",
+                    beyond_zero(&there, domains, !closed),
+                    so_that
+                )
             }
             _ => self.told.clone(),
         };
-        Some(Need::new(&excess, closed, origin.clone(), told))
+        Need::new(&there, *closed, origin.clone(), told)
     }
 
-    /// Whether it is proved not to hold at any values.
-    fn is_broken(&self, domains: &Domains) -> bool {
-        match sign(&self.relation.excess, domains) {
-            Seen::Proved(Sign::Negative) => true,
-            Seen::Proved(Sign::NotPositive | Sign::Zero) => !self.relation.closed,
-            _ => false,
-        }
+    /// Whether it is proved to hold always, or never.
+    fn is_sure(&self, domains: &Domains) -> Option<bool> {
+        calc::keeps_to(&self.relation.excess, self.relation.closed, domains)
     }
 }
 
-/// What is needed besides the domain where a question puts in values, each once; `Err` with the reason where they keep the scene
-/// from there.
-fn put_in(
-    all: impl Iterator<Item = Need>,
-    with: &Known,
-    domains: &Domains,
-) -> Result<Vec<Need>, Sentence> {
+fn beyond(excess: &Expr, closed: bool) -> Sentence {
+    match closed {
+        true => Sentence::not_negative(excess),
+        false => Sentence::positive(excess),
+    }
+}
+
+/// What is needed besides the domain, each once.
+fn open(all: impl Iterator<Item = Need>, domains: &Domains) -> Vec<Need> {
     let mut out: Vec<Need> = Vec::new();
-    for whole in all {
-        let Some(need) = whole.put(with, domains) else {
-            continue;
-        };
-        if need.is_broken(domains) {
-            let each = with.iter();
-            let each = each.map(|(name, value)| sentence!("{} = {}", name, value));
-            let with = Sentence::join(each, " and ");
-            return Err(match with.to_string().as_str() {
-                "" => sentence!("{} is needed, which never is so", whole.told),
-                _ => sentence!("with {} the scene does not get there: {}", with, whole.told),
-            });
-        }
-        let excess = &need.relation.excess;
-        match out.iter_mut().find(|n| n.relation.excess == *excess) {
+    for need in all.filter(|need| need.is_sure(domains).is_none()) {
+        let same = |n: &&mut Need| n.relation.excess == need.relation.excess;
+        match out.iter_mut().find(same) {
             // Of the same twice the stricter one holds.
-            Some(known) if known.relation.closed => *known = need,
+            Some(known) if !need.relation.closed => *known = need,
             Some(_) => {}
             None => out.push(need),
         }
     }
-    Ok(out)
+    out
 }
 
 /// The scene where all that is needed holds.
 pub(in crate::story) fn part(scene: &Scene, needs: &[Need]) -> Scene {
     let mut scene = scene.clone();
-    for Need { relation, .. } in needs {
-        let known = scene.domains.relations.iter_mut();
-        match known.into_iter().find(|r| r.excess == relation.excess) {
-            Some(known) => known.origin.clone_from(&relation.origin),
-            None => scene.domains.relations.push(relation.clone()),
-        }
+    for need in needs {
+        scene.domains = scene.domains.with_relation(need.relation.clone());
     }
     scene
 }
 
-/// What must hold so that the bodies collide as the one impact of a scene has it, and its contact does what is told; `Err` with
-/// the reason where what a question puts in keeps it from there.
-pub(in crate::story) fn of_impact(
-    scene: &Scene,
-    case: &Case,
-    question: &Question,
-    known: &Known,
-) -> Result<Vec<Need>, Sentence> {
-    let open = case.possible.open().into_iter();
-    let approach = open.filter(|c| c.rule == Rule::Approach && !c.is_equation);
+/// What must hold so that the bodies collide as the one impact of a scene has it, and its contact does what is told.
+pub(in crate::story) fn of_impact(scene: &Scene, case: &Case, question: &Question) -> Vec<Need> {
+    if !is_of_outcomes(&scene.questions, question) {
+        return Vec::new();
+    }
+    let possible = case.possible.open().into_iter();
+    let approach = possible.filter(|c| c.rule == Rule::Approach && !c.is_equation);
     let approach = approach.filter_map(|c| {
         let excess = c.essential.as_ref()?;
         let told = sentence!("{} ({})", Sentence::positive(excess), &c.words);
-        Some(Need::new(
-            excess,
-            false,
-            Origin::Outcome(c.words.clone()),
-            told,
-        ))
+        let origin = Origin::Outcome(c.words.clone());
+        Some(Need::new(excess, false, origin, told))
     });
     let decided = scene.contacts.iter().filter_map(|c| match &c.law {
         ContactLaw::Decided(decided) => Some((&c.name, decided)),
@@ -155,51 +117,89 @@ pub(in crate::story) fn of_impact(
                 false => left - right,
             };
             let told = sentence!("{} {} {}", left, relation.sign(), right);
-            Need::new(&excess, true, Origin::Outcome(decided.mode.of(name)), told)
+            use formula::Relation::{GreaterEqual, LessEqual};
+            let closed = matches!(relation, LessEqual | GreaterEqual);
+            let origin = Origin::Outcome(decided.mode.of(name));
+            Need::new(&excess, closed, origin, told)
         })
     });
-    // A coefficient at which friction does something else is asked of no outcome.
-    let of_outcome =
-        |q: &&Question| q.name != question.name && !matches!(q.ask, Ask::Friction { .. });
-    let uses = chain(&scene.questions, question);
-    let uses = uses
-        .iter()
-        .any(|q| of_outcome(q) && q.ask.formulas().is_empty());
-    let all = approach.chain(does).filter(|_| uses);
-    let possible = all.filter(|need| !need.is_broken(&scene.domains));
-    put_in(possible, &with(question, known), &scene.domains)
+    open(approach.chain(does), &scene.domains)
 }
 
-/// The values that a question puts in for parameters.
-fn with(question: &Question, known: &Known) -> Known {
-    let with = question.ask.with().iter();
-    with.map(|(name, value)| (name.clone(), value.substitute(known)))
-        .collect()
+/// Whether a question is about what an outcome gives; a coefficient at which friction does something else is given by none.
+fn is_of_outcomes(questions: &[Question], question: &Question) -> bool {
+    let mut used = used(questions, question).into_iter();
+    used.any(|q| match q.ask.formulas().is_empty() {
+        true => !matches!(q.ask, Ask::Friction { .. }),
+        false => is_of_outcomes(questions, q),
+    })
 }
 
-/// What must hold so that the scene gets to the answers that a question is about, in one of the ways it can go; `Err` with the
-/// reason where what the question puts in keeps it from there.
+/// What must hold so that the scene gets to the answers that a question is about, in one of the ways it can go.
 pub(super) fn needs(
     scene: &Scene,
     stages: &[StageTold],
     world: &World,
     question: &Question,
     earlier: &[Answer],
-) -> Result<Vec<Need>, Sentence> {
-    let leading = leading(stages, world, &chain(&scene.questions, question), earlier);
+) -> Vec<Need> {
+    let all = used(&scene.questions, question).into_iter().flat_map(|q| {
+        if q.ask.formulas().is_empty() {
+            return of_stages(scene, stages, world, q, earlier);
+        }
+        let fixed = fixed(q, &world.known);
+        let all = needs(scene, stages, world, q, earlier).into_iter();
+        all.map(|need| need.put(&fixed, &scene.domains)).collect()
+    });
+    open(all, &scene.domains)
+}
+
+/// The values of parameters at which a question about formulas is answered.
+fn fixed(question: &Question, known: &Known) -> Known {
+    let with = question.ask.with().iter().cloned();
+    let mut all: Known = with
+        .map(|(name, value)| (name, value.substitute(known)))
+        .collect();
+    let own = match &question.ask {
+        Ask::Condition { parameter, .. } => {
+            let value = known.get(question.name.as_str());
+            value.map(|value| (parameter.clone(), value.clone()))
+        }
+        Ask::Limit { parameter, to, .. } => {
+            let to = to.as_ref().map(|to| to.substitute(known));
+            to.map(|to| (parameter.clone(), to))
+        }
+        _ => None,
+    };
+    all.extend(own);
+    all
+}
+
+/// What the stages need that lead to the answers to a question about one.
+fn of_stages(
+    scene: &Scene,
+    stages: &[StageTold],
+    world: &World,
+    question: &Question,
+    earlier: &[Answer],
+) -> Vec<Need> {
+    let happens = |at: &(usize, usize)| world.outcome.get(&at.0) == Some(&at.1);
+    let told = earlier.iter().filter(|a| a.question == question.name);
+    let leading = told.filter_map(|a| a.told.filter(happens)).flat_map(|at| {
+        let whole = line(stages, at).map(|(stage, _)| stage);
+        whole.skip(usize::from(!question.ask.is_at_end()))
+    });
+    let leading: BTreeSet<usize> = leading.collect();
     let all = leading.into_iter().flat_map(|i| {
         let told = &stages[i];
         let ends = told.needs.iter().map(|need| {
             let so_that = format!("`{}` comes to its end", told.name);
             let need = essential(need, &scene.domains);
             // Whether it may be zero stands in what the motion takes for granted.
-            let strict = above_zero(&need, &scene.domains).to_string();
-            let mut granted = told.assumptions.iter().map(ToString::to_string);
-            let closed = !granted.any(|words| words.starts_with(&strict));
-            let least = match closed {
-                true => at_least_zero(&need, &scene.domains),
-                false => above_zero(&need, &scene.domains),
-            };
+            let strict = above_zero(&need, &scene.domains).condition();
+            let mut granted = told.assumptions.iter().map(Sentence::condition);
+            let closed = !granted.any(|condition| condition.is_some() && condition == strict);
+            let least = beyond_zero(&need, &scene.domains, !closed);
             let words = sentence!("{}, so that {}", least, &so_that);
             Need::new(&need, closed, Origin::Ending(so_that), words)
         });
@@ -210,7 +210,7 @@ pub(super) fn needs(
         });
         ends.chain(conditions)
     });
-    put_in(all, &with(question, &world.known), &scene.domains)
+    all.collect()
 }
 
 /// Lets an answer about a stage tell what the motions suppose that lead there, and what the impacts need.
@@ -291,14 +291,17 @@ pub(in crate::story) fn tell(scene: &Scene, ask: &Ask, needs: &[Need], answer: &
     let mut left = needs.to_vec();
     left.retain(|need| !is_granted(need, ask, answer, &besides(need, needs)));
     for need in left.clone() {
-        match need.put(&place, &besides(&need, &left)) {
-            Some(Need { told, .. }) if answer.assumptions.contains(&told) => {}
-            // The place lies where it ends.
-            Some(Need { relation, .. })
-                if is_zero(&relation.excess, &scene.domains) == Some(true) => {}
-            Some(Need { told, .. }) => answer.assumptions.push(told),
-            // What the others grant is not told besides.
-            None => left.retain(|n| *n != need),
+        let domains = &besides(&need, &left);
+        let there = need.put(&place, domains);
+        // What the others grant is not told besides.
+        if there.is_sure(domains) == Some(true) {
+            left.retain(|n| *n != need);
+            continue;
+        }
+        // The place may lie where it ends.
+        let is_end = is_zero(&there.relation.excess, &scene.domains) == Some(true);
+        if !is_end && !answer.assumptions.contains(&there.told) {
+            answer.assumptions.push(there.told);
         }
     }
     answer.assumptions.sort();
@@ -308,6 +311,10 @@ pub(in crate::story) fn tell(scene: &Scene, ask: &Ask, needs: &[Need], answer: &
 /// Whether an answer says by itself that something needed holds.
 fn is_granted(need: &Need, ask: &Ask, answer: &Answer, domains: &Domains) -> bool {
     let excess = &need.relation.excess;
+    // What is put in is held against it already.
+    if ask.with().iter().any(|(name, _)| excess.mentions(name)) {
+        return true;
+    }
     match ask {
         // Each value is held against it already.
         Ask::Condition {
@@ -343,49 +350,19 @@ fn holds_above(need: &Expr, symbol: &Symbol, from: &Expr, domains: &Domains) -> 
     domains.symbols.insert(step.clone(), Domain::positive());
     let above = from + &Expr::symbol(&step);
     let there = need.put(symbol, &above);
-    matches!(sign(&there, &domains), Seen::Proved(s) if s.is_not_negative())
+    calc::keeps_to(&there, true, &domains) == Some(true)
 }
 
-/// A question, and all whose answers its formulas use.
-fn chain<'a>(questions: &'a [Question], question: &'a Question) -> Vec<&'a Question> {
-    let of = |name: &str| questions.iter().find(|q| q.name == name);
-    let mut out: Vec<&Question> = Vec::new();
-    let mut ahead = vec![question];
-    while let Some(question) = ahead.pop() {
-        if out.iter().any(|q| q.name == question.name) {
-            continue;
-        }
-        out.push(question);
-        let names = question.ask.formulas().into_iter().flat_map(Expr::symbols);
-        ahead.extend(names.filter_map(|name| {
-            let whole = name.strip_suffix("_x").or(name.strip_suffix("_y"));
-            of(&name).or_else(|| of(whole?))
-        }));
-    }
-    out
-}
-
-/// The stages that answers to these questions come from in one of the ways, and all before them.
-fn leading(
-    stages: &[StageTold],
-    world: &World,
-    chain: &[&Question],
-    earlier: &[Answer],
-) -> BTreeSet<usize> {
-    let mut out = BTreeSet::new();
-    for a in earlier {
-        let Some(question) = chain.iter().find(|q| q.name == a.question) else {
-            continue;
-        };
-        let happens = |at: &(usize, usize)| world.outcome.get(&at.0) == Some(&at.1);
-        let Some((stage, case)) = a.told.filter(happens) else {
-            continue;
-        };
-        if question.ask.is_at_end() {
-            out.insert(stage);
-        }
-        let before = line(stages, (stage, case)).skip(1);
-        out.extend(before.map(|(parent, _)| parent));
-    }
-    out
+/// The questions whose answers the formulas of a question use by name.
+fn used<'a>(questions: &'a [Question], question: &Question) -> Vec<&'a Question> {
+    let before = questions.iter().take_while(|q| q.name != question.name);
+    let symbols = question.ask.formulas().into_iter().flat_map(Expr::symbols);
+    let names: BTreeSet<Symbol> = symbols.collect();
+    let is_used = |q: &&Question| {
+        names.iter().any(|name| {
+            let part = name.strip_prefix(q.name.as_str());
+            part.is_some_and(|part| ["", "_x", "_y"].contains(&part))
+        })
+    };
+    before.filter(is_used).collect()
 }
