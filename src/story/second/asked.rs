@@ -103,7 +103,14 @@ impl Asked<'_> {
                 None | Some(Held::Unseen) => {}
                 Some(Held::Same(values, size)) => {
                     compared.points += 1;
-                    let shaken = || shaken(answer.formula(), &seen.point);
+                    let put_in = || match &question.ask {
+                        Ask::Value { formula, .. } => {
+                            let part = component(formula, answer);
+                            self.shaken_by_what_is_put_in(seen, question, &part)
+                        }
+                        _ => 0.0,
+                    };
+                    let shaken = || shaken(answer.formula(), &seen.point) + put_in();
                     compared.put("the value", values, size, shaken);
                 }
                 Some(Held::So(is_so, otherwise)) => {

@@ -9,6 +9,9 @@ use crate::numeric::follow::{self, Breach, Followed, What};
 use crate::numeric::points::keeps;
 use crate::scene::{Ask, Question};
 
+/// What rounding may make of a value that is put in, as a part of it.
+const ROUNDED: f64 = 1e-12;
+
 impl Asked<'_> {
     /// The value of a formula of answers in the scene followed at a point, with some parameters at other values and others
     /// replaced.
@@ -20,7 +23,7 @@ impl Asked<'_> {
         values: &[(Symbol, f64)],
     ) -> Option<f64> {
         if with.is_empty() && values.is_empty() {
-            return formula.evaluate(&self.known(&seen.point, &seen.followed, formula)?);
+            return formula.evaluate(&self.known(&seen.point, &seen.followed, formula, 0.0)?);
         }
         let mut there = moved(&seen.point, values);
         // The other component of a unit vector goes along, on its side.
@@ -30,28 +33,42 @@ impl Asked<'_> {
                 *other = (1.0 - value * value).sqrt().copysign(*other);
             }
         }
-        self.formula_at(&there, formula, with)
+        self.formula_at(&there, formula, with, 0.0)
     }
 
+    /// By how much the value of a question about a formula changes with the rounding of what is put in for parameters, there and in
+    /// the answers that it uses: much where a motion just comes to its end.
+    pub fn shaken_by_what_is_put_in(&self, seen: &Seen, question: &Question, part: &Expr) -> f64 {
+        let with = question.ask.with();
+        let at = |nudge: f64| self.formula_at(&seen.point, part, with, nudge);
+        let Some(here) = at(0.0) else {
+            return 0.0;
+        };
+        let moves = [-ROUNDED, ROUNDED].into_iter().filter_map(at);
+        moves.fold(0.0, |most, there| most.max((there - here).abs()))
+    }
+
+    /// The same with the values put in changed by so much of themselves.
     fn formula_at(
         &self,
         point: &Point<f64>,
         formula: &Expr,
         with: &[(Symbol, Expr)],
+        nudge: f64,
     ) -> Option<f64> {
         let mut replaced = point.clone();
         for (name, value) in with {
             let value = match self.needs(value).is_empty() {
                 true => value.evaluate(point)?,
-                false => self.formula_at(point, value, &[])?,
+                false => self.formula_at(point, value, &[], nudge)?,
             };
-            replaced.values.insert(name.clone(), value);
+            replaced.values.insert(name.clone(), value * (1.0 + nudge));
         }
         let followed = follow::follow(self.scene, &replaced).ok()?;
         if !self.goes_as_supposed(&followed) {
             return None;
         }
-        formula.evaluate(&self.known(&replaced, &followed, formula)?)
+        formula.evaluate(&self.known(&replaced, &followed, formula, nudge)?)
     }
 
     /// Whether every contact with friction does what the scene supposes of it.
@@ -72,7 +89,13 @@ impl Asked<'_> {
 
     /// The point with values for the answers that a formula needs, as they are followed there; `None` where one of them is not a
     /// number of the motion, nor a formula of such, or where bodies that are to collide part before.
-    fn known(&self, point: &Point<f64>, followed: &Followed, of: &Expr) -> Option<Point<f64>> {
+    fn known(
+        &self,
+        point: &Point<f64>,
+        followed: &Followed,
+        of: &Expr,
+        nudge: f64,
+    ) -> Option<Point<f64>> {
         let mut out = point.clone();
         let parts = |breach: &Breach| matches!(breach, Breach::Separates(_));
         let parts = followed.stages.iter().flatten().any(|s| match &s.what {
@@ -88,9 +111,9 @@ impl Asked<'_> {
                 Ask::Value { formula, with, .. } if with.is_empty() => {
                     formula.evaluate(&out).map(Found::Scalar)
                 }
-                Ask::Value { formula, with, .. } => {
-                    self.formula_at(point, formula, with).map(Found::Scalar)
-                }
+                Ask::Value { formula, with, .. } => self
+                    .formula_at(point, formula, with, nudge)
+                    .map(Found::Scalar),
                 // Where sides meet and what is largest are held against it by themselves.
                 Ask::Condition { .. } | Ask::Maximum { .. } | Ask::Friction { .. } => {
                     let mut told = self.answers.iter().filter(|a| a.name == name);
