@@ -1,7 +1,7 @@
 //! Physical dimensions: arithmetic, spelling, units ([`unit()`]), and the dimension of an expression ([`of`]).
 //!
-//! Knows mass, length and time, which is all that mechanics of collisions needs, and current and temperature for the units
-//! of answers from elsewhere; a plane angle has no dimension. Does not know how formulas are written: messages take a writer
+//! Knows mass, length and time, which is all that mechanics of collisions needs, and current, temperature and amount for the
+//! units of answers from elsewhere; a plane angle has no dimension. Does not know how formulas are written: messages take a writer
 //! from the caller.
 
 mod infer;
@@ -16,7 +16,7 @@ use crate::expr::Rational;
 pub use infer::{Clash, of};
 pub use unit::{Unit, UnitFault, unit};
 
-/// A product of powers of mass, length, time, current and temperature. A plane angle has no dimension.
+/// A product of powers of mass, length, time, current, temperature and amount. A plane angle has no dimension.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Dimension {
     /// Exponent of mass.
@@ -29,9 +29,13 @@ pub struct Dimension {
     pub current: Rational,
     /// Exponent of temperature.
     pub temperature: Rational,
+    /// Exponent of amount of substance.
+    pub amount: Rational,
 }
 
-const NAMES: [&str; 5] = ["mass", "length", "time", "current", "temperature"];
+/// How many base units there are.
+const BASES: usize = 6;
+const NAMES: [&str; BASES] = ["mass", "length", "time", "current", "temperature", "amount"];
 
 /// A system of units in which numbers are told.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -85,17 +89,18 @@ impl System {
 impl Dimension {
     /// The dimension mass^`mass` · length^`length` · time^`time`.
     pub fn new(mass: i64, length: i64, time: i64) -> Dimension {
-        Dimension::of([mass, length, time, 0, 0].map(|k| crate::expr::ratio(k, 1)))
+        Dimension::of([mass, length, time, 0, 0, 0].map(|k| crate::expr::ratio(k, 1)))
     }
 
-    /// The dimension with these exponents of mass, length, time, current and temperature.
-    fn of([mass, length, time, current, temperature]: [Rational; 5]) -> Dimension {
+    /// The dimension with these exponents of what [`NAMES`] says.
+    fn of([mass, length, time, current, temperature, amount]: [Rational; BASES]) -> Dimension {
         Dimension {
             mass,
             length,
             time,
             current,
             temperature,
+            amount,
         }
     }
 
@@ -109,9 +114,11 @@ impl Dimension {
         self.exponents().iter().all(|k| k.is_zero())
     }
 
-    fn exponents(&self) -> [&Rational; 5] {
+    fn exponents(&self) -> [&Rational; BASES] {
         let [mass, length, time] = [&self.mass, &self.length, &self.time];
-        [mass, length, time, &self.current, &self.temperature]
+        let others = [&self.current, &self.temperature, &self.amount];
+        let [current, temperature, amount] = others;
+        [mass, length, time, current, temperature, amount]
     }
 
     /// What it is made of, with the exponents that are not zero.
@@ -156,7 +163,7 @@ impl Dimension {
 
     /// As a unit of the SI, such as `kg m²/s`; `1` without dimension.
     pub fn si(&self) -> String {
-        self.spell(["kg", "m", "s", "A", "K"], " ", superscript)
+        self.spell(["kg", "m", "s", "A", "K", "mol"], " ", superscript)
     }
 
     /// The SI unit as a person says it of the quantities of a collision: rad/s, N s, N and J where they fit, else as [`si`].
@@ -182,16 +189,20 @@ impl Dimension {
         let none = Rational::zero;
         // A pound of force holds a mass, a length and a time.
         if mass.is_zero() || time.is_zero() {
-            let powers = [mass.clone(), length.clone(), time.clone(), none(), none()];
-            return Dimension::of(powers).spell(["slug", "ft", "s", "", ""], " ", superscript);
+            return self.spell(["slug", "ft", "s", "", "", ""], " ", superscript);
         }
         let rest = [length - mass, mass.clone(), time + mass + mass];
         let [feet, pounds, seconds] = rest;
-        let powers = Dimension::of([feet, pounds, seconds, none(), none()]);
-        powers.spell(["ft", "lbf", "s", "", ""], " ", superscript)
+        let powers = Dimension::of([feet, pounds, seconds, none(), none(), none()]);
+        powers.spell(["ft", "lbf", "s", "", "", ""], " ", superscript)
     }
 
-    fn spell(&self, names: [&str; 5], times: &str, raise: impl Fn(&Rational) -> String) -> String {
+    fn spell(
+        &self,
+        names: [&str; BASES],
+        times: &str,
+        raise: impl Fn(&Rational) -> String,
+    ) -> String {
         let all = || names.iter().zip(self.exponents());
         let part = |positive: bool| -> Vec<String> {
             let mine = all().filter(|(_, k)| !k.is_zero() && k.is_positive() == positive);

@@ -373,8 +373,8 @@ const TAKES_PREFIX: [&str; 12] = [
     "g", "m", "s", "N", "J", "W", "Pa", "Hz", "rad", "Nm", "Ns", "Ws",
 ];
 
-/// Units of electricity and heat, which take the prefixes that people write before them.
-const ELECTRICAL: [&str; 8] = ["A", "V", "Ω", "C", "F", "T", "H", "K"];
+/// Units of electricity, heat and amount, which take the prefixes that people write before them.
+const ELECTRICAL: [&str; 9] = ["A", "V", "Ω", "C", "F", "T", "H", "K", "mol"];
 
 /// Prefixes in full, before a unit in full: `kilojoule`.
 const LONG_PREFIXES: [&str; 8] = [
@@ -382,7 +382,7 @@ const LONG_PREFIXES: [&str; 8] = [
 ];
 const LONG_POWERS: [i64; 8] = [9, 6, 3, 2, -2, -3, -6, -9];
 
-/// Units by their names: dimension by mass, length, time, current and temperature, then factors to SI, those behind the slash
+/// Units by their names: dimension by mass, length, time, current, temperature and amount, then factors to SI, those behind the slash
 /// below. Of angles, `pi` is one of them.
 const UNITS: &str = "
 kg kilogram kilograms; 1 0 0; 1
@@ -436,6 +436,7 @@ H henry; 1 2 -2 -2; 1
 T tesla; 1 0 -2 -1; 1
 Wb weber; 1 2 -2 -1; 1
 K kelvin kelvins; 0 0 0 0 1; 1
+mol mole moles; 0 0 0 0 0 1; 1
 rad rads radian radians; 0 0 0; 1 angle
 deg degree degrees °; 0 0 0; pi / 180 angle
 rev revs turn turns revolution revolutions; 0 0 0; 2 pi angle

@@ -1,7 +1,7 @@
 //! Characters beyond plain ASCII that stand for something in a formula, and those that have no place in one.
 
 use super::Relation;
-use super::fault::{Fault, Faulty, is_invisible};
+use super::fault::{Fault, Faulty, SETS, is_invisible};
 use super::lexer::{Before, Lexer, Tok};
 use super::symbols::{greek_name, pairs};
 
@@ -37,6 +37,7 @@ impl Lexer<'_> {
             '\'' | '′' => Err(fault("a prime belongs right behind a name")),
             '_' => Err(fault("an index belongs right behind a name").hint("write v_1 or v_{G1}")),
             '.' => Err(fault("a point without digits").hint("write * for a product")),
+            '∈' | '∉' | 'ℝ' | '∅' | '∞' => Err(strange(c, self.pos).hint(SETS)),
             '!' => Err(fault("a factorial has no place in these formulas")),
             '&' => Err(fault("`&` is no part of a formula")),
             c => {

@@ -2,6 +2,9 @@
 
 use std::fmt;
 
+/// What is said of sets that are not read.
+pub(super) const SETS: &str = "intervals are read as x ∈ (2, ∞) and values as x ∈ {1, 2}; all numbers, or none, are nothing to compare";
+
 /// One fault of an input, with its place in bytes.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Fault {

@@ -184,8 +184,8 @@ fn ends(text: &str, [from, stop]: [usize; 2]) -> Option<Ends> {
     let bounded = |[from, to]: [usize; 2]| {
         let end = text[from..to].trim().trim_start_matches(['+', '-', '−']);
         !matches!(
-            end.trim(),
-            "∞" | "\\infty" | "inf" | "oo" | "infinity" | "\\infin"
+            end.trim().to_ascii_lowercase().as_str(),
+            "∞" | "\\infty" | "infty" | "inf" | "oo" | "infinity" | "\\infin"
         )
     };
     let [low, high] = [[from, from + comma], [from + comma + 1, to]];

@@ -1,7 +1,7 @@
 //! The LaTeX commands that are read. Nothing is expanded; a command outside this list is a fault.
 
 use super::Relation;
-use super::fault::{Fault, Faulty, is_invisible};
+use super::fault::{Fault, Faulty, SETS, is_invisible};
 use super::lexer::{Before, Lexer, Tok};
 use super::name;
 use super::pair::Pair;
@@ -76,11 +76,12 @@ impl<'a> Lexer<'a> {
                 let fault = Fault::new(format!("`\\{word}` is not read"), start, end);
                 Err(fault.hint("write \\frac{…}{…}"))
             }
-            "infty" => Err(Fault::new(
-                "infinity is no value of a formula here",
-                start,
-                end,
-            )),
+            "infty" => {
+                Err(Fault::new("infinity is no value of a formula here", start, end).hint(SETS))
+            }
+            "in" | "notin" | "mathbb" | "emptyset" | "varnothing" => {
+                Err(Fault::new("this set is not read", start, end).hint(SETS))
+            }
             word => {
                 let lower = word.chars().all(|c| c.is_ascii_lowercase());
                 match function(word).filter(|_| lower) {
@@ -202,12 +203,19 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// Whether a μ that ends here stands before a unit in another font and behind a number, `5\,\mu\mathrm{m}`.
+    /// Whether a μ that ends here stands behind a number and before a unit in another font, `5\,\mu\mathrm{m}`, or one letter
+    /// of a unit that ends the side and is no name, `20\mu m`.
     fn is_micro(&self, end: usize) -> bool {
         let fonts = ["\\mathrm{", "\\text{", "\\textrm{"];
         let rest = self.text[end..].trim_start();
+        let letter = rest
+            .get(..1)
+            .filter(|letter| "msgAFHCVNJW".contains(letter));
+        let is_unit = letter.is_some_and(|letter| {
+            self.symbols.find(letter).is_none() && self.fills_side(self.text.len() - rest.len() + 1)
+        });
         matches!(self.before, Before::Number { .. })
-            && fonts.iter().any(|font| rest.starts_with(font))
+            && (is_unit || fonts.iter().any(|font| rest.starts_with(font)))
             && self.symbols.find("mu").is_none()
     }
 

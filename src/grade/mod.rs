@@ -189,6 +189,18 @@ pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
         }
     }
     key.range = range;
+    // What is bold in the key may have an arrow in the answer.
+    if ["\\mathbf", "\\boldsymbol", "\\bm"]
+        .iter()
+        .any(|font| expected.contains(font))
+    {
+        for name in key.reading.symbols() {
+            let latex = formula::latex_name(&name);
+            let (letter, index) = latex.split_at(latex.find('_').unwrap_or(latex.len()));
+            let arrow = format!("\\vec{{{letter}}}{index}");
+            key.readable.declare_typeset(name, &arrow);
+        }
+    }
     Ok(key)
 }
 

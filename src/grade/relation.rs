@@ -18,25 +18,26 @@ mod solved;
 mod system;
 mod undone;
 mod values;
+mod zeros;
 
 use std::collections::BTreeSet;
 use std::slice::from_ref;
 
-use super::Verdict;
 use super::compare::{Context, Finding};
-use crate::algebra::{self, Field, Sign};
+use super::{Apart, Verdict};
+use crate::algebra::{self, Element, Field, Sign};
 use crate::domain::{Domain, Domains, roles};
 use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{Content, Join, Relation, is_angle_name, write_plain};
 use crate::interval::{Big, Outcome, evaluate};
 use cells::Cases;
-use equations::{alternatives, equations};
+use equations::{GAINED, LOST, alternatives, equations, told};
 use inequality::inequalities;
 use num_traits::Signed;
-use points::{apart_at_points, apart_in_cases};
+use points::{apart_at_points, apart_in_cases, holding};
 pub(super) use solved::solve_for;
 use solved::{lies_in, solved_in, unknowns};
-use values::{cancelled, has_values, may_lack_values};
+use values::{cancelled, has_values, hole, main, may_lack_values};
 
 /// `left − right  rel  0`, turned so that the relation is one of =, ≠, <, ≤.
 #[derive(Clone, PartialEq, Debug)]
@@ -79,9 +80,7 @@ pub(crate) fn compare(
     }
     let found = match (expected.as_slice(), answer.as_slice()) {
         ([e], [a]) => match link(ctx, e, a) {
-            found if found.is_equivalent() && may_lack_values(e, a, domains) => {
-                undecided("whether both sides have values at all solutions could not be told")
-            }
+            found if found.is_equivalent() => where_defined(found, [&expected, &answer], domains),
             found => found,
         },
         _ => system::compare(ctx, &expected, &answer, domains),
@@ -91,6 +90,28 @@ pub(crate) fn compare(
             .or_else(|| system::with_one_given(ctx, &[expected], &[answer], domains))
             .unwrap_or(found),
         _ => found,
+    }
+}
+
+/// An equivalence of the relations of two systems beside what must not be zero, unless in one symbol one system has no value
+/// where the other holds.
+fn where_defined(found: Finding, [expected, answer]: [&[Normal]; 2], domains: &Domains) -> Finding {
+    let (Some((e, _)), Some((a, _))) = (main(expected), main(answer)) else {
+        return found;
+    };
+    match hole(expected, answer, domains) {
+        Some(None) if !may_lack_values(e, a, domains) => found,
+        Some(Some((at, is_lost))) => {
+            let is_equation = e.relation == Relation::Equal;
+            let mut found = told(match (is_equation, is_lost) {
+                (false, _) => system::OTHER_NUMBERS,
+                (true, true) => LOST,
+                (true, false) => GAINED,
+            });
+            found.counterexample = Some(Apart::new(at, holding(!is_lost), holding(is_lost)));
+            found
+        }
+        _ => undecided("whether both sides have values at all solutions could not be told"),
     }
 }
 
@@ -431,7 +452,13 @@ fn as_written(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
                 expected.relation.sign(),
                 answer.relation.sign()
             );
-            Finding::told("DIFF_RELATION", "kind", words.clone(), words)
+            match apart_at_points(ctx, from_ref(expected), from_ref(answer)) {
+                Some(apart) => Finding {
+                    counterexample: apart.counterexample,
+                    ..Finding::told("DIFF_RELATION", "kind", words.clone(), words)
+                },
+                None => undecided(&words),
+            }
         }
     }
 }
@@ -486,10 +513,15 @@ fn sign_of(e: &Expr, domains: &Domains) -> Option<Sign> {
     algebra::sign(e, &domains.of(&[e]))
 }
 
+/// A field with two formulas, unless what it makes of them rests on a sign that was only seen at points.
+fn pair(f: &Expr, g: &Expr, domains: &Domains) -> Option<(Field, Element, Element)> {
+    let found = Field::pair(&domains.of(&[f, g]), f, g).ok()?;
+    found.0.assumptions().is_empty().then_some(found)
+}
+
 /// Whether the quotient of the differences is positive (true) or negative (false) on the whole domain.
 fn same_sign(expected: &Normal, answer: &Normal, domains: &Domains) -> Option<bool> {
-    let pair = [&expected.difference, &answer.difference];
-    let (mut field, e, a) = Field::pair(&domains.of(&pair), pair[0], pair[1]).ok()?;
+    let (mut field, e, a) = pair(&expected.difference, &answer.difference, domains)?;
     if field.is_zero(&e) || field.is_zero(&a) {
         return (field.is_zero(&e) && field.is_zero(&a)).then_some(true);
     }
@@ -505,8 +537,8 @@ fn same_sign(expected: &Normal, answer: &Normal, domains: &Domains) -> Option<bo
     let names = answer.difference.symbols();
     names.iter().take(4).find_map(|name| {
         let slopes = [&answer.difference, &expected.difference].map(|d| d.derivative(name));
-        let [mine, theirs] = slopes.map(|slope| field.element(&slope).ok());
-        let (mine, theirs) = (mine?, theirs?);
+        let [mine, theirs] = slopes.map(|slope| field.proved(&slope).ok());
+        let (mine, theirs) = (mine??, theirs??);
         if field.is_zero(&theirs) {
             return None;
         }

@@ -84,7 +84,7 @@ const TABLES: [(&str, &str, &str); 16] = [
     (
         "relations.tsv",
         "Equations, inequalities, pairs",
-        "Equations are the same where they have the same solutions on the domain.",
+        "Equations are the same where they have the same solutions on the domain. A factor that only one of them has leaves them the same, given that it is not zero, where it holds nothing of what is sought: of what is asked for, else of what both hold. Any other factor that may be zero loses or gains a root. In one symbol a number counts at which only one side has a value.",
     ),
     (
         "several.tsv",

@@ -1,18 +1,21 @@
 //! Relations in one symbol: their solutions along its domain, exactly.
 //!
 //! The zeros of all differences cut the domain into numbers and intervals on which every relation holds or does not. Absolute
-//! values are cut where what they are taken of changes sign: on each part they are that or its negative.
+//! values are cut where what they are taken of changes sign: on each part they are that or its negative. What is no polynomial
+//! is cut in the same way where all zeros have closed forms.
 
 use std::cmp::Ordering;
 
 use super::plain::plain;
+use super::values::{has_value, holds_at};
+use super::zeros::{Number, zeros};
 use super::{Normal, differences};
 use crate::algebra::{Cell, Field};
-use crate::domain::{Domains, roles};
-use crate::equality::divisors;
+use crate::domain::{Domains, Limit, roles};
+use crate::equality::{divisors, identical};
 use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
 use crate::formula::Relation;
-use crate::interval::Enclosure;
+use crate::interval::{Big, Enclosure, Outcome, evaluate};
 
 /// Most different absolute values.
 const MOST_FOLDED: usize = 3;
@@ -40,13 +43,27 @@ pub(super) fn compare(first: &Cases, second: &Cases, domains: &Domains) -> Optio
     let uses = roles(&all);
     let mut names = uses.symbols.iter();
     let (name, role) = names.next()?;
-    if names.next().is_some() || role.turns {
+    if names.next().is_some() {
         return None;
     }
     let (domains, _) = domains.completed(&uses);
-    if let (Some(first), Some(second)) = (plain(first, &domains), plain(second, &domains)) {
-        return along(&first, &second, name, &domains);
+    let found = (!role.turns).then(|| by_polynomials(first, second, name, &domains));
+    found
+        .flatten()
+        .or_else(|| by_zeros(first, second, name, &domains))
+}
+
+/// The comparison by polynomials, where the functions can be taken out.
+fn by_polynomials(
+    first: &Cases,
+    second: &Cases,
+    name: &Symbol,
+    domains: &Domains,
+) -> Option<Along> {
+    if let (Some(first), Some(second)) = (plain(first, domains), plain(second, domains)) {
+        return along(&first, &second, name, domains);
     }
+    let all = differences(first.iter().flatten(), second.iter().flatten());
     let is_rooted = |part: &Expr| match part.node() {
         Node::Power(base, k) => {
             base.mentions(name) && k.as_number().is_some_and(|k| !k.is_integer())
@@ -54,7 +71,139 @@ pub(super) fn compare(first: &Cases, second: &Cases, domains: &Domains) -> Optio
         _ => false,
     };
     let rooted = all.iter().any(|e| e.parts().any(is_rooted));
-    (!rooted).then(|| along(first, second, name, &domains))?
+    (!rooted).then(|| along(first, second, name, domains))?
+}
+
+/// The comparison by the numbers at which a difference may change its sign, or have no value, where all these are known in closed form.
+fn by_zeros(first: &Cases, second: &Cases, name: &Symbol, domains: &Domains) -> Option<Along> {
+    let mut numbers: Vec<Number> = Vec::new();
+    for e in differences(first.iter().flatten(), second.iter().flatten()) {
+        let mut all = vec![e.clone()];
+        for part in e.parts().filter(|part| !part.is_constant()) {
+            all.extend(has_value(part)?.map(|need| need.difference));
+        }
+        for number in all
+            .iter()
+            .map(|e| zeros(e, name, domains))
+            .collect::<Option<Vec<_>>>()?
+            .concat()
+        {
+            match numbers.iter().find(|(_, at)| !at.is_disjoint(&number.1)) {
+                Some((other, _)) if identical(other, &number.0, domains) => {}
+                Some(_) => return None,
+                None => numbers.push(number),
+            }
+        }
+    }
+    numbers.sort_by(|a, b| a.1.low.cmp(&b.1.low));
+    let domain = domains.symbols.get(name)?;
+    let end = |limit: &Option<Limit>| match limit {
+        Some(limit) => number(&limit.expr()).map(Some),
+        None => Some(None),
+    };
+    let [low, high] = [end(&domain.low)?, end(&domain.high)?];
+    // Every number with one of the gap before it, and one behind the last.
+    let mut out = Along::nowhere();
+    let mut before = low;
+    for next in numbers.into_iter().map(Some).chain([None]) {
+        let is_last = next.is_none();
+        let next = next.or_else(|| high.clone());
+        if let Some(at) = between(before.as_ref(), next.as_ref(), domains)? {
+            let at = Expr::from(at);
+            let place = number(&at)?.1.decimal(6);
+            out.note(
+                [first, second],
+                |n| holds_at(n, name, &at, domains),
+                || format!("{name} = {place}"),
+                false,
+            )?;
+        }
+        if let Some((at, place)) = next.as_ref().filter(|_| !is_last) {
+            let words = || match at.as_number() {
+                Some(at) => format!("{name} = {at}"),
+                None => format!("{name} = {}", place.decimal(6)),
+            };
+            out.note(
+                [first, second],
+                |n| holds_at(n, name, at, domains),
+                words,
+                true,
+            )?;
+        }
+        before = next;
+    }
+    Some(out)
+}
+
+/// A constant with an enclosure of it.
+fn number(e: &Expr) -> Option<Number> {
+    match evaluate::<Big<200>>(e, &Default::default()) {
+        Outcome::Value(place) => Some((e.clone(), place.0)),
+        _ => None,
+    }
+}
+
+/// A fraction between two numbers, or beside one; nothing between a number and itself. `None` where it is not known whether they
+/// are the same.
+fn between(
+    low: Option<&Number>,
+    high: Option<&Number>,
+    domains: &Domains,
+) -> Option<Option<Rational>> {
+    Some(match (low, high) {
+        (Some(low), Some(high)) if !low.1.is_disjoint(&high.1) => {
+            identical(&low.0, &high.0, domains).then_some(None)?
+        }
+        (Some((_, low)), Some((_, high))) => {
+            Some((low.high.to_rational() + high.low.to_rational()) * ratio(1, 2))
+        }
+        (Some((_, low)), None) => Some(low.high.to_rational().ceil() + ratio(1, 1)),
+        (None, Some((_, high))) => Some(high.low.to_rational().floor() - ratio(1, 1)),
+        (None, None) => Some(ratio(0, 1)),
+    })
+}
+
+impl Along {
+    fn nowhere() -> Along {
+        Along {
+            lost: None,
+            gained: None,
+            holds: [[false; 2]; 2],
+            count: [Some(0); 2],
+        }
+    }
+
+    /// Takes in a number, or an interval by one of its numbers, with what holds there.
+    fn note(
+        &mut self,
+        both: [&Cases; 2],
+        mut holds: impl FnMut(&Normal) -> Option<bool>,
+        words: impl Fn() -> String,
+        single: bool,
+    ) -> Option<()> {
+        let mut truth = [false; 2];
+        for (cases, truth) in both.into_iter().zip(&mut truth) {
+            for system in cases {
+                let mut all = true;
+                for n in system {
+                    all &= holds(n)?;
+                }
+                *truth |= all;
+            }
+        }
+        for (seen, truth) in self.holds.iter_mut().zip(truth) {
+            seen[usize::from(!truth)] = true;
+        }
+        for (count, _) in self.count.iter_mut().zip(truth).filter(|(_, holds)| *holds) {
+            *count = count.filter(|_| single).map(|n| n + 1);
+        }
+        match truth {
+            [true, false] => self.lost = self.lost.take().or_else(|| Some(words())),
+            [false, true] => self.gained = self.gained.take().or_else(|| Some(words())),
+            _ => {}
+        }
+        Some(())
+    }
 }
 
 /// The comparison along the domain of the symbol.
@@ -88,36 +237,17 @@ fn along(first: &Cases, second: &Cases, name: &Symbol, domains: &Domains) -> Opt
             }
         }
     }
-    let mut out = Along {
-        lost: None,
-        gained: None,
-        holds: [[false; 2]; 2],
-        count: [Some(0); 2],
-    };
+    let mut out = Along::nowhere();
     for cell in &cells {
+        // In the order of the differences.
         let mut signs = cell.signs[..all.len()].iter();
-        let truth = [first, second].map(|cases| {
-            let mut any = false;
-            for system in cases {
-                let links = system.iter().zip(signs.by_ref().take(system.len()));
-                let unmet = links.filter(|(link, sign)| !holds(link.relation, **sign));
-                any |= unmet.count() == 0;
-            }
-            any
-        });
-        for (seen, truth) in out.holds.iter_mut().zip(truth) {
-            seen[usize::from(!truth)] = true;
-        }
-        for (count, _) in out.count.iter_mut().zip(truth).filter(|(_, holds)| *holds) {
-            *count = count.filter(|_| cell.single).map(|n| n + 1);
-        }
-        match truth {
-            [true, false] => out.lost = out.lost.take().or_else(|| Some(words(cell, name, &all))),
-            [false, true] => {
-                out.gained = out.gained.take().or_else(|| Some(words(cell, name, &all)))
-            }
-            _ => {}
-        }
+        let next = |n: &Normal| Some(holds(n.relation, *signs.next()?));
+        out.note(
+            [first, second],
+            next,
+            || words(cell, name, &all),
+            cell.single,
+        )?;
     }
     Some(out)
 }

@@ -47,16 +47,10 @@ pub(super) fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Fi
             .domains
             .of(&[&expected.difference, &answer.difference]);
         let (f, g) = (&expected.difference, &answer.difference);
-        let poles = poles(f, g, &domains);
-        // In one symbol some solution has to be none of them.
-        let beside = |pole: &Expr| {
-            let mut all = [f, g].into_iter();
-            all.any(|e| locus::vanishing(e, [pole, e], &domains).is_some())
-        };
-        if unknowns(f, g).len() == 1 && !poles.iter().all(beside) {
-            return undecided("where the one is fulfilled the other may have no value");
+        // In one symbol it is looked at what holds where something is divided by zero.
+        if unknowns(f, g).len() > 1 {
+            finding.assume(poles(f, g, &domains).iter().map(not_zero).collect());
         }
-        finding.assume(poles.iter().map(not_zero).collect());
     }
     finding
 }

@@ -1,7 +1,7 @@
 //! What one equation is of another: a multiple of it, or the same with the sign of a term turned.
 
 use super::super::compare::WRITTEN;
-use super::{Normal, equation, same_sign};
+use super::{Normal, equation, pair, same_sign};
 use crate::algebra::{Element, Field, Sign};
 use crate::domain::Domains;
 use crate::expr::{Expr, Node};
@@ -38,7 +38,7 @@ impl Factor {
 
 /// The quotient of two differences, where its sign is known.
 pub(super) fn factor(f: &Expr, g: &Expr, domains: &Domains) -> Option<Factor> {
-    let (field, x, y) = Field::pair(&domains.of(&[f, g]), f, g).ok()?;
+    let (field, x, y) = pair(f, g, domains)?;
     if field.is_zero(&x) || field.is_zero(&y) {
         return None;
     }
@@ -69,7 +69,7 @@ pub(super) fn unrooted(n: &Normal, domains: &Domains) -> Option<Normal> {
     let mut field = Field::new(&domains);
     field.prepare([&n.difference, &other]);
     let sign = |field: &mut Field, e: &Expr| {
-        let x = field.element(e).ok()?;
+        let x = field.proved(e).ok()??;
         field.sign(&x)
     };
     let is_term = |term: &Expr| match term.node() {
@@ -88,6 +88,6 @@ pub(super) fn unrooted(n: &Normal, domains: &Domains) -> Option<Normal> {
         Sign::Negative => -other,
         _ => return None,
     };
-    let product = field.element(&(&n.difference * &other)).ok()?;
+    let product = field.proved(&(&n.difference * &other)).ok()??;
     Some(n.of(field.expr(&product)))
 }

@@ -2,9 +2,10 @@
 
 use super::super::compare::{Context, Finding};
 use super::equations::{LOST, OTHER, told};
-use super::solved::{angles, lies_in, solve_for};
+use super::solved::{lies_in, solve_for};
+use super::zeros::{self, Number, zeros};
 use super::{Normal, cells, same_solutions};
-use crate::domain::Domains;
+use crate::domain::{Domain, Domains};
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Relation, write_plain};
@@ -72,15 +73,18 @@ pub(super) fn values(expected: &Normal, answer: &Normal, domains: &Domains) -> O
     let alone = [vec![other.clone()]];
     let count = match cells::compare(&alone, &alone, domains) {
         Some(along) => along.count[0]?,
-        None => angles(&other.difference, &name, domains)?.len(),
+        None => zeros(&other.difference, &name, domains)?.len(),
     };
+    let domain = domains.symbols.get(&name).cloned();
+    let domain = domain.unwrap_or_else(Domain::positive);
     let mut inside: Vec<Enclosure> = Vec::new();
     let mut beside = None;
     for value in list {
-        let place = number(&value, domains)?;
-        if !lies_in(&place, &name, domains) {
+        let number: Number = (value.clone(), number(&value, domains)?);
+        if !zeros::lies_in(&number, &domain, domains)? {
             continue;
         }
+        let place = number.1;
         let left = other.difference.put(&name, &value);
         match equality::decide(&left, &Expr::zero(), domains).equality {
             Equality::Same { .. } if inside.iter().all(|v| v.is_disjoint(&place)) => {

@@ -3,6 +3,7 @@
 //! In: the differences of two equations over a domain. Out: whether every part that only one of them has vanishes nowhere, or
 //! where the other vanishes too; else a point at which one holds and the other does not.
 
+use super::pair;
 use super::solved::{rounded, solution_apart, solve_for, unknowns, words_at};
 use crate::algebra::{Element, Field, Sign};
 use crate::domain::{Domains, roles, samples};
@@ -54,7 +55,7 @@ pub(super) struct Compared {
 /// Compares the solutions of `f = 0` and `g = 0`; `None` where their normal forms cannot be found.
 pub(super) fn compare(f: &Expr, g: &Expr, domains: &Domains) -> Option<Compared> {
     let domains = domains.of(&[f, g]);
-    let (field, x, y) = Field::pair(&domains, f, g).ok()?;
+    let (field, x, y) = pair(f, g, &domains)?;
     let zero = [field.is_zero(&x), field.is_zero(&y)];
     if zero != [false, false] {
         let extents = [&x, &y].map(|x| match field.is_zero(x) {
@@ -109,7 +110,7 @@ pub(super) fn compare(f: &Expr, g: &Expr, domains: &Domains) -> Option<Compared>
 }
 
 /// The numerator with all square roots squared away.
-fn squared(field: &Field, x: &Element) -> Option<Element> {
+pub(super) fn squared(field: &Field, x: &Element) -> Option<Element> {
     let mut x = x.clone();
     for _ in 0..ROOTS {
         match field.without_root(&x).ok()? {
@@ -145,7 +146,7 @@ fn covered(part: &Expr, other: &Expr, domains: &Domains) -> bool {
         return false;
     }
     let pieces = || {
-        let (field, x, y) = Field::pair(domains, part, other).ok()?;
+        let (field, x, y) = pair(part, other, domains)?;
         let [left, _, _] = field.split_zeros(&squared(&field, &x)?, &y).ok()?;
         Some((field, left))
     };

@@ -7,8 +7,8 @@ use num_traits::{One, Signed, Zero};
 
 use super::cells::Cases;
 use super::values::{asked_by, has_value};
-use super::{Normal, equation, undone};
-use crate::algebra::tidy;
+use super::{Normal, equation, sign_of, undone};
+use crate::algebra::{Sign, tidy};
 use crate::domain::Domains;
 use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
 use crate::formula::{Relation, write_plain};
@@ -97,6 +97,18 @@ fn without(n: &Normal, domains: &Domains, depth: usize) -> Option<Any> {
     let n = &n.of(tidied(&n.difference));
     if is_plain(&n.difference) {
         return Some(vec![vec![n.clone()]]);
+    }
+    // What is never zero where it has a value, such as an exponential.
+    let sign = match sign_of(&n.difference, domains) {
+        Some(Sign::Positive) => Some(Ordering::Greater),
+        Some(Sign::Negative) => Some(Ordering::Less),
+        _ => None,
+    };
+    if sign.is_some() {
+        return Some(match super::cells::holds(n.relation, sign) {
+            true => vec![Vec::new()],
+            false => Vec::new(),
+        });
     }
     let depth = depth.checked_sub(1)?;
     let next = |n: &Normal| without(n, domains, depth);

@@ -21,14 +21,14 @@ pub(crate) fn solve_for(f: &Expr, name: &Symbol, domains: &Domains) -> Option<Ex
     let slope = f.derivative(name);
     let mut field = Field::new(&domains.of(&[f, &slope]));
     field.prepare([f, &slope]);
-    let slope = field.element(&slope).ok()?;
+    let slope = field.proved(&slope).ok()??;
     if field.is_zero(&slope)
         || slope.terms() > WRITTEN
         || field.expr(&slope).symbols().contains(name)
     {
         return None;
     }
-    let constant = field.element(&f.put(name, &Expr::zero())).ok()?;
+    let constant = field.proved(&f.put(name, &Expr::zero())).ok()??;
     let root = field.neg(&field.div(&constant, &slope).ok()?);
     if root.terms() > WRITTEN {
         return None;
@@ -163,54 +163,37 @@ pub(super) fn same_angle(f: &Expr, g: &Expr, domains: &Domains) -> Option<bool> 
     })
 }
 
-/// An equation for the value of one sine, cosine or tangent, of a multiple of an angle and a multiple of π.
-struct Turning {
-    function: Function,
-    value: Expr,
+/// Sines, cosines and tangents of one multiple of an angle and a multiple of π.
+pub(super) struct Turning {
+    pub argument: Expr,
+    functions: Vec<Function>,
     factor: Rational,
     shift: Rational,
     /// From where to where the argument goes on the domain of the angle, in units of π.
-    span: [f64; 2],
+    pub span: [f64; 2],
 }
 
 impl Turning {
-    fn of(f: &Expr, name: &Symbol, domain: &Domain, domains: &Domains) -> Option<Turning> {
-        let mut calls = calls(f, name);
-        let (function, argument) = calls.pop().filter(|_| calls.is_empty())?;
+    pub(super) fn of(f: &Expr, name: &Symbol, domain: &Domain) -> Option<Turning> {
+        let calls = calls(f, name);
+        let argument = calls.first()?.1.clone();
         let read = angle(&argument).filter(|a| a.symbols.len() == 1)?;
         let (factor, shift) = (read.symbols.get(name)?.clone(), read.pi);
         let turns = |end: f64| end / std::f64::consts::PI * to_f64(&factor) + to_f64(&shift);
         let [from, to] = domain.bounds().map(|end| end.map(turns));
         let (from, to) = (from?, to?);
-        let value: Symbol = "value of the function".into();
-        let plain = f.replace(&Expr::call(function, argument), &Expr::symbol(&value));
-        if plain.symbols().contains(name) {
-            return None;
-        }
-        // Of either sign, where a symbol that nobody declares is positive.
-        let mut domains = domains.clone();
-        domains.symbols.insert(value.clone(), Domain::real());
-        Some(Turning {
-            function,
-            value: solve_for(&plain, &value, &domains)?,
+        let same = calls.iter().all(|(_, other)| *other == argument);
+        same.then(|| Turning {
+            functions: calls.iter().map(|(function, _)| *function).collect(),
+            span: [from.min(to), from.max(to)],
+            argument,
             factor,
             shift,
-            span: [from.min(to), from.max(to)],
         })
     }
 
-    /// The arc whose function has the value.
-    fn arc(&self) -> Expr {
-        let inverse = match self.function {
-            Function::Sin => Function::Asin,
-            Function::Cos => Function::Acos,
-            _ => Function::Atan,
-        };
-        Expr::call(inverse, self.value.clone())
-    }
-
     /// The angle of which this is the argument.
-    fn angle(&self, argument: Expr) -> Expr {
+    pub(super) fn angle(&self, argument: Expr) -> Expr {
         let turned = argument - Expr::pi() * Expr::from(self.shift.clone());
         turned * Expr::from(self.factor.recip())
     }
@@ -235,54 +218,35 @@ fn angle_of(f: &Expr, name: &Symbol, domain: &Domain, domains: &Domains) -> Opti
     if calls(f, name).is_empty() {
         return solve_for(f, name, domains);
     }
-    let turning = Turning::of(f, name, domain, domains)?;
-    let [least, most] = match turning.function {
+    let turning = Turning::of(f, name, domain)?;
+    let &[function] = turning.functions.as_slice() else {
+        return None;
+    };
+    let [least, most] = match function {
         Function::Cos => [0.0, 1.0],
         _ => [-0.5, 0.5],
     };
     let margin = 1e-9;
     let [from, to] = turning.span;
-    let one = from >= least - margin && to <= most + margin;
-    one.then(|| turning.angle(turning.arc()))
-}
-
-/// All values of an angle on its domain at which a difference without other symbols vanishes; nothing where that is not sure.
-pub(super) fn angles(f: &Expr, name: &Symbol, domains: &Domains) -> Option<Vec<Expr>> {
-    const MOST_TURNS: f64 = 16.0;
-    let (all, _) = domains.completed(&roles(&[f]));
-    let turning = Turning::of(f, name, all.symbols.get(name)?, &all)?;
-    let [from, to] = turning.span;
-    if to - from > MOST_TURNS {
+    if from < least - margin || to > most + margin {
         return None;
     }
-    let arc = turning.arc();
-    let (period, firsts) = match turning.function {
-        Function::Sin => (2, vec![arc.clone(), Expr::pi() - arc]),
-        Function::Cos => (2, vec![arc.clone(), -arc]),
-        _ => (1, vec![arc]),
-    };
-    let mut found: Vec<(Expr, Enclosure)> = Vec::new();
-    for turn in from.floor() as i64 - 2..=to.ceil() as i64 + 2 {
-        for first in firsts.iter().filter(|_| turn % period == 0) {
-            let root = turning.angle(first + Expr::pi() * Expr::from(turn));
-            let Outcome::Value(place) = evaluate::<Big<200>>(&root, &Default::default()) else {
-                return None;
-            };
-            let domain = all.symbols.get(name)?;
-            let ends = [&place.0.low, &place.0.high];
-            match ends.map(|end| domain.contains(&end.to_rational())) {
-                [true, true] => {}
-                [false, false] => continue,
-                _ => return None,
-            }
-            match found.iter().find(|(_, other)| !other.is_disjoint(&place.0)) {
-                Some((other, _)) if equality::identical(other, &root, &all) => {}
-                Some(_) => return None,
-                None => found.push((root, place.0)),
-            }
-        }
+    let value: Symbol = "value of the function".into();
+    let call = Expr::call(function, turning.argument.clone());
+    let plain = f.replace(&call, &Expr::symbol(&value));
+    if plain.symbols().contains(name) {
+        return None;
     }
-    Some(found.into_iter().map(|(root, _)| root).collect())
+    // Of either sign, where a symbol that nobody declares is positive.
+    let mut domains = domains.clone();
+    domains.symbols.insert(value.clone(), Domain::real());
+    let inverse = match function {
+        Function::Sin => Function::Asin,
+        Function::Cos => Function::Acos,
+        _ => Function::Atan,
+    };
+    let arc = Expr::call(inverse, solve_for(&plain, &value, &domains)?);
+    Some(turning.angle(arc))
 }
 
 /// Whether the value at a point lies inside a domain for certain.

@@ -9,9 +9,10 @@ use super::locus::Extent;
 use super::points::holding;
 use super::solved::{rounded, solve_for, unknowns};
 use super::undone::{self, called};
+use super::values::{hole, main, only_symbol};
 use super::{
     Normal, REALS, apart_at_points, differences, link, not_zero, over_reals, same_solutions,
-    says_nothing, sign_of, undecided,
+    says_nothing, sign_of, undecided, where_defined,
 };
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, roles};
@@ -21,6 +22,7 @@ use crate::formula::{Relation, write_plain};
 use crate::interval::{Big, Outcome, evaluate};
 use num_traits::{Signed, Zero};
 use std::collections::BTreeMap;
+use std::slice::from_ref;
 
 /// The verdict on relations in one symbol, whose solutions are found, in one case or several.
 pub(super) fn in_one_symbol(
@@ -234,6 +236,15 @@ pub(super) fn compare(
     answer: &[Normal],
     domains: &Domains,
 ) -> Finding {
+    // One relation each, beside what must not be zero.
+    if let (Some((e, _)), Some((a, _))) = (main(expected), main(answer))
+        && only_symbol([&e.difference, &a.difference]).is_some()
+    {
+        let found = link(&ctx.plain(), e, a);
+        if found.is_equivalent() {
+            return where_defined(found, [expected, answer], domains);
+        }
+    }
     let [mine, theirs] = [expected, answer].map(|system| match expected.len() == answer.len() {
         true => system.to_vec(),
         false => spread(system, domains),
@@ -296,12 +307,15 @@ fn without_bars(n: &Normal) -> Vec<Normal> {
 /// Every relation of the one system with one of the other that says the same.
 fn matched(ctx: &Context, expected: &[Normal], answer: &[Normal]) -> Option<Finding> {
     let plain = ctx.plain();
+    let domains = &ctx.key.question.domains;
     let mut left: Vec<&Normal> = answer.iter().collect();
     let mut assumed: Vec<String> = Vec::new();
     for e in expected {
         let found = left.iter().enumerate().find_map(|(i, a)| {
             let finding = link(&plain, e, a);
-            finding.is_equivalent().then_some((i, finding))
+            let same =
+                finding.is_equivalent() && hole(from_ref(e), from_ref(a), domains) == Some(None);
+            same.then_some((i, finding))
         });
         let (i, finding) = found?;
         left.remove(i);

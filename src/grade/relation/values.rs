@@ -1,33 +1,44 @@
 //! Where the parts of a relation have values: what logarithms, roots and divisors ask for.
 //!
-//! In: relations. Out: what has to hold besides them. A part that cancels, or that only one of two relations has, asks for it
+//! In: relations. Out: what has to hold besides them, and where only one of two holds for want of a value. A part that cancels, or that only one of two relations has, asks for it
 //! all the same.
 
+use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
 use num_integer::Integer;
 use num_traits::Signed;
 
+use super::cells::holds;
+use super::zeros::zeros;
 use super::{Normal, sign_of};
 use crate::algebra::Sign;
 use crate::answer::calc::constant;
-use crate::domain::Domains;
-use crate::expr::{Expr, Function, Node, Symbol};
+use crate::domain::{Domain, Domains, Limit, roles};
+use crate::equality::{self, Equality};
+use crate::expr::{Expr, Function, Node, Symbol, ratio};
 use crate::formula::Relation;
+use crate::interval::{Big, Outcome, evaluate};
 
 /// What has to hold for a part to have a value beside the parts in it; `None` where that is not known.
 pub(super) fn has_value(part: &Expr) -> Option<Option<Normal>> {
     let positive = |e: &Expr| Normal::new(-e, Relation::Less);
     Some(match part.node() {
         Node::Call(Function::Ln, inside) => Some(positive(inside)),
-        Node::Call(Function::Abs | Function::Exp, _) => None,
-        Node::Call(..) if !part.symbols().is_empty() => return None,
+        Node::Call(Function::Tan, angle) => Some(Normal::new(angle.cos(), Relation::NotEqual)),
+        Node::Call(Function::Asin | Function::Acos, x) => {
+            Some(Normal::new(x.powi(2) - Expr::one(), Relation::LessEqual))
+        }
+        Node::Call(..) => None,
         Node::Power(base, k) => match k.as_number() {
             Some(k) if k.is_integer() => k
                 .is_negative()
                 .then(|| Normal::new(base.clone(), Relation::NotEqual)),
             // Of an odd root a negative may have a value too.
-            Some(k) if k.denom().is_odd() => return None,
+            Some(k) if k.denom().is_odd() => match k.is_negative() {
+                true => Some(Normal::new(base.clone(), Relation::NotEqual)),
+                false => return None,
+            },
             Some(k) if k.is_negative() => Some(positive(base)),
             Some(_) => Some(Normal::new(-base, Relation::LessEqual)),
             None => Some(positive(base)),
@@ -63,14 +74,109 @@ pub(super) fn cancelled(sides: [&Expr; 2], difference: &Expr) -> Vec<Normal> {
     out
 }
 
-fn only_symbol(sides: [&Expr; 2]) -> Option<Symbol> {
+pub(super) fn only_symbol(sides: [&Expr; 2]) -> Option<Symbol> {
     let all: BTreeSet<Symbol> = sides.iter().flat_map(|side| side.symbols()).collect();
     let mut all = all.into_iter();
     all.next().filter(|_| all.next().is_none())
 }
 
+/// A number in words at which one of two relations holds and the other has no value, and whether the expected one holds there.
+pub(super) type Hole = (String, bool);
+
+/// The first number of the only symbol at which something is zero that one of two systems divides by, or that must not be zero
+/// in it, and the other holds; `None` where there may be one that was not found. Each system has one relation beside what must
+/// not be zero. In several symbols nothing is looked at.
+pub(super) fn hole(
+    expected: &[Normal],
+    answer: &[Normal],
+    domains: &Domains,
+) -> Option<Option<Hole>> {
+    let [(e, e_apart), (a, a_apart)] = [main(expected)?, main(answer)?];
+    let Some(name) = only_symbol([&e.difference, &a.difference]) else {
+        return Some(None);
+    };
+    let domains = one_turn(&[&e.difference, &a.difference], &name, domains);
+    let mut is_sure = true;
+    for (apart, others, other, is_lost) in [
+        (&a_apart, &e_apart, e, true),
+        (&e_apart, &a_apart, a, false),
+    ] {
+        for divisor in apart.iter().filter(|d| !others.contains(d)) {
+            let is_strict = |sign: Option<Sign>| sign.is_some_and(Sign::is_strict);
+            if is_strict(sign_of(divisor, &domains))
+                || is_strict(sign_where(divisor, &name, other, &domains))
+            {
+                continue;
+            }
+            let Some(numbers) = zeros(divisor, &name, &domains) else {
+                is_sure = false;
+                continue;
+            };
+            let apart = |d: &Expr| Normal::new(d.clone(), Relation::NotEqual);
+            for (at, place) in numbers {
+                let all = others.iter().map(apart).chain([other.clone()]);
+                let truths: Vec<_> = all.map(|n| holds_at(&n, &name, &at, &domains)).collect();
+                if truths.contains(&Some(false)) {
+                    continue;
+                }
+                if !truths.contains(&None) {
+                    return Some(Some((format!("{name} = {}", place.decimal(6)), is_lost)));
+                }
+                is_sure = false;
+            }
+        }
+    }
+    is_sure.then_some(None)
+}
+
+/// The one relation of a system beside those that something is not zero, and all that must not be zero.
+pub(super) fn main(system: &[Normal]) -> Option<(&Normal, Vec<Expr>)> {
+    let is_beside = |n: &&Normal| system.len() > 1 && n.relation == Relation::NotEqual;
+    let mut rest = system.iter().filter(|n| !is_beside(n));
+    let main = rest.next().filter(|_| rest.next().is_none())?;
+    let own = asked_by(&main.difference).map(|(_, need)| need);
+    // A logarithm has no value of zero either.
+    let divisors = own.filter(|need| need.relation != Relation::LessEqual);
+    let beside = system.iter().filter(is_beside).cloned();
+    Some((
+        main,
+        divisors.chain(beside).map(|need| need.difference).collect(),
+    ))
+}
+
+/// The domains with one turn of a real symbol that only stands in sines, cosines and tangents.
+fn one_turn(all: &[&Expr], name: &Symbol, domains: &Domains) -> Domains {
+    let (mut domains, _) = domains.completed(&roles(all));
+    let whole = domains.symbols.get(name) == Some(&Domain::real());
+    if let Some(role) = roles(all).symbols.get(name)
+        && whole
+        && role.turns
+        && !role.bare
+    {
+        let ends = [0, 2 * i64::from(role.divisor)];
+        let [low, high] = ends.map(|end| Some(Limit::pi(ratio(end, 1), false)));
+        domains.symbols.insert(name.clone(), Domain::new(low, high));
+    }
+    domains
+}
+
+/// Whether a relation holds at a number.
+pub(super) fn holds_at(n: &Normal, name: &Symbol, at: &Expr, domains: &Domains) -> Option<bool> {
+    let left = n.difference.put(name, at);
+    let sign = match evaluate::<Big<200>>(&left, &Default::default()) {
+        Outcome::Undefined => return Some(false),
+        Outcome::Value(v) if !v.0.has_zero() => v.0.low.sign().cmp(&0),
+        _ => match equality::decide(&left, &Expr::zero(), domains).equality {
+            Equality::Same { .. } => Ordering::Equal,
+            Equality::Invalid { .. } => return Some(false),
+            _ => return None,
+        },
+    };
+    Some(holds(n.relation, Some(sign)))
+}
+
 /// Whether a logarithm or a root that only one of two relations in one symbol has may leave it without a value where the other
-/// holds. A divisor leaves out single values, which are told.
+/// holds.
 pub(super) fn may_lack_values(expected: &Normal, answer: &Normal, domains: &Domains) -> bool {
     let sides = [&expected.difference, &answer.difference];
     let Some(name) = only_symbol(sides) else {

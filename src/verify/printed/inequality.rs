@@ -2,7 +2,7 @@
 
 use super::Finding;
 use super::desk::Desk;
-use crate::algebra::{Field, Sign};
+use crate::algebra::{self, Sign};
 use crate::domain::{roles, samples};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Relation};
@@ -79,8 +79,7 @@ impl Desk<'_> {
         sign: Relation,
         finding: &mut Finding,
     ) -> Option<bool> {
-        let (field, element) = Field::of(&self.scene.domains, &(b - a)).ok()?;
-        let known = field.sign(&element)?;
+        let known = algebra::sign(&(b - a), &self.scene.domains)?;
         let known = if matches!(sign, Relation::Greater | Relation::GreaterEqual) {
             known.flip()
         } else {
