@@ -7,7 +7,7 @@
 use std::cmp::Ordering;
 
 use super::plain::plain;
-use super::values::{has_value, holds_at};
+use super::values::{has_value, holds_at, one_turn};
 use super::zeros::{Number, zeros};
 use super::{Normal, differences};
 use crate::algebra::{Cell, Field};
@@ -48,9 +48,15 @@ pub(super) fn compare(first: &Cases, second: &Cases, domains: &Domains) -> Optio
     }
     let (domains, _) = domains.completed(&uses);
     let found = (!role.turns).then(|| by_polynomials(first, second, name, &domains));
-    found
-        .flatten()
-        .or_else(|| by_zeros(first, second, name, &domains))
+    found.flatten().or_else(|| {
+        // What stands in sines and cosines alone is the same after a turn.
+        let turn = one_turn(&all, name, &domains);
+        let mut found = by_zeros(first, second, name, &turn)?;
+        if turn != domains {
+            found.count = found.count.map(|count| count.filter(|n| *n == 0));
+        }
+        Some(found)
+    })
 }
 
 /// The comparison by polynomials, where the functions can be taken out.

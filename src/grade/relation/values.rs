@@ -12,7 +12,7 @@ use num_traits::Signed;
 use super::cells::holds;
 use super::zeros::zeros;
 use super::{Normal, sign_of};
-use crate::algebra::Sign;
+use crate::algebra::{Sign, tidy};
 use crate::answer::calc::constant;
 use crate::domain::{Domain, Domains, Limit, roles};
 use crate::equality::{self, Equality};
@@ -145,7 +145,7 @@ pub(super) fn main(system: &[Normal]) -> Option<(&Normal, Vec<Expr>)> {
 }
 
 /// The domains with one turn of a real symbol that only stands in sines, cosines and tangents.
-fn one_turn(all: &[&Expr], name: &Symbol, domains: &Domains) -> Domains {
+pub(super) fn one_turn(all: &[&Expr], name: &Symbol, domains: &Domains) -> Domains {
     let (mut domains, _) = domains.completed(&roles(all));
     let whole = domains.symbols.get(name) == Some(&Domain::real());
     if let Some(role) = roles(all).symbols.get(name)
@@ -162,17 +162,33 @@ fn one_turn(all: &[&Expr], name: &Symbol, domains: &Domains) -> Domains {
 
 /// Whether a relation holds at a number.
 pub(super) fn holds_at(n: &Normal, name: &Symbol, at: &Expr, domains: &Domains) -> Option<bool> {
-    let left = n.difference.put(name, at);
-    let sign = match evaluate::<Big<200>>(&left, &Default::default()) {
-        Outcome::Undefined => return Some(false),
-        Outcome::Value(v) if !v.0.has_zero() => v.0.low.sign().cmp(&0),
-        _ => match equality::decide(&left, &Expr::zero(), domains).equality {
-            Equality::Same { .. } => Ordering::Equal,
-            Equality::Invalid { .. } => return Some(false),
-            _ => return None,
-        },
-    };
-    Some(holds(n.relation, Some(sign)))
+    let sign = constant_sign(&n.difference.put(name, at), domains)?;
+    Some(holds(n.relation, sign))
+}
+
+/// The sign of a constant; the inner `None` where it has no value.
+fn constant_sign(e: &Expr, domains: &Domains) -> Option<Option<Ordering>> {
+    match evaluate::<Big<200>>(e, &Default::default()) {
+        Outcome::Undefined => return Some(None),
+        Outcome::Value(v) if !v.0.has_zero() => return Some(Some(v.0.low.sign().cmp(&0))),
+        _ => {}
+    }
+    match equality::decide(e, &Expr::zero(), domains).equality {
+        Equality::Same { .. } => return Some(Some(Ordering::Equal)),
+        Equality::Invalid { .. } => return Some(None),
+        _ => {}
+    }
+    // √(cos π/2) − 1 in a shorter form, once all that stands in it has values.
+    let plain = tidy(e, domains).ok().filter(|plain| plain != e)?;
+    for part in e.parts() {
+        if let Some(need) = has_value(part)? {
+            let sign = constant_sign(&need.difference, domains)?;
+            if !holds(need.relation, sign) {
+                return Some(None);
+            }
+        }
+    }
+    constant_sign(&plain, domains)
 }
 
 /// Whether a logarithm or a root that only one of two relations in one symbol has may leave it without a value where the other
