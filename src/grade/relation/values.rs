@@ -167,7 +167,7 @@ pub(super) fn holds_at(n: &Normal, name: &Symbol, at: &Expr, domains: &Domains) 
 }
 
 /// The sign of a constant; the inner `None` where it has no value.
-fn constant_sign(e: &Expr, domains: &Domains) -> Option<Option<Ordering>> {
+pub(super) fn constant_sign(e: &Expr, domains: &Domains) -> Option<Option<Ordering>> {
     match evaluate::<Big<200>>(e, &Default::default()) {
         Outcome::Undefined => return Some(None),
         Outcome::Value(v) if !v.0.has_zero() => return Some(Some(v.0.low.sign().cmp(&0))),

@@ -4,15 +4,18 @@
 //! of the first or second degree in the symbol, in an exponential, logarithm or root of it, or in sines and cosines of one
 //! angle; where there is any other part nothing is told.
 
+use std::cmp::Ordering;
+
 use num_traits::Signed;
 
 use super::locus::squared;
 use super::solved::Turning;
+use super::values::constant_sign;
 use super::{equation, pair, undone};
 use crate::algebra::Sign;
 use crate::answer::calc::constant;
 use crate::domain::{Domain, Domains, Limit, roles};
-use crate::equality::{self, Equality};
+use crate::equality;
 use crate::expr::{Expr, Function, Node, Symbol, ratio};
 use crate::interval::{Big, Enclosure, Outcome, evaluate};
 
@@ -47,11 +50,9 @@ fn among(f: &Expr, name: &Symbol, domains: &Domains, depth: usize) -> Option<Vec
             Some(_) => return None,
             None => {}
         }
-        match equality::decide(&f.put(name, &number.0), &Expr::zero(), &domains).equality {
-            Equality::Same { .. } => found.push(number),
-            // A pole, or a root that squaring brought in.
-            Equality::Different(_) | Equality::Invalid { .. } => {}
-            Equality::Undecided { .. } => return None,
+        // Others are poles, or roots that squaring brought in.
+        if constant_sign(&f.put(name, &number.0), &domains)? == Some(Ordering::Equal) {
+            found.push(number);
         }
     }
     Some(found)
