@@ -5,12 +5,15 @@ pub(in crate::grade) mod judge;
 mod rows;
 
 use super::believed::{self, Believed, Story, Written};
+use super::relation::solve_for;
+use super::steps::size_in;
 use super::{Given, Key, Options, Question, key_of};
+use crate::algebra::{self, Sign};
 use crate::answer::{Answer, Form};
 use crate::derive::{self, Derivation, Moment};
 use crate::equality;
 use crate::expr::{Expr, Symbol};
-use crate::formula::{Content, Relation};
+use crate::formula::{Content, Relation, Sentence};
 use crate::scene::{self, Ask, Print, Scene};
 use crate::verify::printed::{Finding, UNEXPLAINED};
 
@@ -138,6 +141,27 @@ impl Sheet {
             })
         });
         self.all.iter().filter_map(bound).chain(friction)
+    }
+
+    /// What the answers take for granted of a parameter, solved for it: `u ≥ 2√(g l)`, so that a bob gets to the top.
+    pub fn granted(&self, parameter: &Symbol) -> Vec<(Relation, Expr)> {
+        let domains = &self.scene.domains;
+        let all = self.all.iter().chain(&self.derivation.answers);
+        let conditions = all.flat_map(|a| a.assumptions.iter().filter_map(Sentence::condition));
+        let solved = conditions.filter_map(|(excess, strict)| {
+            let value = solve_for(&excess, parameter, domains)
+                .or_else(|| size_in(&excess, parameter, domains))?;
+            let grows = algebra::sign(&excess.derivative(parameter), domains)?;
+            let relation = match (grows, strict) {
+                (Sign::Positive, true) => Relation::Greater,
+                (Sign::Positive, false) => Relation::GreaterEqual,
+                (Sign::Negative, true) => Relation::Less,
+                (Sign::Negative, false) => Relation::LessEqual,
+                _ => return None,
+            };
+            Some((relation, value))
+        });
+        solved.collect()
     }
 
     /// Whether a point of the domain is found: what a way supposes may hold nowhere.

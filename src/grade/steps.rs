@@ -6,6 +6,7 @@
 //! also tried in the motion that line would imply.
 
 mod arrows;
+mod bind;
 mod cause;
 mod desk;
 mod impact;
@@ -23,9 +24,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::sheet::{Sheet, judge};
 use super::{Diagnosis, Options, Verdict};
+use crate::answer::{Answer, Form};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Fault, Reading};
 use crate::scene::Question;
+use bind::Values;
+pub(in crate::grade) use cause::size_in;
 use desk::Desk;
 use link::{Link, Weighed};
 
@@ -126,6 +130,8 @@ pub const MAX_LINES: usize = 400;
 struct Meant {
     /// A name with its value.
     value: Option<(Symbol, Expr)>,
+    /// Own names that have a value in the scene.
+    bound: Values,
     /// Names of what is asked that are with a mark of another moment, and the mark.
     marked: BTreeSet<(Symbol, &'static str)>,
     /// Whether a name of the student's own may stand for something else further down, as W does for each way.
@@ -136,27 +142,37 @@ struct Meant {
 /// an acceleration that it speaks of and nobody asks for is the scene's, counted either way, or, where there may be others,
 /// whatever the solution says; a velocity against an axis by its letter alone may be the speed, and a final answer that is right
 /// may be of another moment with a mark. An own name may get another meaning further down, but not to
-/// explain away why a final answer is wrong.
+/// explain away why a final answer is wrong. Where a line fails by what an own name was said to be, the name has the value that
+/// the scene has for it, and what was said of it is wrong.
 pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
-    let worked = |meant: Meant| (check_with(sheet, text, options, &meant), meant);
-    let wrong = |line: &&Line| line.status == Status::Wrong;
-    let slips = |(worked, _): &(Worked, Meant)| worked.lines.iter().filter(wrong).count();
+    let worked = |meant: Meant| {
+        let (worked, needed) = check_with(sheet, text, options, &meant);
+        (worked, meant, needed)
+    };
     let plain = text::joined(text);
     let accelerations = names::accelerations(sheet, &plain);
-    let whatever = accelerations.contains(&None).then(Meant::default);
-    let by_acceleration = accelerations.into_iter().map(|value| Meant {
-        value,
+    let bound = Desk::new(sheet).bindings(&plain);
+    let whatever = accelerations.contains(&None).then(|| Meant {
+        bound: bound[0].clone(),
         ..Meant::default()
     });
-    let best = by_acceleration
-        .map(worked)
-        .min_by_key(slips)
-        .expect("one at least");
+    let meant = bound.iter().flat_map(|bound| {
+        accelerations.iter().map(|value| Meant {
+            value: value.clone(),
+            bound: bound.clone(),
+            ..Meant::default()
+        })
+    });
+    let best = meant.map(worked).min_by_key(slips).expect("one at least");
     if slips(&best) == 0 {
         return best.0;
     }
-    let speeds = Desk::new(sheet).speeds().into_iter().map(|speed| Meant {
+    let mut desk = Desk::new(sheet);
+    desk.know_bodies(&plain);
+    let known = best.1.bound.clone();
+    let speeds = desk.speeds().into_iter().map(|speed| Meant {
         value: Some(speed),
+        bound: known.clone(),
         ..Meant::default()
     });
     let marked = Some(names::marked(sheet, &plain)).filter(|marked| !marked.is_empty());
@@ -172,7 +188,7 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
     let others = speeds.chain(marked).chain(with_own).map(worked);
     let others = others.filter(|other| {
         let right = |told: &Option<Final>| Some(told.as_ref()?.verdict == Verdict::Equivalent);
-        let (Worked { finals, .. }, meant) = other;
+        let (Worked { finals, .. }, meant, _) = other;
         let of = |name: &Symbol| finals.iter().find(|(of, _)| *of == **name);
         let mut marked = meant.marked.iter();
         let hides = slips(other) == 0 && finals.iter().any(|(_, told)| right(told) == Some(false));
@@ -180,10 +196,52 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
             && !(meant.anew && hides)
     });
     let all = std::iter::once(best).chain(others);
-    all.min_by_key(slips).expect("one at least").0
+    let mut best = all.min_by_key(slips).expect("one at least");
+    for _ in 0..MOST_CAUSES {
+        let others = best.2.iter().take(MOST_CAUSES).map(|(name, value)| {
+            let mut meant = best.1.clone();
+            meant.bound.insert(name.clone(), value.clone());
+            worked(meant)
+        });
+        // The earlier line is the one with the slip.
+        let others =
+            others.filter(|other| (slips(other), first(other)) < (slips(&best), first(&best)));
+        match others.min_by_key(slips) {
+            Some(other) => best = other,
+            None => break,
+        }
+    }
+    best.0
 }
 
-fn check_with(sheet: &Sheet, text: &str, options: &Options, meant: &Meant) -> Worked {
+/// A solution that was checked, what it means, and what own names would have to be for wrong lines to hold.
+type Tried = (Worked, Meant, Vec<(Symbol, Expr)>);
+
+fn wrong_lines((worked, ..): &Tried) -> impl Iterator<Item = &Line> {
+    let lines = worked.lines.iter();
+    lines.filter(|line| line.status == Status::Wrong)
+}
+
+/// How many lines have a slip of their own.
+fn slips(tried: &Tried) -> usize {
+    wrong_lines(tried).count()
+}
+
+/// The number of the first of them.
+fn first(tried: &Tried) -> usize {
+    wrong_lines(tried)
+        .map(|line| line.number)
+        .min()
+        .unwrap_or(usize::MAX)
+}
+
+/// Checks a worked solution that means this; also what own names would have to be for wrong lines to hold.
+fn check_with(
+    sheet: &Sheet,
+    text: &str,
+    options: &Options,
+    meant: &Meant,
+) -> (Worked, Vec<(Symbol, Expr)>) {
     let mut desk = Desk::new(sheet);
     desk.closed.extend(meant.value.clone());
     desk.know_accelerations(meant.value.as_ref());
@@ -192,6 +250,11 @@ fn check_with(sheet: &Sheet, text: &str, options: &Options, meant: &Meant) -> Wo
     desk.primed = arrows::primed(&read);
     desk.along_normal(&read);
     desk.know_vectors(&read);
+    desk.know_bodies(&read);
+    desk.closed.extend(meant.bound.clone());
+    desk.by_body.retain(|name| !meant.bound.contains_key(name));
+    desk.bound = meant.bound.keys().cloned().collect();
+    desk.learned.extend(desk.bound.iter().cloned());
     desk.solved_for = names::solved_for(&read);
     desk.own_with_mark = names::of_a_later_moment(sheet, &read);
     desk.own_with_mark.extend(meant.marked.iter().cloned());
@@ -224,14 +287,21 @@ fn check_with(sheet: &Sheet, text: &str, options: &Options, meant: &Meant) -> Wo
         })
         .collect();
     let finals = desk.finals();
-    Worked { lines, finals }
+    (Worked { lines, finals }, desk.needed)
 }
 
 impl Desk<'_> {
     /// The final answers in the order of the questions; of a vector its components, where these stand alone.
     fn finals(&self) -> Vec<(String, Option<Final>)> {
         let mut out = Vec::new();
-        for q in self.sheet.answered() {
+        let has_value = |q: &&Question| {
+            let mut answers = self.sheet.all.iter().chain(&self.sheet.derivation.answers);
+            let said =
+                |a: &Answer| !matches!(a.form, Form::Words | Form::Open(_)) || !a.range.is_empty();
+            answers.any(|a| a.question == q.name && said(a))
+        };
+        let asked = self.sheet.answered().filter(|q| !q.hidden);
+        for q in asked.filter(has_value) {
             let parts: Vec<String> = [format!("{}_x", q.name), format!("{}_y", q.name)].into();
             let told = |name: &String| self.finals.contains_key(name);
             // `a_y` is no part of an angular acceleration a.
@@ -336,7 +406,12 @@ impl Desk<'_> {
         if let Some(found) = self.bound(number, text, &reading, options) {
             return found;
         }
-        let found = self.judged(number, text, &reading, options);
+        let mut found = self.judged(number, text, &reading, options);
+        if let (Status::Holds, Some((name, _))) = (&found.0, names::named(text))
+            && self.bound.remove(&name)
+        {
+            found.0 = Status::Defines;
+        }
         if found
             .1
             .iter()
@@ -406,6 +481,9 @@ impl Desk<'_> {
             let hint = "say which moment or case is meant";
             let found = Diagnosis::new(MOMENT, format!("this holds {when}"), hint);
             return (Status::Holds, vec![found]);
+        }
+        if self.forgets(&links, matches!(weighed, Weighed::Slip(_))) {
+            return self.equation(number, text, options);
         }
         if let Weighed::Slip(_) = weighed {
             // `v(t) = v − μ g t` tells a motion in time, of which the scene knows the end.
@@ -519,11 +597,18 @@ impl Desk<'_> {
                 let own: Vec<_> = own.filter(|d| self.says_a_sum(d)).collect();
                 self.wrong.extend(own.into_iter().map(|d| (number, d)));
                 // It may be such a name that is wrong, which later lines use as well.
-                let names = all.iter().flat_map(|d| self.own_needed(d));
-                let names: Vec<_> = names
-                    .map(|(name, [_, truth])| (number, name, truth))
-                    .collect();
-                self.slipped.extend(names);
+                for gap in &all {
+                    let needed: BTreeMap<_, _> = self.own_needed(gap).into_iter().collect();
+                    let used = gap.symbols();
+                    let used = used.into_iter().filter(|name| self.own.contains_key(name));
+                    for name in used.collect::<Vec<_>>() {
+                        let truth = needed.get(&name).map(|[_, truth]| truth);
+                        let meant = self.meant_by(gap, &name, truth);
+                        self.needed.extend(meant.map(|meant| (name.clone(), meant)));
+                        let truth = truth.map(|truth| (number, name, truth.clone()));
+                        self.slipped.extend(truth);
+                    }
+                }
                 Status::Wrong
             }
         }

@@ -6,7 +6,7 @@ use super::super::{
     Diagnosis, Grade, Key, Options, Proof, Strength, Tolerance, Verdict, fraction, judge_against,
     key_of, number, read,
 };
-use super::{Entry, Sheet, rows};
+use super::{Bound, Entry, Sheet, rows};
 use crate::answer::Answer;
 use crate::dimension;
 use crate::expr::{Expr, Symbol, Vector, dot};
@@ -105,6 +105,18 @@ impl Sheet {
         let found = Diagnosis::new("READING", message, hint);
         other.diagnosis.insert(0, found);
         other
+    }
+
+    /// A bound with what is granted of its parameter on the other side: `2√(g l) ≤ u < √(5 g l)`.
+    fn beside_granted(&self, bound: &Bound) -> Option<Key> {
+        let mut granted = self.granted(&bound.parameter).into_iter();
+        let below = bound.relation.is_below();
+        let opposite = |relation: Relation| relation.is_order() && relation.is_below() != below;
+        let (relation, end) = granted.find(|(r, _)| opposite(*r) && bound.relation.is_order())?;
+        let sides = [end, Expr::symbol(&bound.parameter), bound.value.clone()];
+        let signs = vec![relation.turned(), bound.relation];
+        let content = Content::Relations(sides.map(Content::Scalar).into(), signs);
+        Some(key_of(content, &self.question()))
     }
 
     fn judge_with_earlier(&self, entry: &Entry, answer: &str, options: &Options) -> Grade {
@@ -261,7 +273,18 @@ impl Sheet {
                 };
                 let content = Content::Relations(sides, vec![relation]);
                 let key = key_of(content, &self.question());
-                Some(judge_against(&key, answer, options))
+                let grade = judge_against(&key, answer, options);
+                if grade.verdict == Verdict::Different
+                    && let Some(key) = self.beside_granted(&bound).filter(|_| signs.len() > 1)
+                {
+                    let other = judge_against(&key, answer, options);
+                    return Some(if other.verdict == Verdict::Equivalent {
+                        other
+                    } else {
+                        grade
+                    });
+                }
+                Some(grade)
             }
             _ => None,
         }

@@ -472,7 +472,7 @@ impl Desk<'_> {
 }
 
 /// The size of what occurs by its square alone, as the speed does in an energy.
-pub(super) fn size_in(line: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
+pub(in crate::grade) fn size_in(line: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
     let square = Symbol::from(format!("{name}^2"));
     // The square of a quotient is one of squares.
     let line = tidy(line, domains).unwrap_or_else(|_| line.clone());

@@ -44,6 +44,16 @@ pub(super) struct Desk<'a> {
     pub moving: BTreeSet<Symbol>,
     /// Letters and indices of vectors that the page has with a prime as well.
     pub primed: BTreeSet<(String, String)>,
+    /// Names that stand for what has another name in the scene.
+    pub stands_for: BTreeMap<Symbol, Symbol>,
+    /// Those of velocities by their bodies of which a motion may have others, until a line holds with them.
+    pub by_body: BTreeSet<Symbol>,
+    /// All names that have their values from the scene without being its own.
+    pub learned: BTreeSet<Symbol>,
+    /// Own names whose values are the scene's, as long as no line has spoken of them.
+    pub bound: BTreeSet<Symbol>,
+    /// Own names that wrong lines use, with the values of the scene by which they hold.
+    pub needed: Vec<(Symbol, Expr)>,
     /// Names the student introduced.
     pub own: BTreeMap<Symbol, Expr>,
     /// Names that were defined with a slip, or may have been: the line that shows it, the name, and its value without the slip.
@@ -109,6 +119,11 @@ impl<'a> Desk<'a> {
             } else {
                 BTreeSet::new()
             },
+            stands_for: BTreeMap::new(),
+            by_body: BTreeSet::new(),
+            learned: BTreeSet::new(),
+            bound: BTreeSet::new(),
+            needed: Vec::new(),
             own: BTreeMap::new(),
             slipped: Vec::new(),
             ahead: Vec::new(),
@@ -201,7 +216,7 @@ impl<'a> Desk<'a> {
         let now = |name: &&Symbol| !name.contains('^') && !is_vector(name);
         for name in self.closed.keys().chain(later).filter(now) {
             let own = |mark: &&str| self.own_with_mark.contains(&(name.clone(), *mark));
-            for mark in MARKS.into_iter().filter(|mark| !own(mark)) {
+            for mark in [""].into_iter().chain(MARKS).filter(|mark| !own(mark)) {
                 let after = format!("{}{mark}", formula::latex_name(name));
                 symbols.declare_typeset(name.clone(), &after);
             }

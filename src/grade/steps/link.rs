@@ -9,7 +9,7 @@ use super::cause::{MOST_STEPS, size_in, under_root};
 use super::impact::Stand;
 use super::names::ACCELERATIONS;
 use super::rounded::is_near;
-use super::text::{equations, supposition};
+use super::text::{beside, equations, supposition};
 use super::{Desk, Final, Status};
 use crate::algebra::{self, Sign};
 use crate::answer::limit;
@@ -60,6 +60,9 @@ impl Desk<'_> {
             let along = if *clockwise { -along } else { along };
             return Some([Expr::zero(), Expr::zero(), along]);
         }
+        if self.learned.contains(name) {
+            return None;
+        }
         // `v_first` may be a speed that is asked for where a body is called `first`.
         let mut answers = self.sheet.derivation.answers.iter();
         if answers.any(|a| a.name == name) {
@@ -74,16 +77,19 @@ impl Desk<'_> {
         Some([part("x")?, part("y")?, part("z").unwrap_or(Expr::zero())])
     }
 
-    /// Velocities that are asked for as vectors and point against an axis, counted as speeds.
+    /// Velocities that are asked for as vectors, or named by their bodies, and point against an axis, counted as speeds.
     pub(super) fn speeds(&self) -> Vec<(Symbol, Expr)> {
         let domains = &self.sheet.scene.domains;
         let moving = |q: &&Question| matches!(q.ask, Ask::Velocity { .. });
         let asked = self.sheet.scene.questions.iter().filter(moving);
-        let along = asked.filter_map(|q| {
-            self.components(&q.name)?;
-            let (name, value) = self.closed.get_key_value(q.name.as_str())?;
+        let asked = asked.filter(|q| self.components(&q.name).is_some());
+        let asked = asked.map(|q| Symbol::from(q.name.as_str()));
+        let no_axis = |name: &&Symbol| !name.trim_end_matches('\'').ends_with(['x', 'y']);
+        let all = asked.chain(self.learned.iter().filter(no_axis).cloned());
+        let along = all.filter_map(|name| {
+            let value = self.closed.get(&name)?;
             let against = algebra::sign(value, domains) == Some(Sign::Negative);
-            against.then(|| (name.clone(), -value))
+            against.then(|| (name, -value))
         });
         along.collect()
     }
@@ -148,6 +154,10 @@ impl Desk<'_> {
     pub(super) fn in_case(&mut self, number: usize, text: &str) -> Option<Status> {
         if let Some(status) = self.in_limit(number, text) {
             return Some(status);
+        }
+        if let Some([said, other]) = beside(text) {
+            let mut ways = [[said, other], [other, said]].into_iter();
+            return ways.find_map(|[a, b]| self.in_case(number, &format!("{a} for {b}")));
         }
         let (given, behind) = supposition(text)?;
         // `2 m` is a number of meters, though m be a mass.
@@ -411,6 +421,16 @@ impl Desk<'_> {
                 bounds.find(|b| b.parameter == *name)?.name
             }
         };
+        if let (Content::Relations(_, signs), [_, end]) = (&reading.content, sides.as_slice()) {
+            let none = BTreeMap::new();
+            let is_end =
+                |value: &Expr| Some(self.all_zero(&[end.expr()? - value], &none) == Some(true));
+            let mut granted = self.sheet.granted(name).into_iter();
+            // What the answers suppose is said of it as well.
+            if granted.any(|(sign, value)| signs[0] == sign && is_end(&value) == Some(true)) {
+                return Some((Status::Holds, Vec::new()));
+            }
+        }
         let entry: Entry = self.sheet.entry(&question).ok()?;
         let told = self.of_value(reading);
         if let Some(Content::Relations(told, _)) = told.as_ref().map(|told| &told.content)
@@ -438,6 +458,7 @@ impl Desk<'_> {
         // In numbers the values behind it are those of the scene.
         let verdict = match grade.note {
             "DIFF_ROUNDED" => Verdict::Equivalent,
+            _ if self.is_rounded_bound(text, reading, &question) => Verdict::Equivalent,
             _ => grade.verdict,
         };
         let status = match verdict {
@@ -456,6 +477,20 @@ impl Desk<'_> {
             .insert(question, Final::new(number, text, verdict));
         let found = Some(grade.diagnosis).filter(|_| grade.verdict == verdict);
         Some((status, found.unwrap_or_default()))
+    }
+
+    /// Whether an inequality in numbers is a bound that is asked for, as far as their digits tell.
+    fn is_rounded_bound(&self, text: &str, reading: &Reading, question: &str) -> bool {
+        let Content::Relations(sides, signs) = &reading.content else {
+            return false;
+        };
+        let ([_, end], [sign]) = (sides.as_slice(), signs.as_slice()) else {
+            return false;
+        };
+        let mut bounds = self.sheet.bounds();
+        let bound = bounds.find(|b| b.name == question && b.relation == *sign);
+        let link = bound.and_then(|b| self.link(&Content::Scalar(b.value), end));
+        link.is_some_and(|link| self.is_rounded(text, &link, &BTreeMap::new()))
     }
 
     /// A chain about a parameter without the sides that are the parameter whatever its value, such as `(m+M)/m u` in
@@ -561,6 +596,37 @@ impl Desk<'_> {
         off.filter(|_| !open)
     }
 
+    /// The velocity that is asked for as a vector which a name with an arrow stands for.
+    fn asked_vector(&self, name: &Symbol) -> Option<Symbol> {
+        let mine = formula::has_arrow(name).then(|| self.components(name))??;
+        let mut asked = self.sheet.scene.questions.iter();
+        let asked = asked.find(|q| {
+            let theirs = matches!(q.ask, Ask::Velocity { .. }).then(|| self.components(&q.name));
+            theirs.flatten().is_some_and(|theirs| {
+                let gaps: Vec<Expr> = mine.iter().zip(&theirs).map(|(a, b)| a - b).collect();
+                self.all_zero(&gaps, &BTreeMap::new()) == Some(true)
+            })
+        });
+        asked.map(|q| Symbol::from(q.name.as_str()))
+    }
+
+    /// Whether a side stands in what is given, and in answers that were given before, or names that a line gave.
+    fn is_in_given(&self, name: &Symbol, side: &Content) -> bool {
+        let parameters = &self.sheet.scene.parameters;
+        let told = |n: &Symbol| {
+            let told = self.finals.contains_key(&**n);
+            n != name && (told || self.learned.contains(n) && self.is_stated(n))
+        };
+        let given = |e: &Expr| {
+            let used = self.with_own(e).symbols();
+            let mut used = used.iter();
+            used.all(|n| told(n) || &**n == "pi" || parameters.iter().any(|p| p.name == *n))
+        };
+        let mut in_given = true;
+        side.each(&mut |e| in_given &= given(e));
+        in_given
+    }
+
     /// Keeps what a line says of a quantity that is asked for, where it ends in what is given; `there` are the values of another
     /// moment or case of which it speaks.
     pub(super) fn note_final(
@@ -586,18 +652,16 @@ impl Desk<'_> {
             return;
         };
         let name = self.spins.get(&**name).map_or(name, |(spin, _)| spin);
+        let vector = self.asked_vector(name);
+        let name = vector
+            .as_ref()
+            .or(self.stands_for.get(name))
+            .unwrap_or(name);
         let answers = &self.sheet.derivation.answers;
         let asked = |a: &crate::answer::Answer| *a.name == **name || *a.question == **name;
         // Answers may stand on an acceleration that nobody asked for.
-        let lent = ACCELERATIONS.contains(&&**name) && self.closed.contains_key(name);
-        let given = |e: &Expr| {
-            let parameters = &self.sheet.scene.parameters;
-            let used = self.with_own(e).symbols();
-            used.iter().all(|n| {
-                let told = n != name && self.finals.contains_key(&**n);
-                told || &**n == "pi" || parameters.iter().any(|p| p.name == *n)
-            })
-        };
+        let lent = ACCELERATIONS.contains(&&**name) && self.closed.contains_key(name)
+            || self.learned.contains(name);
         // An answer may stand on another that was given.
         let used: Vec<Verdict> = {
             let mut used = Vec::new();
@@ -606,14 +670,25 @@ impl Desk<'_> {
             used.filter_map(|n| Some(self.finals.get(&**n)?.verdict))
                 .collect()
         };
-        let mut in_given = true;
-        last.each(&mut |e| in_given &= given(e));
+        let in_given = self.is_in_given(name, last);
         let Some(ends) = self.link(first, last) else {
             return;
         };
         // A speed is no answer where a velocity is asked for.
         let whole = self.vector(first, false).is_some() == self.vector(last, false).is_some();
-        if !in_given || !whole || !(lent || answers.iter().any(asked)) {
+        if !whole || !(lent || answers.iter().any(asked)) {
+            return;
+        }
+        if !in_given {
+            // What is wrong by the names of others is wrong until it is said again.
+            let wrong = there.is_empty()
+                && self.all_zero(&ends.differences, there) == Some(false)
+                && !self.is_rounded(text, &ends, there)
+                && !self.follows_condition(&ends);
+            if wrong {
+                let last = Final::new(number, text, Verdict::Different);
+                self.finals.entry(name.to_string()).or_insert(last);
+            }
             return;
         }
         let end = &text[text.rfind(['=', '≈']).unwrap_or(0)..];

@@ -9,7 +9,7 @@ use super::Desk;
 use super::link::Link;
 use crate::algebra::quotient;
 use crate::dimension;
-use crate::expr::{Expr, Rational, Symbol};
+use crate::expr::{Expr, Rational, Symbol, ratio};
 
 impl Desk<'_> {
     /// Whether a side in numbers is the value of the other, up to the rounding of the numbers in the line; the scene's
@@ -20,6 +20,9 @@ impl Desk<'_> {
         link: &Link,
         instead: &BTreeMap<Symbol, Expr>,
     ) -> bool {
+        if instead.is_empty() && self.is_within_own(link) {
+            return true;
+        }
         let values = self.sheet.scene.values();
         let exact = |e: &Expr| self.put_in(e, instead).substitute(&values);
         let sides = match (
@@ -35,8 +38,14 @@ impl Desk<'_> {
         // Without digits to round a number is meant as it stands.
         let (share, decimal) = coarsest(text, &values).unwrap_or_default();
         let room = Tolerance::Relative(share);
+        let all_given = values.len() == self.sheet.scene.parameters.len();
         sides.iter().all(|(a, b)| {
             if !(a.symbols().is_empty() || b.symbols().is_empty()) {
+                // `u = -v/8`: what is given is all put in.
+                if all_given && !self.mentions_given(a) && !self.mentions_given(b) {
+                    let room = Tolerance::Relative(ratio(1, 1_000_000_000));
+                    return number::within(&exact(b), &exact(a), &room) == Some(true);
+                }
                 // `5v/7 ≈ 0.714 v`: up to a rounded factor.
                 let [a, b] = [a, b].map(|e| self.put_in(e, instead));
                 let share = self.share(&a, &b).filter(|_| decimal);
@@ -52,6 +61,59 @@ impl Desk<'_> {
             let constant = a.symbols().is_empty() && b.symbols().is_empty();
             constant && number::within(&b, &a, &room) == Some(true)
         })
+    }
+
+    fn mentions_given(&self, e: &Expr) -> bool {
+        let names = e.symbols();
+        names
+            .iter()
+            .any(|name| self.sheet.scene.parameter(name).is_some())
+    }
+
+    /// Whether the sides differ by no more than the own names in them may that were said to be decimal numbers.
+    fn is_within_own(&self, link: &Link) -> bool {
+        let values = self.sheet.scene.values();
+        let rounded = self.ahead.iter().filter_map(|(name, right)| {
+            let value = fraction(self.own.get(name)?)?;
+            // What goes on to other lines counts from three digits.
+            let (share, decimal) = coarsest(&format!("{right} ="), &values)?;
+            decimal.then(|| (name, value.abs() * share, value))
+        });
+        let rounded: Vec<(&Symbol, Rational, Rational)> = rounded.collect();
+        let mut exact = self.own.clone();
+        exact.retain(|name, _| !rounded.iter().any(|(other, ..)| *other == name));
+        let middle = |e: &Expr| {
+            let [low, high] = number::bounds(e)?;
+            Some((low + high) / ratio(2, 1))
+        };
+        let is_near = |gap: &Expr| {
+            let own = (0..exact.len().min(8)).fold(gap.clone(), |e, _| e.substitute(&exact));
+            let gap = own.substitute(&self.closed).substitute(&values);
+            let at = |moved: Option<(&Symbol, &Rational)>| {
+                let of = rounded.iter().map(|(name, _, value)| {
+                    let by = moved.filter(|(other, _)| other == name).map(|(_, by)| by);
+                    let value = by.map_or(value.clone(), |by| value + by);
+                    ((*name).clone(), Expr::from(value))
+                });
+                middle(&gap.substitute(&of.collect()))
+            };
+            let off = at(None)?;
+            let mut room = ratio(0, 1);
+            for (name, half, _) in &rounded {
+                let ends =
+                    [half.clone(), -half].map(|by| Some((at(Some((name, &by)))? - &off).abs()));
+                let [Some(a), Some(b)] = ends else {
+                    return None;
+                };
+                room += a.max(b);
+            }
+            Some(off.abs() <= room)
+        };
+        !rounded.is_empty()
+            && link
+                .differences
+                .iter()
+                .all(|gap| is_near(gap) == Some(true))
     }
 
     /// Whether two sides in terms of parameters have the same dimension.

@@ -22,8 +22,8 @@ const CONCLUDING: [&str; 5] = [" so ", " hence ", " thus ", " therefore ", " we 
 const MOMENTS: &str = "(just before)|(just after)|(before)|(after)|just before|just after";
 
 /// First words of a remark in brackets behind an equation, which are never names.
-const REMARKS: &str = "along angular anticlockwise as because by clockwise conservation counterclockwise definition down \
-    downward downwards due energy from geometry hinge horizontal horizontally in kinematics leftward leftwards linear momentum \
+const REMARKS: &str = "after along angular anticlockwise as because before by clockwise conservation counterclockwise definition down \
+    downward downwards due energy from geometry hinge horizontal horizontally immediately in just kinematics leftward leftwards linear momentum \
     newton no parallel perpendicular relative restitution rightward rightwards rolling since symmetry to towards up upward upwards using vertical vertically";
 
 /// Words of a description that stands in place of a name left of an equality sign: `kinetic energy before = …`.
@@ -157,6 +157,10 @@ pub(super) fn in_names(line: &str, asked: &dyn Fn(&str) -> bool) -> String {
     // `After the 1st bounce v = …`
     let line = line.replace(" the 1st ", " the first ");
     let line = line.replace(" the 2nd ", " the second ");
+    // `v_B,x`
+    let line = ["x", "y"]
+        .iter()
+        .fold(line, |line, axis| with_axis(&line, axis));
     let line = signs_in_words(&line, asked).unwrap_or(line);
     let line = moment_first(&line, asked).unwrap_or(line);
     let words: Vec<&str> = line.split(' ').collect();
@@ -190,6 +194,25 @@ pub(super) fn in_names(line: &str, asked: &dyn Fn(&str) -> bool) -> String {
         }
     }
     line
+}
+
+/// An index that goes on behind a comma with an axis, `v_B,x`, in braces.
+fn with_axis(line: &str, axis: &str) -> String {
+    let comma = format!(",{axis}");
+    let mut pieces = line.split(&comma);
+    let mut out = pieces.next().unwrap_or_default().to_string();
+    for piece in pieces {
+        let index = out.rfind('_').filter(|at| {
+            let index = &out[at + 1..];
+            !index.is_empty() && index.chars().all(char::is_alphanumeric)
+        });
+        match index.filter(|_| !piece.starts_with(|c: char| c.is_alphanumeric() || c == '_')) {
+            Some(at) => out = format!("{}_{{{},{axis}}}", &out[..at], &out[at + 1..]),
+            None => out.push_str(&comma),
+        }
+        out.push_str(piece);
+    }
+    out
 }
 
 /// `v = √(2gh) just before the hit` as what the name `v_before` is where v is asked of another moment; without the words else.
@@ -254,6 +277,12 @@ fn is_letters(word: &str) -> bool {
 
 /// Words before a line that tries a special case.
 const TRIALS: &str = "check|test|special case|in particular|especially|e.g.|for example|then";
+
+/// An equation and the one in brackets behind it: `u = 2 √(g l) (R = −m g)`.
+pub(super) fn beside(text: &str) -> Option<[&str; 2]> {
+    let both = text.trim_end().strip_suffix(')')?.rsplit_once(" (")?;
+    (relates(both.0) && relates(both.1)).then_some([both.0, both.1])
+}
 
 /// What a line supposes and what follows then: `For θ = 0: ω = 3v/(2l)`, `If e = 1, E = 0`, `Check: M = 0 gives a = g`.
 pub(super) fn supposition(text: &str) -> Option<(&str, Vec<&str>)> {

@@ -6,6 +6,7 @@ use super::super::behind::{Named, behind, keeps_energy};
 use super::super::belief::BELIEFS;
 use super::super::relation::solve_for;
 use super::super::{Diagnosis, Options};
+use super::bind::angular_momenta;
 use super::cause::{MOST_STEPS, size_in};
 use super::link::in_vectors;
 use super::sought::Sought;
@@ -169,6 +170,9 @@ impl Desk<'_> {
             return Vec::new();
         };
         let turned = self.turned(left, right);
+        if let Some(arm) = self.other_arm(left - right).filter(|_| turned.is_none()) {
+            return vec![arm];
+        }
         let mut found: Vec<Diagnosis> = turned
             .or_else(|| self.own_value([left, right], true))
             .into_iter()
@@ -255,6 +259,43 @@ impl Desk<'_> {
         found.next()
     }
 
+    /// What an own name was meant to be where it would have to be another one in a line: what the scene has, where its value is
+    /// none, and neither given nor a part of what was said; or the same with one sign turned, or with a cosine for a sine.
+    pub(super) fn meant_by(
+        &self,
+        gap: &Expr,
+        name: &Symbol,
+        needed: Option<&Expr>,
+    ) -> Option<Expr> {
+        // What only has another name was not worked out.
+        let value = self.with_own(self.own.get(name)?);
+        let value = Some(&value).filter(|value| value.as_symbol().is_none())?;
+        let given = |e: &Expr| {
+            e.as_symbol()
+                .is_some_and(|n| self.sheet.scene.parameter(n).is_some())
+        };
+        let part = |e: &Expr| value.terms().contains(e) || value.terms().contains(&-e);
+        let truth = needed.and_then(|needed| self.of_scene(needed));
+        let truth = truth.filter(|truth| !given(truth) && !part(truth));
+        if truth.is_some() {
+            return truth.filter(|_| self.of_scene(value).is_none());
+        }
+        let terms = value.terms().iter().take(MOST_TERMS);
+        let others = terms.flat_map(|term| {
+            let others = [
+                Some(-term).filter(|_| value.terms().len() > 1),
+                arcs_exchanged(term),
+            ];
+            others
+                .into_iter()
+                .flatten()
+                .map(move |other| value - term + other)
+        });
+        let mut others = others
+            .filter(|other| self.all_zero(&[gap.put(name, other)], &BTreeMap::new()) == Some(true));
+        others.next()
+    }
+
     /// What the scene has that a value is: a moment of inertia, or a velocity or spin, also as it comes into an impact.
     fn of_scene(&self, value: &Expr) -> Option<Expr> {
         let none = BTreeMap::new();
@@ -264,11 +305,43 @@ impl Desk<'_> {
         }
         let moments = self.moments.iter().map(|(_, values)| values);
         let all = moments.chain([&self.closed]).flat_map(BTreeMap::values);
+        let momenta = angular_momenta(self.sheet);
         let bodies = self.sheet.impacts.iter().flat_map(|scene| &scene.bodies);
         let before = bodies.flat_map(|b| b.velocity.iter().chain([&b.spin]));
-        let all: BTreeSet<&Expr> = all.chain(before).filter(|e| !e.is_zero()).collect();
+        let all = all.chain(before).chain(&momenta);
+        let all: BTreeSet<&Expr> = all.filter(|e| !e.is_zero()).collect();
         let same = |truth: &&Expr| self.all_zero(&[&value - *truth], &none) == Some(true);
         all.into_iter().take(MOST_VALUES).find(same).cloned()
+    }
+
+    /// The arm of an impulse with which a balance of moments holds, where the scene has such a distance.
+    fn other_arm(&self, gap: Expr) -> Option<Diagnosis> {
+        let is_impulse = |q: &&Question| matches!(q.ask, Ask::Impulse { .. });
+        let mut asked = self.sheet.scene.questions.iter().filter(is_impulse);
+        let gap = self.with_own(&gap);
+        asked.find_map(|q| {
+            let name = Symbol::from(q.name.as_str());
+            let truth = self.closed.get(&name).filter(|_| gap.mentions(&name))?;
+            let arm = gap.derivative(&name);
+            let rest = gap.put(&name, &Expr::zero());
+            let places = self.sheet.scene.arms().into_iter().flat_map(|(_, at)| at);
+            let places = places.flat_map(|at| [-&at, at]).filter(|at| !at.is_zero());
+            let places: BTreeSet<Expr> = places.collect();
+            let mut others = places.iter().filter(|at| **at != arm);
+            let needed = others.find(|at| {
+                let gap = &rest + &(*at * truth);
+                self.all_zero(&[gap], &BTreeMap::new()) == Some(true)
+            })?;
+            let [needed, arm] = [needed, &arm].map(|e| {
+                let text = formula::write_plain(e);
+                text.trim_start_matches('-').to_string()
+            });
+            (!arm.contains(&*name)).then(|| {
+                let words = format!("this line holds with the arm {needed} of {name}, where you have {arm}");
+                let hint = "the arm is the distance from the axis to the line along which the impulse acts";
+                Diagnosis::new("ARM", words, hint)
+            })
+        })
     }
 
     /// The term with whose other sign an equation holds.

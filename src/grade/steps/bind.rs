@@ -1,0 +1,411 @@
+//! What a name stands for that a solution need not say: `v_A` beside a body A, `u'` beside a given u, and the velocities in
+//! a balance of momenta, told by the masses before them.
+//!
+//! A name that is found in such a way has its true value from the start, so that a line about it can be wrong.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::super::believed::Story;
+use super::super::sheet::Sheet;
+use super::Desk;
+use super::link::Link;
+use super::names::{MARKS, readings};
+use crate::derive::{Moment, Names};
+use crate::expr::{Expr, Symbol, cross, minus};
+use crate::formula::{self, Content};
+use crate::laws::{Geometry, Unknown};
+use crate::scene::{Ask, Scene};
+
+/// Most readings of names that are tried.
+const MOST_READINGS: usize = 4;
+/// Most names in a balance of momenta.
+const MOST_VELOCITIES: usize = 4;
+
+/// Names with what they stand for.
+pub(super) type Values = BTreeMap<Symbol, Expr>;
+
+/// Velocities along x and y and spins of the bodies before and after an impact.
+struct Around<'s> {
+    scene: &'s Scene,
+    motion: Values,
+    when: &'s str,
+    before: Vec<[Expr; 3]>,
+    after: Vec<Option<[Expr; 3]>>,
+}
+
+impl<'s> Around<'s> {
+    fn new(scene: &'s Scene, when: &'s str, motion: Values) -> Around<'s> {
+        let (names, geometry) = (Names::of(scene), Geometry::symbolic(scene));
+        let value = |unknown: Unknown| {
+            let value = motion.get(names.plain(unknown))?.clone();
+            Some(if names.is_reversed(unknown) {
+                -value
+            } else {
+                value
+            })
+        };
+        let bodies = 0..scene.bodies.len();
+        let before = bodies.clone().map(|b| {
+            let [x, y] = geometry.velocity_before(b, &scene.bodies[b].center);
+            [x, y, geometry.before(b).1.clone()]
+        });
+        let after = bodies.map(|b| {
+            let spin = value(Unknown::Spin(b)).unwrap_or(Expr::zero());
+            let [x, y] = [0, 1].map(|axis| value(Unknown::Velocity(b, axis)));
+            Some([x?, y?, spin])
+        });
+        Around {
+            before: before.collect(),
+            after: after.collect(),
+            scene,
+            motion,
+            when,
+        }
+    }
+
+    /// A component of a body's velocity, or its spin.
+    fn value(&self, b: usize, part: usize, after: bool) -> Option<&Expr> {
+        match after {
+            true => self.after[b].as_ref().map(|all| &all[part]),
+            false => Some(&self.before[b][part]),
+        }
+    }
+
+    /// The bodies that can move.
+    fn moving(&self) -> impl Iterator<Item = usize> {
+        let bodies = self.scene.bodies.iter().enumerate();
+        bodies.filter(|(_, body)| !body.is_fixed()).map(|(b, _)| b)
+    }
+}
+
+/// All impacts of a scene, each with what comes in and the motion after it.
+fn impacts(sheet: &Sheet) -> Vec<Around<'_>> {
+    if sheet.story.is_none() {
+        let motion = sheet.derivation.motion_by_name();
+        let motion = motion.map(|(_, name, value)| (name, value)).collect();
+        return vec![Around::new(&sheet.scene, "the impact", motion)];
+    }
+    let each = sheet.impacts.iter().zip(&sheet.moments);
+    let each = each.map(|(scene, (when, motion)): (_, &Moment)| {
+        let when = when.trim_start_matches("just after ");
+        Around::new(scene, when, motion.clone())
+    });
+    each.collect()
+}
+
+/// Angular momenta of all that moves about the places of a scene, just before its impacts.
+pub(super) fn angular_momenta(sheet: &Sheet) -> Vec<Expr> {
+    let about = |around: &Around, at: &[Expr; 2]| {
+        let of = around.moving().map(|b| {
+            let (body, [x, y, spin]) = (&around.scene.bodies[b], &around.before[b]);
+            let moment = cross(&minus(&body.center, at), &[x.clone(), y.clone()]);
+            &body.mass * &moment + &body.inertia * spin
+        });
+        Expr::sum(of)
+    };
+    let all = impacts(sheet);
+    let each = all.iter().flat_map(|around| {
+        let (points, hinges) = (&around.scene.points, &around.scene.hinges);
+        let places = points
+            .iter()
+            .map(|p| &p.at)
+            .chain(hinges.iter().map(|h| &h.at));
+        places
+            .take(MOST_READINGS)
+            .map(|at| about(around, at))
+            .collect::<Vec<_>>()
+    });
+    each.flat_map(|h| [-&h, h]).collect()
+}
+
+/// The body and the part of its motion that a name speaks of: `v_A`, `v_{A,x}`, and `v_x` where nothing else moves; 0 and 1
+/// for the axes, 2 for the spin.
+fn spoken(all: &[Around], base: &str, index: &str) -> Option<(usize, usize)> {
+    let first = all.first()?;
+    let plain = |text: &str| text.replace(['_', ',', ' '], "");
+    let index = plain(index);
+    let lone = first.moving().count() == 1;
+    let is_point = |name: &str| first.scene.points.iter().any(|p| p.name == name);
+    first.moving().find_map(|b| {
+        let name = Some(&first.scene.bodies[b].name).filter(|name| !is_point(name));
+        let name = name.map_or(String::from("?"), |name| plain(name));
+        let rest = index.strip_prefix(&name);
+        let rest = rest.or_else(|| {
+            lone.then(|| index.strip_prefix('G').unwrap_or(&index))
+                .filter(|rest| !rest.is_empty())
+        });
+        let moves = |axis: usize| {
+            let times = all.iter().flat_map(|a| [(a, false), (a, true)]);
+            let mut values = times.filter_map(|(a, after)| a.value(b, axis, after));
+            values.any(|value| !value.is_zero())
+        };
+        let part = match (base, rest?) {
+            ("v", "x") => 0,
+            ("v", "y") => 1,
+            ("v", "") if moves(0) != moves(1) => usize::from(moves(1)),
+            ("omega", "") if !first.scene.bodies[b].is_particle() => 2,
+            _ => return None,
+        };
+        Some((b, part))
+    })
+}
+
+impl Desk<'_> {
+    /// The names of a solution that the desk does not know.
+    fn unknown_names(&self, text: &str) -> BTreeSet<Symbol> {
+        let symbols = self.symbols("");
+        let used = readings(&self.sheet.scene, text);
+        let used = used.iter().flat_map(|reading| reading.symbols());
+        // `vx` is `v_x`.
+        let words = text.split(|c: char| !c.is_ascii_alphanumeric());
+        let joined = words.filter_map(|word| match word.as_bytes() {
+            [b'v', axis @ b'A'..=b'z'] => Some(format!("v_{}", char::from(*axis)).into()),
+            _ => None,
+        });
+        // A volt is no name of the scene.
+        let known = |name: &Symbol| {
+            let reading = formula::read(&formula::latex_name(name), &symbols).ok();
+            reading.is_some_and(|r| r.expr().is_some_and(|e| e.as_symbol().is_some()))
+        };
+        let all: BTreeSet<Symbol> = used.chain(joined).collect();
+        let plain = |name: &Symbol| !formula::has_arrow(name) && !formula::is_component(name);
+        all.into_iter()
+            .filter(|name| plain(name) && !known(name))
+            .collect()
+    }
+
+    /// Learns names of velocities and spins by the bodies in their index. One without a mark is that before the impact where
+    /// it stands with a mark as well.
+    pub(super) fn know_bodies(&mut self, text: &str) {
+        let all = impacts(self.sheet);
+        let used = self.unknown_names(text);
+        let named: Vec<_> = used
+            .iter()
+            .filter_map(|name| {
+                let (base, index, mark) = formula::vector_name(&formula::with_arrow(name)?)?;
+                let (body, part) = spoken(&all, &base, &index)?;
+                Some((name, (base, index), mark, body, part))
+            })
+            .collect();
+        let moves = self.sheet.story.as_ref().is_some_and(Story::has_motions);
+        // The end of a motion has such marks as well.
+        let is_after = |mark: &str| mark == "'" || mark == "^+" && !moves;
+        let mut of: Vec<Values> = vec![Values::new(); all.len()];
+        for (name, key, mark, body, part) in &named {
+            let mut others = named.iter();
+            let beside = others.any(|(_, other, mark, ..)| other == key && is_after(mark));
+            let after = match &**mark {
+                "" => !beside,
+                "^-" if !moves => false,
+                mark if is_after(mark) => true,
+                _ => continue,
+            };
+            if beside && mark.is_empty() {
+                let marks = MARKS.iter().map(|mark| ((*name).clone(), *mark));
+                self.own_with_mark.extend(marks);
+            }
+            for (around, values) in all.iter().zip(&mut of) {
+                let value = around.value(*body, *part, after).cloned();
+                values.extend(value.map(|value| ((*name).clone(), value)));
+            }
+            let mut asked = self.sheet.scene.questions.iter();
+            let asked = asked.find(|q| match &q.ask {
+                Ask::Velocity { body: b, point, .. } => b == body && point.is_none() && *part < 2,
+                Ask::Spin { body: b, .. } => b == body && *part == 2,
+                _ => false,
+            });
+            if let Some(q) = asked.filter(|_| after && all.len() == 1) {
+                let part = format!("{}_{}", q.name, ["x", "y", ""][*part]);
+                let names = [part.as_str(), q.name.as_str()].map(Symbol::from);
+                let known = names.into_iter().find(|n| self.closed.contains_key(n));
+                self.stands_for
+                    .extend(known.map(|known| ((*name).clone(), known)));
+            }
+        }
+        let names: BTreeSet<&Symbol> = of.iter().flat_map(Values::keys).collect();
+        self.learned
+            .extend(names.iter().map(|name| (*name).clone()));
+        if moves {
+            self.by_body = self.learned.clone();
+        }
+        match of.as_slice() {
+            // What is meant otherwise stays.
+            [one] => {
+                for (name, value) in one {
+                    let known = self.closed.entry(name.clone());
+                    known.or_insert_with(|| value.clone());
+                }
+            }
+            _ => {
+                let later = all.iter().zip(of).filter(|(_, values)| !values.is_empty());
+                let later = later.map(|(around, values)| {
+                    let mut motion = around.motion.clone();
+                    motion.extend(values);
+                    (format!("just after {}", around.when), motion)
+                });
+                self.moments.extend(later.collect::<Vec<_>>());
+            }
+        }
+    }
+
+    /// Whether a name of a velocity by its body is the solution's own from here on: `v_A = …` may be of any moment of a motion, until
+    /// a line holds with it just after an impact.
+    pub(super) fn forgets(&mut self, links: &[Link], fails: bool) -> bool {
+        let sides = links.iter().flat_map(|link| &link.sides);
+        let used: BTreeSet<Symbol> = sides.flat_map(Content::symbols).collect();
+        if !fails {
+            self.by_body.retain(|name| !used.contains(name));
+            return false;
+        }
+        let mut names = self.by_body.intersection(&used);
+        let (Some(name), None) = (names.next().cloned(), names.next()) else {
+            return false;
+        };
+        self.by_body.remove(&name);
+        self.learned.remove(&name);
+        self.closed.remove(&name);
+        for (_, values) in &mut self.moments {
+            values.remove(&name);
+        }
+        true
+    }
+
+    /// Whether a line that holds gives a name in what is given.
+    pub(super) fn is_stated(&self, name: &Symbol) -> bool {
+        let given = |other: &Symbol| other == name || self.sheet.scene.parameter(other).is_some();
+        let mut held = self.stated.iter().filter(|(cause, _)| cause.is_none());
+        held.any(|(_, gap)| gap.mentions(name) && gap.symbols().iter().all(given))
+    }
+
+    /// What names of one's own stand for by the balances of momenta they stand in, and with a prime beside what is given.
+    pub(super) fn bindings(&self, text: &str) -> Vec<Values> {
+        let all = impacts(self.sheet);
+        let unknown = self.unknown_names(text);
+        let mut found = vec![Values::new()];
+        for name in &unknown {
+            let ways = self.after_given(&all, name);
+            if !ways.is_empty() {
+                let with = |values: &Values| {
+                    let one = |way: &Expr| {
+                        let mut values = values.clone();
+                        values.insert(name.clone(), way.clone());
+                        values
+                    };
+                    ways.iter().map(one).collect::<Vec<_>>()
+                };
+                found = found.iter().flat_map(with).take(MOST_READINGS).collect();
+            }
+        }
+        for reading in readings(&self.sheet.scene, text) {
+            let Content::Relations(sides, _) = &reading.content else {
+                continue;
+            };
+            let [Some(left), Some(right)] = [sides.first(), sides.get(1)].map(|side| side?.expr())
+            else {
+                continue;
+            };
+            if sides.len() > 2 {
+                continue;
+            }
+            let gap = left - right;
+            let with = |values: &Values| {
+                let gap = gap.substitute(values);
+                let used = gap.symbols();
+                let open: Vec<&Symbol> = unknown.iter().filter(|n| used.contains(*n)).collect();
+                let ways = self.momenta(&all, &gap, &open);
+                let ways = ways.into_iter().map(|mut way| {
+                    way.extend(values.clone());
+                    way
+                });
+                let ways: Vec<Values> = ways.collect();
+                if ways.is_empty() {
+                    vec![values.clone()]
+                } else {
+                    ways
+                }
+            };
+            found = found.iter().flat_map(with).take(MOST_READINGS).collect();
+        }
+        found
+    }
+
+    /// What a given velocity or spin is after the impact, which has its letter with a prime; a velocity may be counted either way,
+    /// as a ball that is thrown back has a speed.
+    fn after_given(&self, all: &[Around], name: &Symbol) -> Vec<Expr> {
+        let given = name.strip_suffix('\'').map(Symbol::from);
+        let Some(given) = given.filter(|given| self.sheet.scene.parameter(given).is_some()) else {
+            return Vec::new();
+        };
+        let given = Expr::symbol(&given);
+        let each = all.iter().flat_map(|around| {
+            let parts = around
+                .moving()
+                .flat_map(|b| [0, 1, 2].map(|part| (b, part)));
+            parts.map(move |(b, part)| (around, b, part))
+        });
+        let mut ways = each.filter_map(|(around, b, part)| {
+            let before = around.value(b, part, false)?;
+            let after = around.value(b, part, true)?.clone();
+            let with = *before == given;
+            let against = *before == -&given;
+            (with || against).then(|| match (part, with) {
+                (2, true) => vec![after],
+                (2, false) => vec![-after],
+                (_, true) => vec![after.clone(), -after],
+                (_, false) => vec![-&after, after],
+            })
+        });
+        ways.next().unwrap_or_default()
+    }
+
+    /// The velocities that names in an equation are where it is a balance of momenta: each has the mass of its body before it.
+    fn momenta(&self, all: &[Around], gap: &Expr, names: &[&Symbol]) -> Vec<Values> {
+        if names.is_empty() || names.len() > MOST_VELOCITIES {
+            return Vec::new();
+        }
+        let none = Values::new();
+        let zero = |e: Expr| self.all_zero(&[e], &none) == Some(true);
+        let factors: Vec<Expr> = names.iter().map(|name| gap.derivative(name)).collect();
+        if factors.iter().any(|k| names.iter().any(|n| k.mentions(n))) {
+            return Vec::new();
+        }
+        let mut ways = Vec::new();
+        for (around, axis) in all.iter().flat_map(|around| [(around, 0), (around, 1)]) {
+            let each = factors.iter().map(|factor| {
+                let of = |b: &usize| {
+                    let mass = &around.scene.bodies[*b].mass;
+                    zero(factor - mass) || zero(factor + mass)
+                };
+                let bodies = around.moving().filter(of);
+                let times = bodies.flat_map(|b| [(b, true), (b, false)]);
+                let moves = times.filter(|(b, after)| {
+                    let value = around.value(*b, axis, *after);
+                    value.is_some_and(|value| !value.is_zero())
+                });
+                moves.collect::<Vec<_>>()
+            });
+            let each: Vec<Vec<(usize, bool)>> = each.collect();
+            let mut chosen: Vec<Vec<(usize, bool)>> = vec![Vec::new()];
+            for times in &each {
+                let with = |before: &Vec<(usize, bool)>| {
+                    let free = times.iter().filter(|time| !before.contains(time));
+                    let with = free.map(|time| [before.as_slice(), &[*time]].concat());
+                    with.collect::<Vec<_>>()
+                };
+                chosen = chosen.iter().flat_map(with).collect();
+            }
+            let after = |way: &Vec<(usize, bool)>| way.iter().any(|(_, after)| *after);
+            for way in chosen.into_iter().filter(after) {
+                let values = names.iter().zip(way).filter_map(|(name, (b, after))| {
+                    Some(((*name).clone(), around.value(b, axis, after)?.clone()))
+                });
+                let values: Values = values.collect();
+                if zero(gap.substitute(&values)) {
+                    ways.push(values);
+                }
+            }
+        }
+        ways.truncate(MOST_READINGS);
+        ways
+    }
+}
