@@ -269,10 +269,18 @@ impl Field {
         match self.names.get(name) {
             Some(v) => *v,
             None => {
-                let v = self.adjoin(Kind::Symbol(name.clone()));
-                self.names.insert(name.clone(), v);
-                self.relate_units(name);
-                v
+                // The component of a unit vector that the other one follows from comes before it.
+                let mut pairs = self.domains.unit_vectors.iter();
+                let free = pairs.find_map(|[a, b]| (b == name && a != name).then(|| a.clone()));
+                let free = free.filter(|free| !self.names.contains_key(free));
+                for name in free.iter().chain([name]) {
+                    let v = self.adjoin(Kind::Symbol(name.clone()));
+                    self.names.insert(name.clone(), v);
+                }
+                for name in free.iter().chain([name]) {
+                    self.relate_units(name);
+                }
+                self.names[name]
             }
         }
     }
