@@ -54,7 +54,10 @@ const LAYERS: &[(&str, &str)] = &[
         "expr domain dimension algebra formula scene answer laws derive verify story",
     ),
     ("worked", "scene answer derive verify story figure solution"),
-    ("check", "expr domain dimension formula scene numeric"),
+    (
+        "check",
+        "expr interval domain dimension formula scene numeric",
+    ),
     (
         "render",
         "expr domain dimension formula scene answer laws numeric derive verify story grade emit report figure plot solution worked",

@@ -7,7 +7,7 @@ use super::Check;
 pub use crate::algebra::tidy;
 use crate::algebra::{self, Field, Sign};
 use crate::domain::{Domains, roles, samples, samples_until};
-use crate::expr::{Expr, Node, Point, Symbol};
+use crate::expr::{Expr, Node, Point};
 use crate::formula::Sentence;
 use crate::interval::{Interval, Outcome, evaluate};
 
@@ -298,7 +298,7 @@ pub(super) fn decisive(e: &Expr, domains: &Domains, open: bool) -> Expr {
 }
 
 /// What has the sign of `a − √(b + c)` without the root, where a is known not to be negative; likewise for `√(b + c) − a`.
-/// A condition such as u ≥ μ √(2 g h) reads better as it is.
+/// A condition such as u ≥ μ √(2 g h) reads better as it is, and h ≥ √(H h) as h ≥ H.
 fn squared(e: &Expr, domains: &Domains) -> Option<Expr> {
     let Node::Sum(terms) = e.node() else {
         return None;
@@ -313,9 +313,6 @@ fn squared(e: &Expr, domains: &Domains) -> Option<Expr> {
     let ([root], plain) = (rooted.as_slice(), Expr::sum(plain.into_iter().cloned())) else {
         return None;
     };
-    if !has_sum(root) {
-        return None;
-    }
     let proved = |e: &Expr| match sign(e, domains) {
         Seen::Proved(sign) => Some(sign.is_not_negative()),
         _ => None,
@@ -326,21 +323,6 @@ fn squared(e: &Expr, domains: &Domains) -> Option<Expr> {
         (false, true) => -difference,
         _ => return None,
     };
-    Some(essential(&difference, domains)).filter(|e| !has_root(&e))
-}
-
-/// What rounding may make of the value of a formula.
-pub fn rounding(e: &Expr, point: &Point<f64>) -> f64 {
-    let as_it_is = |(name, value): (&Symbol, &f64)| {
-        let [low, high] = [*value; 2];
-        (name.clone(), Outcome::Value(Interval { low, high }))
-    };
-    let exact = Point {
-        values: point.values.iter().map(as_it_is).collect(),
-        ..Point::default()
-    };
-    match evaluate(e, &exact) {
-        Outcome::Value(enclosed) => enclosed.high - enclosed.low,
-        Outcome::Undefined | Outcome::Unknown => 0.0,
-    }
+    let without = essential(&difference, domains);
+    (!has_root(&&without) && (has_sum(root) || without.size() < e.size())).then_some(without)
 }

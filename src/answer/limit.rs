@@ -8,7 +8,7 @@
 use num_traits::Signed;
 
 use super::Check;
-use super::calc::{Seen, is_zero, rounding, sign, tidy};
+use super::calc::{Seen, is_zero, sign, tidy};
 use super::powers::{self, Found, Tends, by_powers, not_zero};
 use super::solve::{stated, within};
 use super::taylor::{Side, Taylor, rooted};
@@ -17,6 +17,7 @@ use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, roles, samples};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Sentence, sentence, write_plain};
+use crate::interval::rounding;
 
 /// Highest power among which the leading one is looked for.
 const LEADING: usize = 6;

@@ -83,6 +83,8 @@ struct Claim {
     left: Expr,
     right: Expr,
     defines: Option<Symbol>,
+    /// What must be ≥ 0 for it.
+    needs: Vec<Expr>,
 }
 
 /// Replays every step of a solution file.
@@ -245,6 +247,9 @@ fn collect(
         };
         let of = format!("step {id}");
         let defines = step["defines"].as_str().map(Symbol::from);
+        let needs = step["needs"].as_array().into_iter().flatten();
+        let needs = needs.map(|need| read(need, &known.symbols, &of));
+        let needs: Vec<Expr> = needs.collect::<Result<_, _>>()?;
         for list in ["before", "after"] {
             for claim in step[list].as_array().into_iter().flatten() {
                 let side = |name: &str| read(&claim[name], &known.symbols, &of);
@@ -263,6 +268,7 @@ fn collect(
                     left,
                     right,
                     defines,
+                    needs: needs.clone(),
                 });
                 if claims.equal.len() > MOST {
                     return unusable(format!("more than {MOST} claims"));

@@ -7,6 +7,7 @@ use serde_json::Value;
 use super::{POINTS, Report, Unusable, read as formula, unusable, written};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Symbols;
+use crate::interval::rounding;
 use crate::numeric;
 use crate::scene::Scene;
 
@@ -82,20 +83,27 @@ pub(super) fn replay(scene: &Scene, near: &Near, report: &mut Report) {
             let left = near.left.evaluate(&point)?;
             let right = near.right.evaluate(&point)?;
             let both = left.is_finite() && right.is_finite();
-            both.then(|| ((left - right).abs(), left.abs().max(right.abs())))
+            let rounding = [&near.left, &near.right].map(|e| rounding(e, &point));
+            let size = left.abs().max(right.abs());
+            both.then(|| ((left - right).abs(), size, rounding[0] + rounding[1]))
         };
         let closer = if near.order == 0 { 1024.0 } else { 8.0 };
         let found = [1.0, -1.0].into_iter().find_map(|way| {
-            let (far, scale) = apart(way / 128.0)?;
-            let (close, _) = apart(way / 128.0 / closer)?;
-            Some((far, close, scale))
+            let (far, scale, _) = apart(way / 128.0)?;
+            let (close, _, rounding) = apart(way / 128.0 / closer)?;
+            Some((far, close, scale, rounding))
         });
-        let Some((far, close, scale)) = found else {
+        let Some((far, close, scale, rounding)) = found else {
             continue;
         };
-        tried += 1;
         let least = 4.0 * 8f64.powi(near.order as i32);
-        if close > 1e-13 * scale && close * least > far {
+        let shrinks = close <= 1e-13 * scale || close * least <= far;
+        // What rounding may have left tells nothing.
+        if !shrinks && close <= rounding {
+            continue;
+        }
+        tried += 1;
+        if !shrinks {
             let why = format!(
                 "{closer} times closer the sides differ by {close:e} in place of {far:e}: too much for order {}",
                 near.order

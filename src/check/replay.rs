@@ -122,6 +122,9 @@ pub(super) fn compare(
                     doubles.values.insert(name.clone(), value);
                 }
             }
+            if !holds(&claim.needs, &doubles) {
+                continue;
+            }
             match compared(claim, &point, &doubles) {
                 Some(Ok(in_doubles)) => {
                     told.held = true;

@@ -265,6 +265,12 @@ pub(crate) fn parts_of(name: &str) -> Parts {
     let mut parts = Parts::default();
     let marks_at = name.find(['\'', '^']).unwrap_or(name.len());
     let (plain, marks) = name.split_at(marks_at);
+    let behind = marks.trim_start_matches('\'');
+    if behind.len() < marks.len() && behind.starts_with('_') {
+        // `v'_x` is `v_x'`.
+        let primes = &marks[..marks.len() - behind.len()];
+        return parts_of(&format!("{plain}{behind}{primes}"));
+    }
     parts.marks = marks.replace(['{', '}'], "");
     let base_end = plain
         .find(|c: char| c == '_' || c.is_ascii_digit())

@@ -9,7 +9,7 @@ pub mod dyadic;
 pub mod enclosure;
 mod series;
 
-use crate::expr::{Function, Point, Rational, Scalar};
+use crate::expr::{Expr, Function, Point, Rational, Scalar, Symbol};
 
 pub use double::Interval;
 pub use enclosure::{Big, Enclosure};
@@ -109,8 +109,24 @@ impl<T: Certified> Scalar for Outcome<T> {
 }
 
 /// What is known about an expression at a point, in the number type `T`.
-pub fn evaluate<T: Certified>(e: &crate::expr::Expr, at: &Point<Outcome<T>>) -> Outcome<T> {
+pub fn evaluate<T: Certified>(e: &Expr, at: &Point<Outcome<T>>) -> Outcome<T> {
     e.evaluate(at).unwrap_or(Outcome::Unknown)
+}
+
+/// What rounding may make of the value of a formula.
+pub fn rounding(e: &Expr, point: &Point<f64>) -> f64 {
+    let as_it_is = |(name, value): (&Symbol, &f64)| {
+        let [low, high] = [*value; 2];
+        (name.clone(), Outcome::Value(Interval { low, high }))
+    };
+    let exact = Point {
+        values: point.values.iter().map(as_it_is).collect(),
+        ..Point::default()
+    };
+    match evaluate(e, &exact) {
+        Outcome::Value(enclosed) => enclosed.high - enclosed.low,
+        Outcome::Undefined | Outcome::Unknown => 0.0,
+    }
 }
 
 #[cfg(test)]

@@ -106,7 +106,7 @@ fn meaning(m: &Meaning) -> Value {
 
 fn step(s: &Solution, x: &Step) -> Value {
     let claims = |list: &[Claim]| list.iter().map(|c| claim(s, c)).collect::<Vec<_>>();
-    json!({
+    let mut out = json!({
         "id": x.id,
         "before": claims(&x.before),
         "after": claims(&x.after),
@@ -122,7 +122,11 @@ fn step(s: &Solution, x: &Step) -> Value {
             "order": n.order,
         })).collect::<Vec<_>>(),
         "substeps": x.substeps.iter().map(|y| step(s, y)).collect::<Vec<_>>(),
-    })
+    });
+    if !x.needs.is_empty() {
+        out["needs"] = json!(needs(&x.needs));
+    }
+    out
 }
 
 fn claim(s: &Solution, c: &Claim) -> Value {

@@ -191,6 +191,9 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     let shown = claims(ask, answer, named.map(|f| (&symbol, f)));
     let reason = answer.put_in.first().map_or("what is asked", |p| p.2);
     let shown = (!shown.is_empty()).then(|| solution.step(Vec::new(), shown, reason));
+    if let (Some(_), Some(step)) = (&shown, solution.steps.last_mut()) {
+        step.needs = answer.needs.iter().map(|(_, e, _)| e.clone()).collect();
+    }
     if let Ask::Show { .. } = ask {
         lines.extend(identity(solution, scene, ask, answer, &shown));
     }

@@ -321,6 +321,8 @@ pub struct Step {
     pub scope: Option<String>,
     /// What must hold for the step.
     pub assumptions: Vec<String>,
+    /// What must be ≥ 0 for the step alone.
+    pub needs: Vec<Expr>,
     /// The step in smaller steps.
     pub substeps: Vec<Step>,
     /// The symbol the step introduces as an abbreviation, if it does.

@@ -154,6 +154,7 @@ impl Solution {
             reason: reason.to_string(),
             scope: None,
             assumptions: Vec::new(),
+            needs: Vec::new(),
             substeps: Vec::new(),
             defines: None,
             near: Vec::new(),

@@ -13,10 +13,10 @@ use super::integrate::points_of;
 use super::worlds::{self, World};
 use super::{Answer, Case, StageTold, State, Told};
 use crate::answer::Check;
-use crate::answer::calc::rounding;
 use crate::dimension::Dimension;
 use crate::domain::Domains;
 use crate::expr::{Expr, Point, Rational, Symbol};
+use crate::interval::rounding;
 use crate::numeric::follow::{self, BodyState, Component, Followed, Loss, Lost, Passed, What};
 use crate::scene::Scene;
 
