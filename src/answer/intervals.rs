@@ -38,10 +38,11 @@ pub(super) fn fill(
     let signs = between(parameter, gap, &zeros, domains);
     let negative = relation.is_below();
     let strict = matches!(relation, Relation::Less | Relation::Greater);
+    // All zeros are known: what is not negative between two of them is positive.
     let holds = |s: &Seen| match (s.is_negative(), s.is_positive()) {
         (true, _) => Some(negative),
         (_, true) => Some(!negative),
-        _ => None,
+        _ => s.side().map(|above| above != negative),
     };
     let all: Option<Vec<bool>> = (0..signs.len())
         .map(|i| {
@@ -75,11 +76,12 @@ fn ordered(roots: &[Root], domains: &Domains) -> Option<Vec<Expr>> {
     let mut sure = true;
     zeros.sort_by(|a, b| {
         let difference = sign(&(a - b), domains);
+        // Where two of them are the same, nothing lies between.
         if a == b {
             Ordering::Equal
-        } else if difference.is_negative() {
+        } else if difference.is_negative() || difference.side() == Some(false) {
             Ordering::Less
-        } else if difference.is_positive() {
+        } else if difference.is_positive() || difference.side() == Some(true) {
             Ordering::Greater
         } else {
             sure = false;

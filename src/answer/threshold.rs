@@ -327,7 +327,7 @@ fn without_idle(out: &mut Answer, parameter: &Symbol, gap: &Expr, domains: &Doma
     Expr::product(rest)
 }
 
-/// The domains within which there are such values: a symbol they are divided by is not zero.
+/// The domains within which there are such values: a symbol they are divided by is not zero, and all is so that each of them needs.
 fn exists(out: &mut Answer, roots: &Roots, domains: &Domains) -> Domains {
     let mut domains = domains.clone();
     let values = roots.inside.iter().map(|r| &r.value);
@@ -352,7 +352,12 @@ fn exists(out: &mut Answer, roots: &Roots, domains: &Domains) -> Domains {
         );
         out.assumptions.push(needed);
     }
-    domains
+    let [first, rest @ ..] = roots.inside.as_slice() else {
+        return domains;
+    };
+    let needs = first.needs.iter();
+    let needs = needs.filter(|need| rest.iter().all(|root| root.needs.contains(need)));
+    needs.fold(domains, |all, (e, closed)| all.given(e, *closed))
 }
 
 /// The sign of the difference at a place between its zero and the end of the domain on one side; zero where there is none.

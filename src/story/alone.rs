@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 
+use super::worlds::World;
 use super::{Case, StageTold, State, Told, second};
 use crate::answer::{self, Answer, Refused};
 use crate::derive;
@@ -89,7 +90,12 @@ fn about_answers(scene: &Scene, case: &Case) -> Result<Vec<Answer>, Refused> {
     let mut known = case.derivation.known();
     let mut out: Vec<Answer> = Vec::new();
     for question in scene.asked_of_answers() {
-        let needs = super::answer::of_impact(scene, case, question);
+        let mut needs = super::answer::of_impact(scene, case, question);
+        let world = World {
+            known: known.clone(),
+            ..World::default()
+        };
+        needs.extend(super::answer::needs(scene, &[], &world, question, &out));
         let part = super::answer::part(scene, &needs);
         let mut answers = answer::formulas(&part, question, &known)?.unwrap_or_default();
         answer::remember(scene, &answers, &mut known);

@@ -16,7 +16,7 @@ use crate::formula::{self, Sentence, sentence};
 use crate::scene::{Ask, ContactLaw, Question, Scene, StageKind};
 use crate::verify::possible::Rule;
 
-/// A step upwards from a value.
+/// A step away from a value.
 const STEP: &str = "\u{1}step";
 
 /// Something that must hold so that a scene gets to some answers.
@@ -136,7 +136,7 @@ fn is_of_outcomes(questions: &[Question], question: &Question) -> bool {
 }
 
 /// What must hold so that the scene gets to the answers that a question is about, in one of the ways it can go.
-pub(super) fn needs(
+pub(in crate::story) fn needs(
     scene: &Scene,
     stages: &[StageTold],
     world: &World,
@@ -149,9 +149,27 @@ pub(super) fn needs(
         }
         let fixed = fixed(q, &world.known);
         let all = needs(scene, stages, world, q, earlier).into_iter();
-        all.map(|need| need.put(&fixed, &scene.domains)).collect()
+        let all = all.map(|need| need.put(&fixed, &scene.domains));
+        all.chain(of_value(q, &world.known, earlier)).collect()
     });
     open(all, &scene.domains)
+}
+
+/// What the value of an answer needs, to be one of those that were asked for.
+fn of_value<'a>(
+    question: &'a Question,
+    known: &'a Known,
+    earlier: &'a [Answer],
+) -> impl Iterator<Item = Need> + 'a {
+    let value = known.get(question.name.as_str());
+    let mine = earlier.iter().filter(|a| a.question == question.name);
+    let needs = mine.flat_map(|a| &a.needs);
+    let needs = needs.filter(move |(of, ..)| Some(of) == value);
+    needs.map(|(_, excess, closed)| {
+        let so_that = format!("there is `{}`", question.name);
+        let told = sentence!("{}, so that {}", beyond(excess, *closed), &so_that);
+        Need::new(excess, *closed, Origin::Outcome(so_that), told)
+    })
 }
 
 /// The values of parameters at which a question about formulas is answered.
@@ -325,8 +343,9 @@ fn is_granted(need: &Need, ask: &Ask, answer: &Answer, domains: &Domains) -> boo
         Ask::Condition { parameter, .. } => match answer.range.as_slice() {
             // At that value the scene just gets there, or gets there from it on.
             [(of, relation, value)] if *of == Expr::symbol(parameter) => {
+                let domains = &answer.where_is(value, domains);
                 is_zero(&excess.put(parameter, value), domains) == Some(true)
-                    || is_upward(*relation) && holds_above(excess, parameter, value, domains)
+                    || holds_on(*relation, excess, parameter, value, domains)
             }
             _ => false,
         },
@@ -338,19 +357,23 @@ fn is_granted(need: &Need, ask: &Ask, answer: &Answer, domains: &Domains) -> boo
     }
 }
 
-fn is_upward(relation: formula::Relation) -> bool {
-    use formula::Relation::{Greater, GreaterEqual};
-    matches!(relation, Greater | GreaterEqual)
-}
-
-/// Whether something is proved not to be negative for every value of a parameter from this one on.
-fn holds_above(need: &Expr, symbol: &Symbol, from: &Expr, domains: &Domains) -> bool {
-    let step = Symbol::from(STEP);
+/// Whether something is proved not to be negative for every value of a parameter on the side of this one that a relation tells.
+fn holds_on(
+    relation: formula::Relation,
+    need: &Expr,
+    symbol: &Symbol,
+    from: &Expr,
+    domains: &Domains,
+) -> bool {
+    let step = Expr::symbol(STEP);
     let mut domains = domains.clone();
-    domains.symbols.insert(step.clone(), Domain::positive());
-    let above = from + &Expr::symbol(&step);
-    let there = need.put(symbol, &above);
-    calc::keeps_to(&there, true, &domains) == Some(true)
+    domains.symbols.insert(STEP.into(), Domain::positive());
+    let there = match relation.is_below() {
+        true => from - &step,
+        false => from + &step,
+    };
+    let there = need.put(symbol, &there);
+    relation != formula::Relation::Equal && calc::keeps_to(&there, true, &domains) == Some(true)
 }
 
 /// The questions whose answers the formulas of a question use by name.
