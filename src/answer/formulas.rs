@@ -66,6 +66,7 @@ pub fn formulas(
         Ask::Value { formula, .. } => Some(formula),
         Ask::Limit { of, .. } | Ask::Approximate { of, .. } => Some(of),
         Ask::Condition { .. } | Ask::Maximum { .. } | Ask::Show { .. } => None,
+        Ask::Friction { .. } => return Ok(Some(vec![no_coefficient(question)])),
         _ => return Ok(None),
     };
     let (domains, given) = match with_put_in(scene, question, known) {
@@ -101,6 +102,14 @@ pub fn formulas(
     let mut out = work(&format!("{name}_x"), Some(&Expr::symbol(&x)))?;
     out.extend(work(&format!("{name}_y"), Some(&Expr::symbol(&y)))?);
     Ok(Some(out))
+}
+
+/// The answer to a question for a coefficient of friction that there is not on the whole domain.
+pub fn no_coefficient(question: &Question) -> Answer {
+    let words = "coefficient of friction at which the contact does something else";
+    Answer::blank(question, &question.name, words).leave_open(
+        "no one value separates it on the whole domain; with values, or on a narrower domain, there may be one",
+    )
 }
 
 /// The domain where a question puts in values for parameters, ends of their intervals included, and what these ask for; `Err`

@@ -21,7 +21,7 @@ mod zeros;
 use std::collections::BTreeMap;
 use std::fmt;
 
-pub use formulas::{LONGEST, about, dimension_of, formulas, remember};
+pub use formulas::{LONGEST, about, dimension_of, formulas, no_coefficient, remember};
 pub use graph::{Curve, Graph, graphs};
 
 use crate::dimension::{Dimension, System};

@@ -170,8 +170,6 @@ pub enum Stop {
     Limit(String),
     /// Laws and givens contradict each other; the words name the law at which it shows.
     Contradiction(String),
-    /// A coefficient of friction was asked that does not exist; the words say why.
-    NoThreshold(String),
     /// Something else strikes beside a contact with friction; the words say what.
     Strikes(String),
 }
@@ -180,7 +178,7 @@ impl fmt::Display for Stop {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Stop::Limit(what) => write!(f, "stopped at a limit: {what}"),
-            Stop::NoThreshold(why) | Stop::Strikes(why) => f.write_str(why),
+            Stop::Strikes(why) => f.write_str(why),
             Stop::Contradiction(law) => write!(
                 f,
                 "the laws contradict each other: {law} cannot hold together with the others"

@@ -122,32 +122,28 @@ impl Expr {
         }
     }
 
-    /// The function of the expression.
+    /// The function of the expression; of the angle 0 its value.
     pub fn call(function: Function, argument: Expr) -> Expr {
-        Expr::new(Node::Call(function, argument))
+        match function {
+            Function::Sin | Function::Tan if argument.is_zero() => Expr::zero(),
+            Function::Cos if argument.is_zero() => Expr::one(),
+            _ => Expr::new(Node::Call(function, argument)),
+        }
     }
 
     /// Sine; sin 0 is 0.
     pub fn sin(&self) -> Expr {
-        self.turned(Function::Sin, 0)
+        Expr::call(Function::Sin, self.clone())
     }
 
     /// Cosine; cos 0 is 1.
     pub fn cos(&self) -> Expr {
-        self.turned(Function::Cos, 1)
+        Expr::call(Function::Cos, self.clone())
     }
 
     /// Tangent; tan 0 is 0.
     pub fn tan(&self) -> Expr {
-        self.turned(Function::Tan, 0)
-    }
-
-    /// A function of an angle with its value at zero.
-    fn turned(&self, function: Function, at_zero: i64) -> Expr {
-        match self.is_zero() {
-            true => Expr::from(at_zero),
-            false => Expr::call(function, self.clone()),
-        }
+        Expr::call(Function::Tan, self.clone())
     }
 
     /// Whether the expression has a value at every real point of its symbols: no quotient, root, logarithm and the like.

@@ -79,9 +79,9 @@ pub(crate) fn value(w: &Written, mode: Mode) -> Faulty<Value> {
                 _ => Err(w.fault("the index of a root is a whole number from 1 to 64")),
             }
         }
-        Shape::Call(function, argument) => scalar(call(*function, one(argument, mode)?)),
+        Shape::Call(function, argument) => scalar(Expr::call(*function, one(argument, mode)?)),
         Shape::Reciprocal(function, argument) => {
-            scalar(call(*function, one(argument, mode)?).powi(-1))
+            scalar(Expr::call(*function, one(argument, mode)?).powi(-1))
         }
         Shape::Bracket(inner) => value(inner, mode),
         Shape::Abs(inner) => scalar(match value(inner, mode)? {
@@ -124,15 +124,6 @@ pub(crate) fn one(w: &Written, mode: Mode) -> Faulty<Expr> {
 const UNREAD: &str = "a matrix stands where a number is expected";
 /// Most pieces of an entry of a product of matrices.
 const LARGEST_ENTRY: usize = 2_000;
-
-fn call(function: Function, argument: Expr) -> Expr {
-    match function {
-        Function::Sin => argument.sin(),
-        Function::Cos => argument.cos(),
-        Function::Tan => argument.tan(),
-        other => Expr::call(other, argument),
-    }
-}
 
 fn sum(w: &Written, terms: &[(Sign, Written)], mode: Mode) -> Faulty<Value> {
     let mut scalars = Vec::with_capacity(terms.len());

@@ -16,8 +16,11 @@ pub(super) fn of_parameters(scene: &Scene, asked: Vec<Question>) -> Vec<Question
         let formulas = question.ask.formulas();
         let mut put_in = question.ask.with().iter().map(|(_, e)| e);
         let is_known = |e: &Expr| e.symbols().is_subset(&known);
+        let is_open = matches!(question.ask, Ask::Friction { .. });
         if !formulas.is_empty() && formulas.iter().all(|e| is_known(e)) && put_in.all(is_known) {
             known.insert(question.name.as_str().into());
+            out.push(question);
+        } else if is_open {
             out.push(question);
         }
     }
@@ -32,8 +35,10 @@ pub(super) fn thresholds(
 ) -> Result<Vec<Question>, Stop> {
     let mut out = scene.questions.clone();
     for question in &mut out {
-        if let Ask::Friction { event, .. } = question.ask {
-            let formula = threshold(table, forms, event)?;
+        // Where there is none on the whole domain the question stays as it is, and is left open.
+        if let Ask::Friction { event, .. } = question.ask
+            && let Some(formula) = threshold(table, forms, event)?
+        {
             question.ask = Ask::Value {
                 formula,
                 with: Vec::new(),
@@ -49,24 +54,16 @@ pub(super) fn thresholds(
 }
 
 /// The coefficient of friction from which, or up to which, something happens.
-fn threshold(table: &Table, forms: &mut Forms, event: FrictionEvent) -> Result<Expr, Stop> {
+fn threshold(table: &Table, forms: &mut Forms, event: FrictionEvent) -> Result<Option<Expr>, Stop> {
     // A contact that would stick already in compression does so a fortiori by the end of restitution, and a law with a path
     // asks no more friction of it; so the latest way to stick has the least coefficient.
     use Mode::{InsideCone, OnCone, Slides, Sticks, SticksInCompression, SticksInRestitution};
     const STICKING: &[Mode] = &[SticksInRestitution, SticksInCompression, Sticks, InsideCone];
-    let (what, modes) = match event {
-        FrictionEvent::Sticks => ("sticks", STICKING),
-        FrictionEvent::Slides => ("slides", &[Slides, OnCone] as &[Mode]),
-        FrictionEvent::Jams => ("jams", &[] as &[Mode]),
+    let modes = match event {
+        FrictionEvent::Sticks => STICKING,
+        FrictionEvent::Slides => &[Slides, OnCone],
+        FrictionEvent::Jams => return Ok(table.jamming.clone()),
     };
-    let none = || {
-        Stop::NoThreshold(format!(
-            "no coefficient of friction separates where the contact {what} on the whole domain\nhint: give values, or narrow the domain"
-        ))
-    };
-    if event == FrictionEvent::Jams {
-        return table.jamming.clone().ok_or_else(none);
-    }
     let of_mode = |mode: &Mode| -> Vec<&Case> {
         let all = table.cases.iter();
         all.filter(|case| case.mode == *mode).collect()
@@ -75,15 +72,17 @@ fn threshold(table: &Table, forms: &mut Forms, event: FrictionEvent) -> Result<E
     let upward = event == FrictionEvent::Sticks;
     let mut bounds = Vec::new();
     for case in cases.iter().flatten() {
-        let bound = bound(table, forms, case, upward)?;
-        bounds.push((case.direction, bound.ok_or_else(none)?));
+        let Some(bound) = bound(table, forms, case, upward)? else {
+            return Ok(None);
+        };
+        bounds.push((case.direction, bound));
     }
-    match bounds.as_slice() {
-        [(Direction::Only(_) | Direction::Either, bound)] => Ok(bound.clone()),
+    Ok(match bounds.as_slice() {
+        [(Direction::Only(_) | Direction::Either, bound)] => Some(bound.clone()),
         // Either way the same, but for the sign that the direction of slip has.
-        [(_, one), (_, other)] if forms.tidy(&(one + other))?.is_zero() => forms.size(one),
-        _ => Err(none()),
-    }
+        [(_, one), (_, other)] if forms.tidy(&(one + other))?.is_zero() => Some(forms.size(one)?),
+        _ => None,
+    })
 }
 
 /// The least coefficient of friction of a case, or the largest; `None` where it has none.

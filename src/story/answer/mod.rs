@@ -506,7 +506,8 @@ fn threshold(question: &Question, ways: Vec<(usize, &StageTold, Way)>) -> Vec<An
                 formula, meaning, ..
             } = &asked.ask
             else {
-                continue;
+                out.push(answer::no_coefficient(question));
+                return out;
             };
             let mut answer = Answer::blank(question, &question.name, meaning.as_str());
             answer.form = Form::value(case.put_in(formula));
