@@ -24,6 +24,7 @@ use std::fmt;
 pub use formulas::{LONGEST, about, dimension_of, formulas, no_coefficient, remember};
 pub use graph::{Curve, Graph, graphs};
 
+use crate::algebra::Sign;
 use crate::dimension::{Dimension, System};
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, Vector};
@@ -279,6 +280,28 @@ impl Answer {
             Form::Value { closed, .. } => Some(closed),
             _ => None,
         }
+    }
+
+    /// The first condition of its value that the given values do not keep to: there it has no number. What bears on the
+    /// parameter that is sought says nothing of the value that the scene gives it.
+    pub fn broken(&self, scene: &Scene) -> Option<Sentence> {
+        self.formula()?;
+        let values = scene.values();
+        let sought: Vec<Symbol> = self
+            .range
+            .iter()
+            .flat_map(|(of, ..)| of.symbols())
+            .collect();
+        let is_broken = |(e, _): &(Expr, bool)| {
+            let bears = sought.iter().any(|s| e.mentions(s));
+            !bears && calc::constant(&e.substitute(&values)) == Some(Sign::Negative)
+        };
+        let mut each = self.assumptions.iter().flat_map(Sentence::conditions);
+        let (e, open) = each.find(is_broken)?;
+        Some(match open {
+            true => Sentence::positive(&e),
+            false => Sentence::not_negative(&e),
+        })
     }
 
     /// Its unit as a person says it; 1 for a plain number.

@@ -126,7 +126,7 @@ pub fn solve(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unso
                         Seen::Proved(s) => {
                             s == Sign::Positive || relation.closed && s.is_not_negative()
                         }
-                        Seen::Positive => true,
+                        // Seen at points is not proved.
                         _ => false,
                     };
                     if !sure {

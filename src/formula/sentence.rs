@@ -60,18 +60,30 @@ impl Sentence {
 
     /// Where it begins with a condition, what that says is positive, or not negative, and whether it is the former.
     pub fn condition(&self) -> Option<(Expr, bool)> {
-        let [Piece::Formula(left), Piece::Words(op), rest @ ..] = self.0.as_slice() else {
-            return None;
+        self.conditions().next()
+    }
+
+    /// The same of all conditions that it begins with, joined by "and".
+    pub fn conditions(&self) -> impl Iterator<Item = (Expr, bool)> {
+        let joined = |i: usize| match i {
+            0 => true,
+            _ => matches!(&self.0[i - 1], Piece::Words(words) if words == " and "),
         };
-        let Some(Piece::Formula(right)) = rest.first() else {
-            return None;
-        };
-        Some(match op.as_str() {
-            " ≥ " => (left - right, false),
-            " > " => (left - right, true),
-            " ≤ " => (right - left, false),
-            " < " => (right - left, true),
-            _ => return None,
+        let each = (0..self.0.len()).step_by(4);
+        let each = each.take_while(move |i| joined(*i));
+        each.map_while(|i| match self.0.get(i..i + 3)? {
+            [
+                Piece::Formula(left),
+                Piece::Words(op),
+                Piece::Formula(right),
+            ] => Some(match op.as_str() {
+                " ≥ " => (left - right, false),
+                " > " => (left - right, true),
+                " ≤ " => (right - left, false),
+                " < " => (right - left, true),
+                _ => return None,
+            }),
+            _ => None,
         })
     }
 

@@ -187,7 +187,9 @@ fn answer(scene: &Scene, told: &Told, a: &Answer) -> Value {
                 out["where"] = json!(definitions(scene, derivation, Some(short)));
                 out["closed"] = json!(write_plain(closed));
             }
-            if let Some(value) = super::answer_value(scene, derivation, closed) {
+            if a.broken(scene).is_none()
+                && let Some(value) = super::answer_value(scene, derivation, closed)
+            {
                 out["value"] = json!(value.approximate);
                 if let Some(exact) = value.exact {
                     out["value_exact"] = json!(exact.to_string());

@@ -198,7 +198,9 @@ pub(super) fn says(scene: &Scene, alone: Option<&Derivation>, a: &Answer) -> Str
 
 /// The number that an answer has at the given values, with its unit.
 fn number(scene: &Scene, alone: Option<&Derivation>, a: &Answer) -> Option<String> {
-    let closed = a.formula().filter(|e| !e.is_zero())?;
+    let closed = a
+        .formula()
+        .filter(|e| !e.is_zero() && a.broken(scene).is_none())?;
     let value = super::answer_value(scene, alone, closed)?.approximate;
     Some(match closed.is_arc() {
         true => format!(

@@ -96,6 +96,7 @@ impl Resolver<'_> {
                 at,
                 normal,
                 passes: law == ContactLaw::None && contact.passes.unwrap_or_default(),
+                is_string: false,
                 law,
             });
         }

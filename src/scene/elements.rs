@@ -215,6 +215,8 @@ pub struct Contact {
     pub law: ContactLaw,
     /// Whether one body goes through the other.
     pub passes: bool,
+    /// Whether a taut string pulls here: it may be fastened anywhere on a body, whichever way its outline faces.
+    pub is_string: bool,
 }
 
 impl Contact {

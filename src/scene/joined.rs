@@ -167,6 +167,7 @@ fn kept(stages: &[Stage], stage: &Stage) -> Option<(Keep, [usize; 2])> {
                 normal: None,
                 law: ContactLaw::Sticking,
                 passes: false,
+                is_string: false,
             }),
             // What slides does not turn, and what sticks to it goes where it goes.
             _ if slides || particle.is_some() => {

@@ -392,6 +392,7 @@ impl OneSided {
                 restitution: Expr::zero(),
             },
             passes: false,
+            is_string: self.is_string,
         }
     }
 

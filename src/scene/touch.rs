@@ -28,7 +28,8 @@ pub struct Misplaced {
 
 /// Whether something may lie inside the bodies at this contact, and not on their outlines alone.
 pub fn may_lie_inside(contact: &Contact) -> bool {
-    sticks(contact) || contact.law == ContactLaw::None && contact.normal.is_none()
+    let is_free = contact.law == ContactLaw::None && contact.normal.is_none();
+    sticks(contact) || contact.is_string || is_free
 }
 
 fn sticks(contact: &Contact) -> bool {

@@ -7,7 +7,9 @@ use crate::scene::Scene;
 
 /// ` = 1.2 m/s`, where the scene gives every value.
 pub(super) fn number(scene: &Scene, answer: &Answer) -> Option<String> {
-    let formula = answer.formula()?;
+    let formula = answer
+        .formula()
+        .filter(|_| answer.broken(scene).is_none())?;
     // What is plain already needs a number only for its unit.
     let is_plain = formula.symbols().iter().all(|s| s.as_ref() == "pi");
     if is_plain && (formula.is_zero() || answer.dimension.is_none()) {

@@ -34,7 +34,7 @@ use crate::answer::{Answer, Check, Refused, TOO_LONG};
 use crate::derive::{Derivation, Stop};
 use crate::domain::Domain;
 use crate::expr::{Expr, Point, Symbol, Vector, minus};
-use crate::formula::{Sentence, write_plain};
+use crate::formula::{Sentence, sentence, write_plain};
 use crate::scene::{Ask, Scene, Stage, StageKind, direction};
 use crate::verify::Proof;
 use crate::verify::possible::Possible;
@@ -420,15 +420,27 @@ const BRANCHES: usize = 32;
 
 /// Tells a scene: its one impact, or its stages. Where an impact has several outcomes, what follows it is told for each.
 pub fn tell(scene: &Scene) -> Result<Told, Refused> {
-    if !scene.has_stages() {
-        return alone::tell(scene);
+    let mut told = match scene.has_stages() {
+        true => {
+            let course = course(scene)?;
+            Told {
+                ended: course.ended,
+                ..answer::all(scene, course.stages)?
+            }
+        }
+        false => alone::tell(scene)?,
+    };
+    for answer in &mut told.answers {
+        let broken = answer.broken(scene);
+        let told = |words| {
+            sentence!(
+                "no number at the given values, which do not keep to {}",
+                words
+            )
+        };
+        answer.text.extend(broken.map(told));
     }
-    let course = course(scene)?;
-    let told = answer::all(scene, course.stages)?;
-    Ok(Told {
-        ended: course.ended,
-        ..told
-    })
+    Ok(told)
 }
 
 /// The stages of a scene as [`tell`] has them, without what is asked and without a second look at them: what a picture needs.
@@ -480,7 +492,8 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
                 }
             }
             let begins = several.then(|| before.clone());
-            let told = one(scene, &stages, &placed, (before, &given));
+            let told = one(scene, &stages, &placed, (before, &given))
+                .map(|told| motion::stays_in_front(&placed, &stages, branch, told));
             let mut told = match (told, begins) {
                 (Ok(told), _) => told,
                 (Err(why), _) if why.contradicts => {

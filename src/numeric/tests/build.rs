@@ -97,6 +97,7 @@ pub fn sticks(one: usize, two: usize, place: Vector, normal: Option<Vector>) -> 
         normal,
         law: ContactLaw::Sticking,
         passes: false,
+        is_string: false,
     }
 }
 
@@ -115,6 +116,7 @@ pub fn bounces(
         normal: Some(normal),
         law,
         passes: false,
+        is_string: false,
     }
 }
 

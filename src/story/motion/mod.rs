@@ -4,6 +4,7 @@
 //!
 //! In: a stage and the motion it begins with. Out: the motion it ends with, what is conserved and why, the time it takes.
 
+mod back;
 mod bearing;
 mod fall;
 mod linkage;
@@ -14,6 +15,7 @@ mod supposed;
 mod turn;
 mod wind;
 
+pub(super) use back::stays_in_front;
 pub(super) use fall::fall;
 pub(crate) use linkage::by_coordinate;
 pub(super) use linkage::{accelerations, linkage};

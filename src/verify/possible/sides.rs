@@ -65,6 +65,9 @@ pub(super) fn of(scene: &Scene, contact: &Contact) -> Sides {
             is_given: true,
         });
     }
+    if contact.is_string {
+        return sides;
+    }
     let bodies = contact.bodies.map(|b| &scene.bodies[b]);
     let faces = bodies.map(|b| faces(b, contact, domains));
     let mut oriented: [Vec<(usize, Vector, Sense)>; 2] = [Vec::new(), Vec::new()];
