@@ -293,3 +293,38 @@ fn what_was_before_and_what_belongs_to_a_point_can_be_asked() {
         }
     }
 }
+
+#[test]
+fn what_needs_an_open_answer_is_open_and_leaves_the_others_answered() {
+    let text = r#"{
+      "parameters": {"m": {"unit": "kg"}, "M": {"unit": "kg"}, "w": {"unit": "m/s"}, "E": {"unit": "J"}},
+      "gains_energy": true,
+      "bodies": {"one": {"shape": "particle", "mass": "m"}, "two": {"shape": "particle", "mass": "M"}},
+      "contacts": {"C": {"bodies": ["one", "two"], "at": [0, 0], "normal": "x"}},
+      "after": [{"velocity": "two", "relative_to": "one", "along": "x", "is": "w"}],
+      "questions": {
+        "u": {"velocity": "two", "along": "x"}, "K": {"energy": "after"},
+        "w0": {"solve": "w", "holds": "K = E"}, "u0": {"value": "u", "with": {"w": "w0"}}
+      }
+    }"#;
+    let scene = scene::read(text).expect("a sound scene");
+    let told = story::tell(&scene).expect("a scene that can be told");
+    let says = |name: &str| {
+        let mut all = told.answers.iter();
+        let mine = all.find(|a| a.name == name).expect("the answer");
+        mine.text.first().map(ToString::to_string)
+    };
+    let why = |name| says(name).unwrap_or_default();
+    // Across the line the carts may go anyhow.
+    assert!(told.answers[0].formula().is_some());
+    assert!(
+        why("w0").starts_with("not determined: it needs K, which depends on "),
+        "{}",
+        why("w0")
+    );
+    assert!(
+        why("u0").starts_with("not determined: it needs w0"),
+        "{}",
+        why("u0")
+    );
+}

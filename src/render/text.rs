@@ -131,7 +131,11 @@ pub fn answers(scene: &Scene, of: Option<&Told>, answers: &[Answer]) -> String {
         let alike: Vec<&Answer> = answers[i + 1..].iter().filter(|b| is_alike(a, b)).collect();
         let unit = a
             .formula()
-            .map(|_| a.unit_of_data(scene))
+            // A unit beside a number in the scene has become part of the formulas, in SI units.
+            .map(|_| match scene.units.is_empty() {
+                true => a.unit_of_data(scene),
+                false => a.unit(scene),
+            })
             .filter(|unit| unit != "1");
         let unit = unit.map_or(String::new(), |unit| format!(" [{unit}]"));
         let mut lines = vec![format!("{}{unit}", shared_words(a, &alike))];

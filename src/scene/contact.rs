@@ -13,7 +13,7 @@ use super::{
     beside_friction,
 };
 use crate::algebra;
-use crate::expr::{Expr, Vector, minus};
+use crate::expr::{Expr, Vector, dot, minus};
 
 /// Fields that laws need, with what they hold.
 const NORMAL: (&str, &str) = (
@@ -114,6 +114,11 @@ impl Resolver<'_> {
         let apart = a? + b?;
         let [from, to] = bodies.map(|b| self.center(b));
         let gap = minus(&to?, &from?);
+        // Between places in numbers the distance is known, whatever stands for the radii or however it was rounded.
+        let apart = match gap.iter().all(Expr::is_constant) {
+            true => dot(&gap, &gap).sqrt(),
+            false => apart,
+        };
         let along = |c: Expr| {
             let along = &c / &apart;
             algebra::tidy(&along, &scene.domains).unwrap_or(along)

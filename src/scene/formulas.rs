@@ -68,6 +68,7 @@ pub(super) struct Symbols {
     dimensions: BTreeMap<Symbol, Option<Dimension>>,
     used: RefCell<BTreeSet<Symbol>>,
     remarks: RefCell<Vec<String>>,
+    units: RefCell<Vec<String>>,
 }
 
 impl Symbols {
@@ -82,6 +83,7 @@ impl Symbols {
             dimensions,
             used: RefCell::default(),
             remarks: RefCell::default(),
+            units: RefCell::default(),
         }
     }
 
@@ -92,6 +94,7 @@ impl Symbols {
             dimensions: self.dimensions.clone(),
             used: RefCell::default(),
             remarks: RefCell::default(),
+            units: RefCell::default(),
         };
         names.iter().for_each(|name| out.add(name, &[""]));
         out
@@ -109,6 +112,7 @@ impl Symbols {
     pub fn absorb(&mut self, other: &Symbols) {
         self.used.borrow_mut().extend(other.used());
         self.remarks.borrow_mut().extend(other.remarks());
+        self.units.borrow_mut().extend(other.units());
     }
 
     /// Takes in a name with each of these endings, of unknown dimension.
@@ -133,6 +137,11 @@ impl Symbols {
     /// What is to be told of formulas that can be read in two ways.
     pub fn remarks(&self) -> Vec<String> {
         self.remarks.borrow().clone()
+    }
+
+    /// Units that stood beside numbers.
+    pub fn units(&self) -> Vec<String> {
+        self.units.borrow().clone()
     }
 
     /// Whether a formula read so far uses the symbol.
@@ -284,6 +293,9 @@ impl Symbols {
             }
         };
         let content = reading.content;
+        if let Content::Quantity(q) = &content {
+            self.units.borrow_mut().push(q.unit_text.clone());
+        }
         let e = content.expr();
         if let Some(e) = e.filter(|_| reading.choices > 0) {
             let remark = format!("`{}` is read as {}", formula.text, formula::write_plain(e));

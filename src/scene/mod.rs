@@ -228,6 +228,8 @@ pub struct Scene {
     pub gains_energy: bool,
     /// What the reader noticed that is no fault, such as a parameter that nothing uses.
     pub remarks: Vec<String>,
+    /// Units that stand beside numbers in its formulas, as they are written.
+    pub units: Vec<String>,
 }
 
 impl Scene {
@@ -292,7 +294,8 @@ impl Scene {
     /// The system of units that its data are in.
     pub fn system(&self) -> System {
         let given = self.parameters.iter().filter(|p| p.value.is_some());
-        System::of(given.map(|p| p.unit.as_str()))
+        let given = given.map(|p| p.unit.as_str());
+        System::of(given.chain(self.units.iter().map(String::as_str)))
     }
 
     /// Whether it goes through stages, and is not one impact.

@@ -87,6 +87,7 @@ pub(super) fn resolve(
     } = resolver;
     if faults.is_empty() {
         scene.remarks.extend(symbols.remarks());
+        scene.units = symbols.units();
         faults = check(&mut scene, &claims);
         let unused = unused(&scene, |name| symbols.is_used(name));
         // Data that a problem gives in vain are no oversight where the scene asks for them.

@@ -6,6 +6,7 @@ use super::words::{self, fill, say};
 use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Writer};
 use crate::answer::Form;
 use crate::expr::{Expr, Symbol};
+use crate::scene::Scene;
 
 impl Writer<'_> {
     /// All answers, with abbreviations below.
@@ -229,24 +230,22 @@ impl Writer<'_> {
                 "A check failed: do not use these results before the fault is found.",
             )];
         }
-        if self.detail() != Detail::Brief {
-            let is_sentence =
-                |c: &Inline| matches!(c, Inline::Text(t) if t.starts_with(words::AT_ONCE));
-            let (sentences, conditions): (Vec<Inline>, Vec<Inline>) =
-                self.conditions().into_iter().partition(is_sentence);
-            for sentence in sentences {
-                if let Inline::Text(words) = sentence {
-                    let lead = if text.is_empty() { "" } else { " " };
-                    text.push(say(format!("{lead}{}.", words::capital(&words))));
-                }
-            }
-            if !conditions.is_empty() {
-                let all = words::row(conditions, " and ");
+        let is_sentence =
+            |c: &Inline| matches!(c, Inline::Text(t) if t.starts_with(words::AT_ONCE));
+        let (sentences, conditions): (Vec<Inline>, Vec<Inline>) =
+            self.conditions().into_iter().partition(is_sentence);
+        for sentence in sentences {
+            if let Inline::Text(words) = sentence {
                 let lead = if text.is_empty() { "" } else { " " };
-                text.push(say(format!("{lead}Valid for ")));
-                text.extend(all);
-                text.push(say("."));
+                text.push(say(format!("{lead}{}.", words::capital(&words))));
             }
+        }
+        if !conditions.is_empty() {
+            let all = words::row(conditions, " and ");
+            let lead = if text.is_empty() { "" } else { " " };
+            text.push(say(format!("{lead}Valid for ")));
+            text.extend(all);
+            text.push(say("."));
         }
         if !text.is_empty() {
             self.text(text);
@@ -255,45 +254,7 @@ impl Writer<'_> {
 
     /// What must hold beyond positive parameters.
     pub(super) fn conditions(&self) -> Vec<Inline> {
-        let mut all = Vec::new();
-        for (name, domain) in &self.scene.domains.symbols {
-            let in_pair = self
-                .scene
-                .domains
-                .unit_vectors
-                .iter()
-                .any(|pair| pair.contains(name));
-            let positive = *domain == crate::domain::Domain::positive();
-            // What an earlier stage has found is no condition.
-            let is_found = !self.scene.parameters.iter().any(|p| p.name == *name);
-            if is_found || in_pair || positive || (domain.low.is_none() && domain.high.is_none()) {
-                continue;
-            }
-            let sign = |open: bool| if open { "<" } else { "≤" };
-            let symbol = || Math::from(Expr::symbol(name));
-            let mut math = match (&domain.low, &domain.high) {
-                // One limit stands behind the symbol.
-                (Some(low), None) => {
-                    let over = if low.open { ">" } else { "≥" };
-                    vec![symbol(), Math::Op(over), low.expr().into()]
-                }
-                (Some(low), _) => vec![low.expr().into(), Math::Op(sign(low.open)), symbol()],
-                (None, _) => vec![symbol()],
-            };
-            if let Some(high) = &domain.high {
-                math.extend([Math::Op(sign(high.open)), high.expr().into()]);
-            }
-            all.push(Inline::Math(math));
-        }
-        for [a, b] in &self.scene.domains.unit_vectors {
-            let squares = Expr::symbol(a).powi(2) + Expr::symbol(b).powi(2);
-            all.push(words::equation(&squares, &Expr::one()));
-        }
-        all.extend(self.scene.domains.relations.iter().map(|r| {
-            let [small, large] = r.sides.clone().map(Math::Expr);
-            let sign = if r.closed { "≤" } else { "<" };
-            Inline::Math(vec![small, Math::Op(sign), large])
-        }));
+        let mut all = stated(self.scene);
         let own = self.d.assumptions.iter().map(ToString::to_string);
         for a in own.chain(self.proof.assumptions.iter().cloned()) {
             let text = a.replace("the bodies approach", "bodies that approach");
@@ -305,4 +266,47 @@ impl Writer<'_> {
         all.sort_by_key(|c| matches!(c, Inline::Text(words) if words == words::FURTHER));
         all
     }
+}
+
+/// What a scene states of its parameters beyond that they are positive.
+pub(super) fn stated(scene: &Scene) -> Vec<Inline> {
+    let mut all = Vec::new();
+    for (name, domain) in &scene.domains.symbols {
+        let in_pair = scene
+            .domains
+            .unit_vectors
+            .iter()
+            .any(|pair| pair.contains(name));
+        let positive = *domain == crate::domain::Domain::positive();
+        // What an earlier stage has found is no condition.
+        let is_found = !scene.parameters.iter().any(|p| p.name == *name);
+        if is_found || in_pair || positive || (domain.low.is_none() && domain.high.is_none()) {
+            continue;
+        }
+        let sign = |open: bool| if open { "<" } else { "≤" };
+        let symbol = || Math::from(Expr::symbol(name));
+        let mut math = match (&domain.low, &domain.high) {
+            // One limit stands behind the symbol.
+            (Some(low), None) => {
+                let over = if low.open { ">" } else { "≥" };
+                vec![symbol(), Math::Op(over), low.expr().into()]
+            }
+            (Some(low), _) => vec![low.expr().into(), Math::Op(sign(low.open)), symbol()],
+            (None, _) => vec![symbol()],
+        };
+        if let Some(high) = &domain.high {
+            math.extend([Math::Op(sign(high.open)), high.expr().into()]);
+        }
+        all.push(Inline::Math(math));
+    }
+    for [a, b] in &scene.domains.unit_vectors {
+        let squares = Expr::symbol(a).powi(2) + Expr::symbol(b).powi(2);
+        all.push(words::equation(&squares, &Expr::one()));
+    }
+    all.extend(scene.domains.relations.iter().map(|r| {
+        let [small, large] = r.sides.clone().map(Math::Expr);
+        let sign = if r.closed { "≤" } else { "<" };
+        Inline::Math(vec![small, Math::Op(sign), large])
+    }));
+    all
 }

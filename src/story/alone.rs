@@ -90,6 +90,12 @@ fn about_answers(scene: &Scene, case: &Case) -> Result<Vec<Answer>, Refused> {
     let mut known = case.derivation.known();
     let mut out: Vec<Answer> = Vec::new();
     for question in scene.asked_of_answers() {
+        let before = case.derivation.answers.iter().chain(&out);
+        let before: Vec<Answer> = before.cloned().collect();
+        if let Some(why) = super::answer::needs_open(&question.ask, &known, &before) {
+            out.push(super::answer::unanswered(question, &why));
+            continue;
+        }
         let mut needs = super::answer::of_impact(scene, case, question);
         let world = World {
             known: known.clone(),

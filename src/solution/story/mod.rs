@@ -23,7 +23,7 @@ use super::words::{self, say};
 use super::{Before, Detail, Inline, Math, Part, Scope, Slot, Solution, Writer};
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol};
-use crate::formula::Sentence;
+use crate::formula::{Sentence, sentence as saying};
 use crate::scene::{Ask, Scene, Stage, StageKind};
 use crate::story::{Case, StageTold, Told, line};
 
@@ -36,7 +36,7 @@ pub(super) fn tell(scene: &Scene, told: &Told, detail: Detail) -> Solution {
         scene,
         told,
         solution: blank(scene, told, detail),
-        valid: Vec::new(),
+        valid: super::results::stated(scene),
         letters: Vec::new(),
         stands: Vec::new(),
     };
@@ -295,16 +295,29 @@ impl Page<'_> {
 
     /// Where a stage begins, if that is not where the one before it ends.
     fn from(&mut self, i: usize) {
-        let text = match self.told.stages[i].branch {
-            None if i > 0 => String::from("This begins anew, with the bodies as they are given."),
+        let told = &self.told.stages[i];
+        let text = match told.branch {
+            None if i > 0 => {
+                let mut text = saying!("this begins anew, with the bodies as they are given");
+                for (b, velocity, spin) in &told.placed.start {
+                    let name = &self.scene.bodies[*b].name;
+                    text = saying!("{}, but for `{}`, which begins with", text, name);
+                    let velocity = velocity
+                        .as_ref()
+                        .map(|[x, y]| saying!(" the velocity ({}, {})", x, y));
+                    let spin = spin.as_ref().map(|w| saying!(" the spin {}", w));
+                    let each = velocity.into_iter().chain(spin);
+                    text.0.extend(Sentence::join(each, " and").0);
+                }
+                text
+            }
             Some((j, _)) if j + 1 != i => {
                 let stage = words::stage(&self.told.stages[j].name);
-                let stage = sentence::called(self.scene, &stage);
-                format!("This goes on from the end of {stage}.")
+                saying!("this goes on from the end of {}", stage)
             }
             _ => return,
         };
-        self.solution.text(vec![say(text)]);
+        self.solution.text(full_sentence(self.scene, &text));
     }
 
     /// An impact, written like a collision by itself.
@@ -505,7 +518,7 @@ impl Page<'_> {
             }
             _ => true,
         });
-        if !self.valid.is_empty() && self.solution.detail == Detail::Normal {
+        if !self.valid.is_empty() && self.solution.detail != Detail::Full {
             let mut text = vec![say("The results hold for ")];
             text.extend(words::row(std::mem::take(&mut self.valid), " and "));
             text.push(say("."));

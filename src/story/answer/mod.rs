@@ -101,8 +101,10 @@ pub(super) fn unanswered(question: &Question, why: &Sentence) -> Answer {
 }
 
 /// What a question about formulas needs that has no value.
-fn needs_open(ask: &Ask, known: &Known, earlier: &[Answer]) -> Option<Sentence> {
-    let symbols = ask.formulas().into_iter().flat_map(Expr::symbols);
+pub(super) fn needs_open(ask: &Ask, known: &Known, earlier: &[Answer]) -> Option<Sentence> {
+    let put_in = ask.with().iter().map(|(_, value)| value);
+    let all = ask.formulas().into_iter().chain(put_in);
+    let symbols = all.flat_map(Expr::symbols);
     let mut missing = symbols.filter(|s| !known.contains_key(s));
     missing.find_map(|name| {
         // A vector without a value has no components that could be named.
@@ -113,7 +115,10 @@ fn needs_open(ask: &Ask, known: &Known, earlier: &[Answer]) -> Option<Sentence> 
             .iter()
             .filter(is_it)
             .find(|a| matches!(a.form, Form::Open(_)))?;
-        let why = open.text.first().cloned().unwrap_or_default();
+        let why = open.text.first().cloned();
+        let why = why
+            .or_else(|| open.left_open().map(Sentence::words))
+            .unwrap_or_default();
         let name = Expr::symbol(&open.name);
         Some(match why.to_string().strip_prefix("not determined: it ") {
             Some(why) => sentence!("it needs {}, which {}", &name, why),

@@ -5,10 +5,11 @@ use std::collections::BTreeMap;
 
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, essential, is_zero, sign, tidy};
+use crate::dimension::{self, Dimension};
 use crate::domain::{Domain, Domains};
 use crate::expr::{Expr, Node, Symbol, dot, minus};
 use crate::formula::write_plain;
-use crate::scene::{Body, OneSided, Scene, Stage, touch};
+use crate::scene::{Body, OneSided, Parameter, Scene, Stage, touch};
 use crate::story::{Part, Refused, State};
 
 /// Most nodes of a motion that is put in as it stands; a longer one goes by the name that a question gives it.
@@ -320,10 +321,10 @@ pub(super) fn hand_on(scene: &mut Scene, named: &[(Symbol, Expr)]) -> BTreeMap<S
                     .map(|name| Symbol::from(name.as_str()))
                     .find(|n| !domains.symbols.contains_key(n) && !is_taken(n))
                     .unwrap_or_else(|| Symbol::from("handed"));
-                let (factor, root) = match is_definite(sign(e, &original)) {
-                    true => (Expr::one(), e.clone()),
-                    false => split(e),
-                };
+                // What is left beside a plain factor is still a velocity or a spin.
+                let parted = Some(split(e)).filter(|_| !is_definite(sign(e, &original)));
+                let parted = parted.filter(|(factor, _)| is_plain(factor, &parameters));
+                let (factor, root) = parted.unwrap_or_else(|| (Expr::one(), e.clone()));
                 if sign(&root, &original).is_negative() {
                     (name, -root, -factor)
                 } else {
@@ -350,13 +351,8 @@ pub(super) fn hand_on(scene: &mut Scene, named: &[(Symbol, Expr)]) -> BTreeMap<S
     }
     scene.domains = domains;
     for (name, value) in &handed {
-        let of = |p: &str| {
-            let known = scene.parameters.iter().find(|q| *q.name == *p)?;
-            Some(known.dimension.clone())
-        };
-        let dimension = crate::dimension::of(value, &of).ok().flatten();
-        let dimension = dimension.unwrap_or_else(crate::dimension::Dimension::none);
-        scene.parameters.push(crate::scene::Parameter {
+        let dimension = dimension_of(value, &scene.parameters).unwrap_or_else(Dimension::none);
+        scene.parameters.push(Parameter {
             name: name.clone(),
             latex: None,
             unit: dimension.si(),
@@ -366,4 +362,18 @@ pub(super) fn hand_on(scene: &mut Scene, named: &[(Symbol, Expr)]) -> BTreeMap<S
         });
     }
     handed.into_iter().collect()
+}
+
+/// The dimension of something made of parameters.
+fn dimension_of(e: &Expr, parameters: &[Parameter]) -> Option<Dimension> {
+    let of = |p: &str| {
+        let known = parameters.iter().find(|q| *q.name == *p)?;
+        Some(known.dimension.clone())
+    };
+    dimension::of(e, &of).ok().flatten()
+}
+
+/// Whether a factor has no dimension.
+fn is_plain(factor: &Expr, parameters: &[Parameter]) -> bool {
+    dimension_of(factor, parameters).is_none_or(|dimension| dimension.is_none())
 }
