@@ -63,6 +63,7 @@ fn two_bodies(n: impl Fn(f64) -> Expr) -> Scene {
         normal,
         law,
         passes: false,
+        is_string: false,
     };
     Scene {
         bodies: vec![disk, plate],
