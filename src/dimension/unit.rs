@@ -142,12 +142,18 @@ impl<'a> Reader<'a> {
             if c == '1' && total.is_some() && !waiting && !tail.starts_with('/') {
                 return fault("a number in the middle of a unit", start, start + 1);
             }
+            // `square metres`
+            let rest = &self.text[start..];
+            let mut said = [("square ", 2), ("cubic ", 3)].into_iter();
+            let said = said.find(|(word, _)| rest.starts_with(word));
+            let said = said.unwrap_or(("", 1));
+            self.at += said.0.len();
             let atom = self.atom(depth)?;
             // `ms-2` has two letters, of which the exponent belongs to the second.
             let several = total.as_ref().is_some_and(|t| *t != Unit::number())
                 || &self.text[start..self.at] == "ms";
             let word = &self.text[start..self.at];
-            let power = self.exponent(several)?;
+            let power = said.1 * self.exponent(several)?;
             // Nobody squares litres: `mL^2` is a mass and the square of a length.
             if power.abs() > 1 && matches!(word, "L" | "l" | "mL" | "ml" | "cc" | "ccm") {
                 let message = format!("the square of `{word}` is no unit");
@@ -213,7 +219,8 @@ impl<'a> Reader<'a> {
             }
             _ => {
                 let rest = &self.text[start..];
-                let letter = |c: char| c.is_ascii_alphabetic() || "µμΩ\u{2126}".contains(c);
+                let letter =
+                    |c: char| c.is_ascii_alphabetic() || "µμΩÅ\u{2126}\u{212b}".contains(c);
                 let length = rest.find(|c| !letter(c)).unwrap_or(rest.len());
                 // `kgm`, `kgms` and `rads` are written for kg·m, kg·m·s and rad·s by many, and are nothing else; `rads` alone
                 // or above a slash is more than one.
@@ -225,7 +232,8 @@ impl<'a> Reader<'a> {
                 };
                 let word = &rest[..length];
                 let end = start + length.max(rest.chars().next().map_or(0, char::len_utf8));
-                let Some(read) = named(&word.replace('\u{2126}', "Ω")) else {
+                let Some(read) = named(&word.replace('\u{2126}', "Ω").replace('\u{212b}', "Å"))
+                else {
                     let shown = &self.text[start..end];
                     let message = format!("`{shown}` is no unit of mechanics I know");
                     return fault(message, start, end);
@@ -326,7 +334,7 @@ fn raise(value: &Rational, power: i64) -> Rational {
     if value.is_one() {
         return value.clone();
     }
-    let k = power.unsigned_abs().min(HIGHEST as u64) as u32;
+    let k = power.unsigned_abs().min(3 * HIGHEST as u64) as u32;
     let up = Rational::new(value.numer().pow(k), value.denom().pow(k));
     if power < 0 { up.recip() } else { up }
 }
@@ -352,8 +360,8 @@ fn named(word: &str) -> Option<Unit> {
     let mut all = PREFIXES.into_iter().zip(POWERS);
     let (prefix, power) = all.find(|(p, _)| word.starts_with(p) && word.len() > p.len())?;
     let base = &word[prefix.len()..];
-    let electrical =
-        ELECTRICAL.contains(&base) && matches!(prefix, "k" | "M" | "m" | "µ" | "μ" | "n" | "p");
+    let electrical = ELECTRICAL.contains(&base)
+        && matches!(prefix, "k" | "M" | "m" | "µ" | "μ" | "u" | "n" | "p");
     if !TAKES_PREFIX.contains(&base) && !electrical {
         return None;
     }
@@ -363,18 +371,20 @@ fn named(word: &str) -> Option<Unit> {
 }
 
 /// Prefixes and the powers of ten they stand for; `da` before `d` so that the longer is tried first.
-const PREFIXES: [&str; 13] = [
-    "da", "G", "M", "k", "h", "d", "c", "m", "µ", "μ", "u", "n", "p",
+const PREFIXES: [&str; 14] = [
+    "da", "G", "M", "k", "h", "d", "c", "m", "µ", "μ", "u", "n", "p", "f",
 ];
-const POWERS: [i64; 13] = [1, 9, 6, 3, 2, -1, -2, -3, -6, -6, -6, -9, -12];
+const POWERS: [i64; 14] = [1, 9, 6, 3, 2, -1, -2, -3, -6, -6, -6, -9, -12, -15];
 
 /// Units a prefix may stand before.
 const TAKES_PREFIX: [&str; 12] = [
     "g", "m", "s", "N", "J", "W", "Pa", "Hz", "rad", "Nm", "Ns", "Ws",
 ];
 
-/// Units of electricity, heat and amount, which take the prefixes that people write before them.
-const ELECTRICAL: [&str; 9] = ["A", "V", "Ω", "C", "F", "T", "H", "K", "mol"];
+/// Units of electricity, heat, amount and pressure, which take the prefixes that people write before them.
+const ELECTRICAL: [&str; 12] = [
+    "A", "V", "Ω", "ohm", "S", "C", "F", "T", "H", "K", "mol", "bar",
+];
 
 /// Prefixes in full, before a unit in full: `kilojoule`.
 const LONG_PREFIXES: [&str; 8] = [
@@ -389,9 +399,9 @@ kg kilogram kilograms; 1 0 0; 1
 g gram grams; 1 0 0; 0.001
 t tonne tonnes; 1 0 0; 1000
 m meter meters metre metres; 0 1 0; 1
-s sec second seconds; 0 0 1; 1
-min minute minutes; 0 0 1; 60
-h hr hour hours; 0 0 1; 3600
+s sec secs second seconds; 0 0 1; 1
+min mins minute minutes; 0 0 1; 60
+h hr hrs hour hours; 0 0 1; 3600
 N newton newtons; 1 1 -2; 1
 Nm J joule joules Ws; 1 2 -2; 1
 Ns; 1 1 -1; 1
@@ -410,20 +420,27 @@ GeV; 1 2 -2; 1602176634 / 10000000 1000000000000
 cal; 1 2 -2; 4.184
 kcal; 1 2 -2; 4184
 hp; 1 2 -3; 0.45359237 9.80665 0.3048 550
-bar; 1 -1 -2; 100000
+bar bars; 1 -1 -2; 100000
+torr Torr mmHg; 1 -1 -2; 101325 / 760
 atm; 1 -1 -2; 101325
 psi; 1 -1 -2; 0.45359237 9.80665 / 0.0254 0.0254
 L l liter liters litre litres; 0 3 0; 0.001
 mL ml cc ccm; 0 3 0; 0.000001
 mi mile miles; 0 1 0; 1609.344
+Å angstrom angstroms; 0 1 0; 1 / 10000000000
 yd yard yards; 0 1 0; 0.9144
 in inch inches; 0 1 0; 0.0254
 ft foot feet; 0 1 0; 0.3048
 oz ounce ounces; 1 0 0; 0.45359237 / 16
 lb lbs lbm pound pounds; 1 0 0; 0.45359237
 lbf; 1 1 -2; 0.45359237 9.80665
+kgf; 1 1 -2; 9.80665
+dyn dyne dynes; 1 1 -2; 0.00001
+erg ergs; 1 2 -2; 0.0000001
 slug slugs; 1 0 0; 0.45359237 9.80665 / 0.3048
 day days; 0 0 1; 86400
+week weeks; 0 0 1; 604800
+year years yr yrs; 0 0 1; 31557600
 knot knots; 0 1 -1; 1852 / 3600
 kph; 0 1 -1; 1 / 3.6
 mph; 0 1 -1; 0.44704
@@ -431,6 +448,7 @@ A ampere amperes; 0 0 0 1; 1
 C coulomb coulombs; 0 0 1 1; 1
 V volt volts; 1 2 -3 -1; 1
 Ω ohm ohms; 1 2 -3 -2; 1
+S siemens; -1 -2 3 2; 1
 F farad farads; -1 -2 4 2; 1
 H henry; 1 2 -2 -2; 1
 T tesla; 1 0 -2 -1; 1

@@ -4,6 +4,7 @@ use super::Relation;
 use super::fault::{Fault, Faulty, SETS, is_invisible};
 use super::lexer::{Before, Lexer, Tok};
 use super::symbols::{greek_name, pairs};
+use super::units::is_unit_first;
 
 impl Lexer<'_> {
     pub(super) fn other(&mut self) -> Faulty<Tok> {
@@ -24,10 +25,14 @@ impl Lexer<'_> {
                 let message = "∂ is read in a derivative of one name only, as in ∂x/∂t";
                 Err(Fault::new(message, self.pos, end))
             }),
-            'µ' | 'μ' | 'Ω' | '\u{2126}' if self.units_first && self.before != Before::Nothing => {
+            'µ' | 'μ' | 'Ω' | '\u{2126}' | 'Å' | '\u{212b}'
+                if self.before != Before::Nothing
+                    && (self.units_first || is_unit_first(rest.trim_end_matches([' ', '$']))) =>
+            {
                 match self.unit(false) {
                     Some(tok) => Ok(tok),
-                    None => self.name(self.pos, end),
+                    None if greek_name(c).is_some() => self.name(self.pos, end),
+                    None => Err(strange(c, self.pos)),
                 }
             }
             _ if greek_name(c).is_some() || super::name::accented(c).is_some() => {

@@ -67,6 +67,10 @@ impl<'a> Lexer<'a> {
                 self.pos = start;
                 self.unit(true).map_or_else(|| self.name(start, end), Ok)
             }
+            "Omega" if self.units_first && self.before != Before::Nothing => {
+                self.pos = start;
+                self.unit(false).map_or_else(|| self.name(start, end), Ok)
+            }
             "operatorname" => self.operator(start),
             "begin" | "end" => self.environment(start, word == "begin"),
             "det" => Ok(Tok::Determinant),

@@ -77,7 +77,7 @@ impl Lexer<'_> {
                 return None;
             }
             // `\frac{m}{s}` begins with no word.
-            if !side.starts_with('\\') {
+            if !side.starts_with('\\') && !side.contains("\\Omega") {
                 let word = first_word(side)?;
                 if !free(word) || dimension::unit(word).is_err() {
                     return None;
@@ -107,8 +107,9 @@ impl Lexer<'_> {
             }
             if !self.units_first {
                 // Without declarations 3 m g is a force more often than a unit, and m V a momentum; a word of four letters is a unit.
-                const TELLING: &str = "kg rad deg rev revs rpm cm mm km Hz Nm Ns kN kJ MJ mph ft J N kWh eV keV MeV bar hp pF nF mH mol";
+                const TELLING: &str = "kg rad deg rev revs rpm cm mm km Hz Nm Ns kN kJ MJ mph ft J N kWh eV keV MeV bar hp uC uF uA pF nF mH mol";
                 let telling = words(&plain).any(|w| among(TELLING, w) || w.len() > 3)
+                    || is_unit_first(&plain)
                     || plain.contains("/s")
                     || plain.contains("s^-")
                     || plain.contains("s⁻");
@@ -167,7 +168,8 @@ impl Lexer<'_> {
     /// Whether what could be a unit holds nothing that is declared, nor a letter that is a symbol first.
     fn is_free(&self, plain: &str) -> bool {
         let known = |c: char| self.symbols.find(c.encode_utf8(&mut [0; 4])).is_some();
-        self.symbols.is_open() && !words(plain).any(|w| is_symbol_first(w) || w.chars().any(known))
+        let first = |w| is_symbol_first(w) && !is_unit_first(plain);
+        self.symbols.is_open() && !words(plain).any(|w| first(w) || w.chars().any(known))
     }
 }
 
@@ -182,9 +184,18 @@ fn words(plain: &str) -> impl Iterator<Item = &str> {
     words.filter(|w| !matches!(*w, "" | "per"))
 }
 
+/// Whether a text is more often a unit than a product although nothing is declared: `μF` is, and μg and μN are not.
+pub(super) fn is_unit_first(text: &str) -> bool {
+    const UNITS: &str = "kΩ MΩ Å \u{212b} µA µC µF µV μA μC μF μV";
+    among(UNITS, text)
+}
+
 /// Whether a letter is a symbol rather than a unit where nothing is declared: 2.5 V is two and a half volumes as well.
 pub(super) fn is_symbol_first(word: &str) -> bool {
-    matches!(word, "A" | "C" | "F" | "H" | "K" | "L" | "T" | "V" | "l")
+    matches!(
+        word,
+        "A" | "C" | "F" | "H" | "K" | "L" | "S" | "T" | "V" | "l"
+    )
 }
 
 /// The unit of siunitx in plain characters: `\kilo\metre\per\second\squared`, `m.s^{-2}`.
@@ -246,7 +257,11 @@ pub(super) fn numbered(text: &str) -> bool {
 
 /// The word at the start of a text, where it is short enough for a unit.
 fn first_word(text: &str) -> Option<&str> {
-    let letter = |c: &char| c.is_ascii_alphabetic() || matches!(c, 'µ' | 'μ' | 'Ω' | '\u{2126}');
+    let letter = |c: &char| c.is_ascii_alphabetic() || "µμΩÅ\u{2126}\u{212b}".contains(*c);
+    let raised = |word| text.strip_prefix(word);
+    let text = raised("square ")
+        .or_else(|| raised("cubic "))
+        .unwrap_or(text);
     let word = text.chars().take(12).take_while(letter);
     let length = word.map(char::len_utf8).sum();
     (1..16).contains(&length).then(|| &text[..length])
@@ -278,6 +293,7 @@ pub(crate) fn plain_unit(side: &str) -> Option<String> {
                         out.push('µ');
                         rest = rest.trim_start();
                     }
+                    "Omega" => out.push('Ω'),
                     "frac" | "dfrac" | "tfrac" => out.push(FRACTION),
                     "" => {
                         out.push(' ');
@@ -317,7 +333,16 @@ pub(crate) fn plain_unit(side: &str) -> Option<String> {
             c => plain.push(c),
         }
     }
-    let plain = plain.replace(" per ", "/");
+    // What words say behind `per` is all below it: `joules per kilogram kelvin`.
+    let below =
+        |part: &str| match part.trim().contains(' ') && words(part).eq(part.split_whitespace()) {
+            true => format!("({part})"),
+            false => part.to_string(),
+        };
+    let mut parts = plain.split(" per ");
+    let above = parts.next().map(str::to_string);
+    let plain: Vec<String> = above.into_iter().chain(parts.map(below)).collect();
+    let plain = plain.join("/");
     let trimmed = plain.trim().trim_end_matches(['.', ',', ';']).trim_end();
     (open.is_empty() && !trimmed.is_empty()).then(|| trimmed.to_string())
 }

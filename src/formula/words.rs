@@ -317,6 +317,13 @@ impl Lexer<'_> {
             let free = |at: usize| self.symbols.find(&word[at..=at]).is_none();
             let behind = &self.text[start + word.len()..];
             let argued = behind.starts_with([' ', '(', '\\', '{']) && behind.trim() != "";
+            // No product ends in a number: `lg 1000`, `lg(0.1)`, and not `lg(1-e)`.
+            let number = behind.trim_start().trim_start_matches('(');
+            let digits = number.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.');
+            let whole = digits.starts_with(')') || !behind.contains('(');
+            if argued && digits.len() < number.len() && whole && free(0) && free(1) {
+                return true;
+            }
             return argued && !self.symbols.declared().is_empty() && free(0) && free(1);
         }
         let (letter, trigonometric) = word.split_at(1);
