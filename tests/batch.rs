@@ -232,6 +232,40 @@ fn e_d_i_a_and_m_are_what_the_question_declares() {
 }
 
 #[test]
+fn numbers_that_stand_alone_in_their_place_lie_within_the_tolerance() {
+    let rows = [
+        ("x+2", "x+2.01", "equivalent"),
+        ("x+2", "x+2.1", "different"),
+        ("x+2", "x-2.01", "different"),
+        ("x+2", "y+2.01", "different"),
+        ("v0+9.8*t", "v0+9.81*t", "equivalent"),
+        ("v0+9.8*t", "1.05*v0+9.81*t", "different"),
+        ("v0+9.8*t", "v0-9.81*t", "different"),
+        ("x^2+2", "x^2.01+2", "different"),
+        ("v > 3.13 m/s", "v > 3.132 m/s", "equivalent"),
+        ("v > 3.13 m/s", "v < 3.132 m/s", "different"),
+        ("v > 3.13 m/s", "v > 3.5 m/s", "different"),
+        ("0.5 < mu < 0.577", "0.5 < mu < 0.5774", "equivalent"),
+        ("0.5 < mu < 0.577", "0.52 < mu < 0.5774", "different"),
+    ];
+    for (expected, answer, verdict) in rows {
+        let line = json!({"expected": expected, "answer": answer, "tolerance": "1%"});
+        assert_eq!(one(line)["verdict"], verdict, "{expected} | {answer}");
+    }
+}
+
+#[test]
+fn a_rounding_is_told_where_there_is_one() {
+    let codes = |expected: &str, answer: &str| {
+        let found = one(json!({"expected": expected, "answer": answer, "tolerance": "0.001%"}));
+        found["diagnosis"][0]["code"].clone()
+    };
+    assert_eq!(codes("12.34", "12.3"), "ROUNDED");
+    assert_eq!(codes("12.34", "12.4"), Value::Null);
+    assert_eq!(codes("100", "104"), Value::Null);
+}
+
+#[test]
 fn a_tolerance_is_relative_absolute_or_in_digits() {
     let line = |answer: &str, tolerance: Value| {
         judged(json!({"expected": "9.81 m/s^2", "answer": answer, "tolerance": tolerance}))

@@ -121,6 +121,11 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     {
         return Ok(reading);
     }
+    if held.any("<>\\\u{2264}")
+        && let Some(text) = several::without_infinity(text, symbols)
+    {
+        return read(&text, symbols);
+    }
     if held.any("\u{ff10}")
         && let Some(reading) = read_full_width(text, symbols)
     {

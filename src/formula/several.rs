@@ -155,6 +155,62 @@ fn pieces(text: &str, [from, stop]: [usize; 2]) -> Vec<[usize; 2]> {
     }
 }
 
+/// Whether an end is infinity, and then whether that is the positive one.
+fn infinity(end: &str) -> Option<bool> {
+    let end = end.trim_matches([' ', '$']);
+    let size = end.trim_start_matches(['+', '-', '−']).trim_start();
+    const NAMES: &str = "∞ \\infty infty inf oo infinity \\infin";
+    let mut names = NAMES.split(' ');
+    let found = names.any(|name| size.eq_ignore_ascii_case(name));
+    found.then_some(!end.starts_with(['-', '−']))
+}
+
+/// A chain with blanks for an end that is no bound: `-∞ < x < 3`, `\infty > x \ge 3`.
+pub(super) fn without_infinity(text: &str, symbols: &Symbols) -> Option<String> {
+    const SIGNS: [(&str, bool); 14] = [
+        ("\\leqslant", true),
+        ("\\leq", true),
+        ("\\le", true),
+        ("\\lt", true),
+        ("<=", true),
+        ("<", true),
+        ("≤", true),
+        ("\\geqslant", false),
+        ("\\geq", false),
+        ("\\ge", false),
+        ("\\gt", false),
+        (">=", false),
+        (">", false),
+        ("≥", false),
+    ];
+    let sign = |at: usize| {
+        let stands = |sign: &str| {
+            let behind = text[at..].strip_prefix(sign)?;
+            let command = sign.starts_with('\\') && behind.starts_with(|c: char| c.is_alphabetic());
+            (!command).then_some(())
+        };
+        let mut found = SIGNS.iter();
+        found.find_map(|(sign, less)| stands(sign).map(|()| (at, at + sign.len(), *less)))
+    };
+    let mut found = text.char_indices().filter_map(|(at, _)| sign(at));
+    let (first, (from, last, less)) = (found.next()?, found.next()?);
+    if found.next().is_some() || first.2 != less || symbols.find("inf").is_some() {
+        return None;
+    }
+    let low = infinity(&text[..first.0]).is_some_and(|positive| positive != less);
+    let high = infinity(&text[last..]).is_some_and(|positive| positive == less);
+    let (start, stop) = match (low, high) {
+        (true, false) => (first.1, text.len()),
+        (false, true) => (0, from),
+        _ => return None,
+    };
+    Some(format!(
+        "{:start$}{}",
+        "",
+        &text[start..stop].replace('$', " ")
+    ))
+}
+
 /// An interval: where its ends stand, from the first byte of each to the one behind it.
 struct Ends {
     /// Nothing where there is no end on that side.
@@ -181,13 +237,7 @@ fn ends(text: &str, [from, stop]: [usize; 2]) -> Option<Ends> {
     if between[comma + 1..].contains([',', ';']) || braces {
         return None;
     }
-    let bounded = |[from, to]: [usize; 2]| {
-        let end = text[from..to].trim().trim_start_matches(['+', '-', '−']);
-        !matches!(
-            end.trim().to_ascii_lowercase().as_str(),
-            "∞" | "\\infty" | "infty" | "inf" | "oo" | "infinity" | "\\infin"
-        )
-    };
+    let bounded = |[from, to]: [usize; 2]| infinity(&text[from..to]).is_none();
     let [low, high] = [[from, from + comma], [from + comma + 1, to]];
     let (low, high) = (
         Some(low).filter(|end| bounded(*end)),

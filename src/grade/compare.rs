@@ -6,8 +6,8 @@ mod scalar;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{
-    Apart, Diagnosis, Key, Options, Proof, Strength, Verdict, partial, relation, several, show,
-    unit,
+    Apart, Diagnosis, Key, Options, Proof, Strength, Verdict, number, partial, relation, several,
+    show, unit,
 };
 use crate::dimension::Dimension;
 use crate::equality::{self};
@@ -142,12 +142,30 @@ impl<'a> Context<'a> {
 /// Compares a reading with the key.
 pub(crate) fn contents(key: &Key, answer: &Reading, options: &Options) -> Finding {
     let diagnose = options.strength == Strength::Identity;
-    compare(&Context::new(key, options, diagnose), answer)
+    tolerated(&Context::new(key, options, diagnose), answer)
 }
 
 /// The verdict alone, without looking for what is wrong.
 pub(crate) fn verdict_of(key: &Key, answer: &Reading, options: &Options) -> Verdict {
-    compare(&Context::new(key, options, false), answer).verdict
+    tolerated(&Context::new(key, options, false), answer).verdict
+}
+
+/// Compares with every number of the answer that the tolerance allows in the place of the expected one.
+fn tolerated(ctx: &Context, answer: &Reading) -> Finding {
+    let found = compare(ctx, answer);
+    if let (Verdict::Different, Some(tolerance)) = (found.verdict, &ctx.options.tolerance)
+        && let Some(content) = number::aligned(&ctx.key.reading.content, &answer.content, tolerance)
+        && content != answer.content
+    {
+        let exact = compare(&ctx.plain(), &answer.with(content));
+        if exact.is_equivalent() {
+            let (note, words) = ("EQUIV_TOLERANCE", tolerance.words());
+            let mut finding = Finding::new(Verdict::Equivalent, note, "tolerance", words);
+            finding.assume(exact.assumed);
+            return finding;
+        }
+    }
+    found
 }
 
 /// A value, possibly with the name it is given to; or relations.
@@ -214,6 +232,10 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
             ..ctx.key.clone()
         };
         return compare(&Context::new(&key, ctx.options, ctx.diagnose), answer);
+    }
+    // `x_1 = 2, x_2 = 3` for `x² − 5x + 6 = 0`
+    if let Some(list) = several::counted(expected, &answer.content) {
+        return compare(ctx, &answer.with(list));
     }
     // `a = b = c` is a system, in whatever order, where b and c are not the same of themselves.
     if let (Content::Relations(a, s), Content::Relations(b, t)) =

@@ -4,7 +4,8 @@
 
 use num_traits::{Signed, Zero};
 
-use crate::expr::{Expr, Rational, ratio};
+use crate::expr::{Expr, Node, Rational, ratio};
+use crate::formula::Content;
 
 pub use crate::verify::rounding::{bounds, half_unit, ten_to};
 
@@ -113,6 +114,51 @@ pub fn within(answer: &Expr, expected: &Expr, tolerance: &Tolerance) -> Option<b
     }
 }
 
+/// An answer with the expected number wherever its own stands alone in the same place and lies within a tolerance: a side, a
+/// term, or the factor of a term.
+pub(super) fn aligned(
+    expected: &Content,
+    answer: &Content,
+    tolerance: &Tolerance,
+) -> Option<Content> {
+    let near = |a: &Expr, e: &Expr| within(a, e, tolerance) == Some(true);
+    let factor = |term: &Expr, terms: &[Expr]| {
+        let (k, rest) = term.split_number();
+        let mut same = terms.iter().filter(|e| e.split_number().1 == rest);
+        let same = same.find(|e| near(&Expr::from(k.clone()), &Expr::from(e.split_number().0)));
+        same.unwrap_or(term).clone()
+    };
+    let relative = matches!(tolerance, Tolerance::Relative(_));
+    match (expected, answer) {
+        (Content::Quantity(e), Content::Quantity(a)) if relative => {
+            let same = e.unit.dimension == a.unit.dimension && near(&a.value, &e.value);
+            Some(if same { expected } else { answer }.clone())
+        }
+        (Content::Scalar(e), Content::Scalar(a)) if relative => {
+            let parts = |x: &Expr| match x.node() {
+                Node::Sum(terms) => terms.clone(),
+                _ => vec![x.clone()],
+            };
+            let terms = parts(e);
+            let own = parts(a);
+            Some(Content::Scalar(Expr::sum(
+                own.iter()
+                    .map(|term| factor(term, &terms))
+                    .collect::<Vec<_>>(),
+            )))
+        }
+        (Content::Relations(sides, signs), Content::Relations(own, its))
+            if signs == its && sides.len() == own.len() =>
+        {
+            let pairs = sides.iter().zip(own);
+            let sides: Option<Vec<Content>> =
+                pairs.map(|(e, a)| aligned(e, a, tolerance)).collect();
+            Some(Content::Relations(sides?, its.clone()))
+        }
+        _ => None,
+    }
+}
+
 fn most_distance([a, b]: [&Rational; 2], [low, high]: [&Rational; 2]) -> Rational {
     (b - low).abs().max((a - high).abs())
 }
@@ -125,6 +171,11 @@ fn least_distance([a, b]: [&Rational; 2], [low, high]: [&Rational; 2]) -> Ration
     } else {
         Rational::zero()
     }
+}
+
+/// Whether a number has no more than some significant digits: 12 and 120 have two, 12.4 has three.
+pub fn has_digits(value: &Rational, digits: u32) -> bool {
+    value.is_zero() || (half_unit(value, digits).recip() * value / ratio(2, 1)).is_integer()
 }
 
 /// Most digits to which numbers are compared.

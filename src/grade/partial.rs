@@ -97,8 +97,12 @@ pub(crate) fn numbers(expected: &Expr, answer: &Expr) -> Vec<Diagnosis> {
         return found;
     };
     let digits = number::digits_shared(&value, &exact);
-    if (2..100).contains(&digits) {
-        let message = format!("the expected value rounded to {digits} significant digits");
+    let rounded = number::has_digits(&value, digits);
+    if (2..100).contains(&digits) && (rounded || digits > 2) {
+        let message = match rounded {
+            true => format!("the expected value rounded to {digits} significant digits"),
+            false => format!("right to about {digits} digits"),
+        };
         let hint = "give the exact value rather than a rounded one";
         return vec![Diagnosis::new("ROUNDED", message, hint)];
     }

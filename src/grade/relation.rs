@@ -344,8 +344,12 @@ fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
             .any(|(a, b)| a.difference != b.difference)
         {
             let mut found = link(&ctx.plain(), &plain[0], &plain[1]);
+            if found.is_equivalent() && !given.is_empty() {
+                let assumed = std::mem::take(&mut found.assumed);
+                found = given_not_zero(APART, given);
+                found.assume(assumed);
+            }
             if found.is_equivalent() {
-                found.assume(given);
                 return found;
             }
         }
@@ -447,11 +451,13 @@ fn as_written(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
         (true, true) if expected.relation == answer.relation => equations(ctx, expected, answer),
         (false, false) => inequalities(ctx, expected, answer),
         _ => {
-            let words = format!(
-                "{} is expected, and the answer has {}",
-                expected.relation.sign(),
-                answer.relation.sign()
-            );
+            let said = |n: &Normal| match n.relation {
+                Relation::Equal => "an equation",
+                Relation::NotEqual => "a relation with ≠",
+                _ => "an inequality",
+            };
+            let [asked, given] = [said(expected), said(answer)];
+            let words = format!("{asked} is expected, and the answer is {given}");
             match apart_at_points(ctx, from_ref(expected), from_ref(answer)) {
                 Some(apart) => Finding {
                     counterexample: apart.counterexample,
@@ -465,6 +471,18 @@ fn as_written(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
 
 fn same_solutions(words: &str) -> Finding {
     Finding::new(Verdict::Equivalent, "EQUIV_SOLUTIONS", "solutions", words)
+}
+
+/// What equations may differ by.
+const APART: &str = "the two differ by factors without the sought quantity";
+
+/// The same solutions where nothing is zero of what sets the two apart.
+fn given_not_zero(words: &str, assumed: Vec<String>) -> Finding {
+    let words = format!("{words}, given that no factor is zero");
+    Finding {
+        assumed,
+        ..Finding::new(Verdict::Equivalent, "EQUIV_ASSUMED", "solutions", words)
+    }
 }
 
 fn undecided(words: &str) -> Finding {

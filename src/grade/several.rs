@@ -6,7 +6,7 @@ use super::compare::{Context, Finding, kind, scalars, values};
 use super::{Diagnosis, Verdict, relation, show, unit};
 use crate::dimension::Unit;
 use crate::expr::{Expr, Symbol};
-use crate::formula::UNNAMED;
+use crate::formula::{self, UNNAMED};
 use crate::formula::{Content, Join, Quantity, Reading, Relation};
 
 /// The finding where the expected content or the answer joins several relations.
@@ -100,14 +100,36 @@ pub(super) fn joined(ctx: &Context, expected: &Content, reading: &Reading) -> Op
 
 /// Whether the names of an answer are the only expected one with a number each, `x_1` and `x_2` for `x`.
 fn answer_counts(expected: &[(Symbol, Content)], answer: &Content) -> bool {
-    let ([(name, _)], Some(answer)) = (expected, results(answer)) else {
-        return false;
-    };
+    match expected {
+        [(name, _)] => counts(name, answer).is_some(),
+        _ => false,
+    }
+}
+
+/// The names of the results of an answer where these are one name with a number each.
+fn counts(name: &Symbol, answer: &Content) -> Option<Vec<Symbol>> {
     let number = |other: &Symbol| {
         let index = other.strip_prefix(&**name)?.trim_start_matches('_');
         Some(!index.is_empty() && index.bytes().all(|b| b.is_ascii_digit()))
     };
-    answer.iter().all(|(other, _)| number(other) == Some(true))
+    let names = results(answer)?.into_iter().map(|(other, _)| other);
+    names
+        .map(|other| (number(&other) == Some(true)).then_some(other))
+        .collect()
+}
+
+/// Numbered results as values of the only symbol of an equation.
+pub(super) fn counted(expected: &Content, answer: &Content) -> Option<Content> {
+    let (Content::Relations(..), Content::Joined(..)) = (expected, answer) else {
+        return None;
+    };
+    let mut symbols = expected.symbols().into_iter().filter(|s| &**s != "pi");
+    let (Some(name), None) = (symbols.next(), symbols.next()) else {
+        return None;
+    };
+    let same = counts(&name, answer)?.into_iter();
+    let same = same.map(|other| (other, Expr::symbol(&name))).collect();
+    formula::values_of_one(&answer.map(&|e| e.substitute(&same)))
 }
 
 /// A value in SI units, as a quantity where a unit stands behind it or a list with it.

@@ -40,7 +40,7 @@ pub(super) fn named_values(
 ) -> Finding {
     let asked = &ctx.key.question.asked;
     let is_asked = |name: &Symbol| asked.iter().any(|g| g.name == *name);
-    let inside = |c: &Content, name: &Symbol| c.expr().is_some_and(|e| e.symbols().contains(name));
+    let inside = |c: &Content, name: &Symbol| c.symbols().contains(name);
     let mut finding = values(ctx, expected, value);
     if finding.verdict == Verdict::Different
         && let Content::Relations(sides, signs) = &answer.content

@@ -98,7 +98,11 @@ pub(super) fn with_definitions(key: &Key, text: &str) -> Option<Reading> {
     let values: BTreeMap<Symbol, Expr> = parts.into_iter().map(value).collect::<Option<_>>()?;
     let mut reading = formula::read(formula, &symbols).ok()?;
     let used = values.keys().any(|name| reading.symbols().contains(name));
-    if !used || reading.unit.is_some() {
+    // `x = 2, x = 3` are two values of x.
+    let defined = matches!(&reading.content, Content::Relations(sides, _) if values
+        .keys()
+        .any(|name| sides[0].expr().and_then(Expr::as_symbol) == Some(name)));
+    if !used || defined || reading.unit.is_some() {
         return None;
     }
     // One definition may use another.

@@ -4,8 +4,8 @@ use super::factor::{turned_term, unrooted};
 use super::locus::{self, Compared, Extent, Part};
 use super::solved::{same_angle, solve_for, solved_in, unknowns};
 use super::{
-    Normal, REALS, listed, not_zero, over_reals, same_solutions, says_nothing, sign_of, sought_of,
-    undecided,
+    APART, Normal, REALS, given_not_zero, listed, not_zero, over_reals, same_solutions,
+    says_nothing, sign_of, sought_of, undecided,
 };
 use crate::algebra::Sign;
 use crate::domain::Domains;
@@ -190,10 +190,9 @@ fn from_parts(
     let sought = sought(shared);
     let free = |part: &Part| part.expr.symbols().is_disjoint(&sought);
     if !sought.is_empty() && lost.iter().chain(&gained).all(free) {
-        let mut finding = same_solutions("the two differ by factors without the sought quantity");
         let factors = lost.iter().chain(&gained);
-        finding.assumed = factors.map(|part| not_zero(&part.expr)).collect();
-        return Some(finding);
+        let given = factors.map(|part| not_zero(&part.expr)).collect();
+        return Some(given_not_zero(APART, given));
     }
     let found = |parts: &[Part]| parts.iter().find(|p| p.at.is_some()).cloned();
     let open = |parts: &[Part]| parts.iter().any(|p| p.at.is_none());

@@ -8,8 +8,8 @@ use super::locus::{self, Extent};
 use super::points::holding;
 use super::solved::lies_inside;
 use super::{
-    Normal, REALS, apart_at_points, not_zero, over_reals, same_solutions, says_nothing, sign_of,
-    solve_for, sought_in, undecided, unknowns,
+    Normal, REALS, apart_at_points, given_not_zero, not_zero, over_reals, same_solutions,
+    says_nothing, sign_of, solve_for, sought_in, undecided, unknowns,
 };
 use crate::algebra::Sign;
 use crate::domain::{Domains, Sample};
@@ -130,10 +130,9 @@ fn by_factor(
         // Where one of the two divides by it, that one has no value there.
         let below = poles(f, g, &domains.of(&[f, g]));
         if (common.weak.iter()).all(|part| free(part) || below.contains(part)) {
-            let mut finding = same_solutions("the two differ by a factor that is not negative");
-            let weak = common.weak.iter();
-            finding.assumed = weak.map(not_zero).collect();
-            return Some(finding);
+            let given = common.weak.iter().map(not_zero).collect();
+            let words = "the two differ by a factor that is not negative";
+            return Some(given_not_zero(words, given));
         }
     }
     let boundary = || locus::vanishing(f, [&Expr::one(), f], domains);

@@ -3,7 +3,9 @@
 use std::cmp::Ordering;
 
 use super::cells::{Cases, holds};
+use super::equations::{GAINED, LOST, told};
 use super::solved::{solve_for, unknowns};
+use super::system::equations_alone;
 use super::{Normal, differences, system};
 use crate::domain::{Coordinate, Domains, Sample, roles, samples};
 use crate::expr::{Expr, Symbol, ratio};
@@ -82,6 +84,12 @@ pub(super) fn apart_in_cases(ctx: &Context, expected: &Cases, answer: &Cases) ->
         if let (Some(e), Some(a)) = (any(expected), any(answer))
             && e != a
         {
+            if equations_alone(expected, answer) {
+                let mut finding = told(if e { LOST } else { GAINED });
+                finding.counterexample = Some(Apart::new(sample.words(), holding(a), holding(e)));
+                finding.assumed = assumed;
+                return Some(finding);
+            }
             let [note, words, hint] = system::OTHER_NUMBERS;
             let mut finding = Finding::different(note, "counterexample", words);
             finding.counterexample = Some(Apart::new(sample.words(), holding(a), holding(e)));

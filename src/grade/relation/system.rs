@@ -190,7 +190,6 @@ pub(super) fn with_one_given(
 
 /// The finding for relations in one symbol that part at a number.
 fn apart(ctx: &Context, expected: &Cases, answer: &Cases, along: &Along) -> Finding {
-    let equation = |n: &Normal| n.relation == Relation::Equal;
     let at = |at: &String, lost: bool| Apart::new(at, holding(!lost), holding(lost));
     let somewhere = || {
         let gained = along.gained.as_ref().map(|x| at(x, false));
@@ -201,7 +200,7 @@ fn apart(ctx: &Context, expected: &Cases, answer: &Cases, along: &Along) -> Find
         _ => None,
     };
     let words = match (&only(expected), &only(answer)) {
-        (Some(e), Some(a)) if equation(e) && equation(a) => match (&along.lost, &along.gained) {
+        _ if equations_alone(expected, answer) => match (&along.lost, &along.gained) {
             (Some(_), Some(_)) => OTHER,
             (Some(_), None) => LOST,
             _ => GAINED,
@@ -220,6 +219,12 @@ fn apart(ctx: &Context, expected: &Cases, answer: &Cases, along: &Along) -> Find
     let mut finding = told(words);
     finding.counterexample = somewhere();
     finding
+}
+
+/// Whether there is nothing but equations.
+pub(super) fn equations_alone(expected: &Cases, answer: &Cases) -> bool {
+    let mut all = expected.iter().chain(answer).flatten();
+    all.all(|n| n.relation == Relation::Equal)
 }
 
 /// Note, words and hint for relations that hold at different numbers.
@@ -254,8 +259,7 @@ pub(super) fn compare(
     {
         return finding;
     }
-    let equations = |system: &[Normal]| system.iter().all(|n| n.relation == Relation::Equal);
-    if equations(expected) && equations(answer) {
+    if equations_alone(&[expected.to_vec()], &[answer.to_vec()]) {
         let ([expected, answer], domains) = with_distances([expected, answer], domains);
         let [lost, gained] = [(&expected, &answer), (&answer, &expected)]
             .map(|(system, other)| fulfilled(system, other, &domains));
