@@ -107,7 +107,10 @@ fn about_answers(scene: &Scene, case: &Case) -> Result<Vec<Answer>, Refused> {
         answer::remember(scene, &answers, &mut known);
         for answer in &mut answers {
             // With what they approach is told besides.
-            let is_told = |words: &Sentence| !needs.is_empty() && words.to_string() == APPROACH;
+            let is_told = |words: &Sentence| {
+                needs.iter().any(|need| need.says(words))
+                    || !needs.is_empty() && words.to_string() == APPROACH
+            };
             let given = case.assumptions().filter(|words| !is_told(words));
             answer.assumptions.extend(given);
             super::answer::tell(scene, &question.ask, &needs, answer);

@@ -34,6 +34,11 @@ impl Need {
         Need { relation, told }
     }
 
+    /// Whether these are its words: then [`tell`] decides where they stand.
+    pub fn says(&self, words: &Sentence) -> bool {
+        self.told.to_string() == words.to_string()
+    }
+
     /// The same with values for parameters.
     fn put(&self, with: &Known, domains: &Domains) -> Need {
         let Relation {
