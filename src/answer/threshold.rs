@@ -87,6 +87,7 @@ pub(super) fn fill(
     }
     meet(out, parameter, [left, right], &roots);
     if relation == Relation::Equal {
+        exists(out, &roots, domains);
         let values = roots.inside.iter().map(|root| root.value.clone());
         let at = |value| (Expr::symbol(parameter), Relation::Equal, value);
         out.range.extend(values.map(at));
