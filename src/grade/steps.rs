@@ -9,6 +9,7 @@ mod arrows;
 mod bind;
 mod cause;
 mod desk;
+mod finals;
 mod impact;
 mod link;
 mod names;

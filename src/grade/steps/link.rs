@@ -2,15 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::super::Diagnosis;
 use super::super::relation::solve_for;
-use super::super::sheet::Entry;
-use super::super::{Diagnosis, Options, Verdict};
 use super::cause::{MOST_STEPS, size_in, under_root};
 use super::impact::Stand;
-use super::names::ACCELERATIONS;
 use super::rounded::is_near;
 use super::text::{beside, equations, supposition};
-use super::{Desk, Final, Status};
+use super::{Desk, Status};
 use crate::algebra::{self, Sign};
 use crate::answer::limit;
 use crate::equality::{self, Equality};
@@ -43,7 +41,7 @@ pub(super) enum Weighed {
     Slip(usize),
 }
 
-fn equal(sign: Relation) -> bool {
+pub(super) fn equal(sign: Relation) -> bool {
     matches!(sign, Relation::Equal | Relation::Approximately)
 }
 
@@ -131,7 +129,7 @@ impl Desk<'_> {
     }
 
     /// Whether a vector with one component is this component.
-    fn is_along(&self, vector: &Expr, value: &Expr) -> bool {
+    pub(super) fn is_along(&self, vector: &Expr, value: &Expr) -> bool {
         let known = vector
             .as_symbol()
             .is_some_and(|name| self.closed.contains_key(name));
@@ -316,7 +314,7 @@ impl Desk<'_> {
         ))
     }
 
-    fn carried_on(&self, link: &Link) -> Option<usize> {
+    pub(super) fn carried_on(&self, link: &Link) -> Option<usize> {
         effort::within(MOST_STEPS, || self.again(link))
     }
 
@@ -378,352 +376,13 @@ impl Desk<'_> {
     }
 
     /// The link of `lost = … = 6 kg` in which an answer of the scene gets a unit of another quantity.
-    fn in_another_unit(&self, links: &[Link]) -> Option<usize> {
+    pub(super) fn in_another_unit(&self, links: &[Link]) -> Option<usize> {
         let name = links.first()?.sides[0].expr()?.as_symbol()?;
         let asked = self.sheet.entry(name).ok()?.key.question.dimension?;
         links.iter().position(|link| match &link.sides[1] {
             Content::Quantity(q) => q.unit.dimension != asked && !q.value.is_zero(),
             _ => false,
         })
-    }
-
-    /// A line about the parameter a question asks for: `d = 4 l/3`, `d <= L/2`.
-    pub(super) fn bound(
-        &mut self,
-        number: usize,
-        text: &str,
-        reading: &Reading,
-        options: &Options,
-    ) -> Option<(Status, Vec<Diagnosis>)> {
-        let Content::Relations(sides, _) = &reading.content else {
-            return None;
-        };
-        let name = sides.first()?.expr()?.as_symbol()?;
-        let mut sought = self.sought.iter().filter(|s| s.is_named(name));
-        // Where a quantity is largest is no answer of its own.
-        let places = sought.clone().filter(|s| s.condition.is_none());
-        let links = self.links(reading).unwrap_or_default();
-        for place in places {
-            // All sides of `d = a = b` are to be the place.
-            match links.iter().position(|link| !self.holds_where(link, place)) {
-                None if !links.is_empty() => return Some((Status::Holds, Vec::new())),
-                Some(at @ 1..) => {
-                    let broken = self.broken(reading, at, text).into_iter().collect();
-                    return Some((Status::Wrong, broken));
-                }
-                _ => {}
-            }
-        }
-        let question = match sought.find(|s| s.condition.is_some()) {
-            Some(sought) => sought.question.clone(),
-            None => {
-                let mut bounds = self.sheet.bounds();
-                bounds.find(|b| b.parameter == *name)?.name
-            }
-        };
-        if let (Content::Relations(_, signs), [_, end]) = (&reading.content, sides.as_slice()) {
-            let none = BTreeMap::new();
-            let is_end =
-                |value: &Expr| Some(self.all_zero(&[end.expr()? - value], &none) == Some(true));
-            let mut granted = self.sheet.granted(name).into_iter();
-            // What the answers suppose is said of it as well.
-            if granted.any(|(sign, value)| signs[0] == sign && is_end(&value) == Some(true)) {
-                return Some((Status::Holds, Vec::new()));
-            }
-        }
-        let entry: Entry = self.sheet.entry(&question).ok()?;
-        let told = self.of_value(reading);
-        if let Some(Content::Relations(told, _)) = told.as_ref().map(|told| &told.content)
-            && told.len() == 1
-        {
-            return Some((
-                self.note(number, reading, &links, &Weighed::Holds),
-                Vec::new(),
-            ));
-        }
-        // `μ ≥ P_t/P_n = …` says what its first link says where the others hold.
-        let first = told.or_else(|| self.first_link(reading));
-        let reading = first.as_ref().unwrap_or(reading);
-        let Content::Relations(sides, _) = &reading.content else {
-            return None;
-        };
-        let grade = match self.in_given(reading) {
-            Some(text) => self.sheet.judge(&entry, &text, options),
-            None if first.is_some() => {
-                let text = super::super::show(&reading.content);
-                self.sheet.judge(&entry, &text, options)
-            }
-            None => self.sheet.judge(&entry, text, options),
-        };
-        // In numbers the values behind it are those of the scene.
-        let verdict = match grade.note {
-            "DIFF_ROUNDED" => Verdict::Equivalent,
-            _ if self.is_rounded_bound(text, reading, &question) => Verdict::Equivalent,
-            _ => grade.verdict,
-        };
-        let status = match verdict {
-            Verdict::Equivalent => Status::Holds,
-            Verdict::Different => match self.link(sides.first()?, sides.last()?) {
-                Some(link) => {
-                    let cause = self.cause(text, &link).or_else(|| self.carried_on(&link));
-                    let weighed = cause.map_or(Weighed::Slip(0), Weighed::Carried);
-                    self.note(number, reading, &[link], &weighed)
-                }
-                None => Status::Wrong,
-            },
-            Verdict::Invalid | Verdict::Undecided => return None,
-        };
-        self.finals
-            .insert(question, Final::new(number, text, verdict));
-        let found = Some(grade.diagnosis).filter(|_| grade.verdict == verdict);
-        Some((status, found.unwrap_or_default()))
-    }
-
-    /// Whether an inequality in numbers is a bound that is asked for, as far as their digits tell.
-    fn is_rounded_bound(&self, text: &str, reading: &Reading, question: &str) -> bool {
-        let Content::Relations(sides, signs) = &reading.content else {
-            return false;
-        };
-        let ([_, end], [sign]) = (sides.as_slice(), signs.as_slice()) else {
-            return false;
-        };
-        let mut bounds = self.sheet.bounds();
-        let bound = bounds.find(|b| b.name == question && b.relation == *sign);
-        let link = bound.and_then(|b| self.link(&Content::Scalar(b.value), end));
-        link.is_some_and(|link| self.is_rounded(text, &link, &BTreeMap::new()))
-    }
-
-    /// A chain about a parameter without the sides that are the parameter whatever its value, such as `(m+M)/m u` in
-    /// `v = (m+M)/m u = …`; nothing where it has none.
-    fn of_value(&self, reading: &Reading) -> Option<Reading> {
-        let Content::Relations(sides, signs) = &reading.content else {
-            return None;
-        };
-        let (name, values) = sides.split_first()?;
-        let answered = self.closed.contains_key(name.expr()?.as_symbol()?);
-        let says = |side: &&Content| {
-            let link = self.link(name, side);
-            link.is_none_or(|link| self.all_zero(&link.differences, &BTreeMap::new()) != Some(true))
-        };
-        let told: Vec<Content> = values.iter().filter(says).cloned().collect();
-        if answered || told.len() == values.len() || !signs.iter().all(|s| equal(*s)) {
-            return None;
-        }
-        let told: Vec<Content> = [name.clone()].into_iter().chain(told).collect();
-        let signs = signs[..told.len() - 1].to_vec();
-        Some(reading.with(Content::Relations(told, signs)))
-    }
-
-    /// The bound of a chain that goes on with equalities, where all of these hold, and what is known put in.
-    fn first_link(&self, reading: &Reading) -> Option<Reading> {
-        let Content::Relations(sides, signs) = &reading.content else {
-            return None;
-        };
-        let ([name, first, rest @ ..], [sign, others @ ..]) = (&sides[..], &signs[..]) else {
-            return None;
-        };
-        let goes_on = !equal(*sign) && !others.is_empty() && others.iter().all(|s| equal(*s));
-        let none = BTreeMap::new();
-        let links = rest.iter().map(|side| self.link(first, side));
-        let links: Vec<Link> = links.collect::<Option<_>>().filter(|_| goes_on)?;
-        let hold = |link: &Link| self.all_zero(&link.differences, &none) == Some(true);
-        let value = self.put_in(first.expr()?, &none);
-        let sides = vec![name.clone(), Content::Scalar(value)];
-        let content = Content::Relations(sides, vec![*sign]);
-        links.iter().all(hold).then(|| reading.with(content))
-    }
-
-    /// A line about a parameter with the student's own names put in, where it has such.
-    fn in_given(&self, reading: &Reading) -> Option<String> {
-        let own = reading.content.map(&|e| self.with_own(e));
-        (own != reading.content).then(|| super::super::show(&own))
-    }
-
-    /// A line with an inequality: it holds where its sign is proved, or where it says what a question supposes.
-    pub(super) fn inequality(&self, reading: &Reading) -> Status {
-        let Content::Relations(sides, signs) = &reading.content else {
-            return Status::Undecided;
-        };
-        let domains = &self.sheet.scene.domains;
-        let none = BTreeMap::new();
-        let mut status = Status::Holds;
-        for (pair, sign) in sides.windows(2).zip(signs) {
-            let (Some(a), Some(b)) = (pair[0].expr(), pair[1].expr()) else {
-                return Status::Undecided;
-            };
-            let plain = self.with_own(&(a - b));
-            let mut supposed = self.sought.iter().filter_map(|s| s.condition.as_ref());
-            if supposed.any(|c| *c == plain || *c == -&plain) {
-                continue;
-            }
-            let difference = self.put_in(&plain, &none);
-            let proved = algebra::sign(&difference, domains);
-            let zero = proved == Some(Sign::Zero);
-            let holds = match (sign, proved) {
-                (Relation::Equal | Relation::Approximately, _) => zero.then_some(true),
-                (Relation::LessEqual | Relation::GreaterEqual, _) if zero => Some(true),
-                (Relation::Greater | Relation::GreaterEqual, Some(Sign::Positive)) => Some(true),
-                (Relation::Greater | Relation::GreaterEqual, Some(Sign::Negative)) => Some(false),
-                (Relation::Less | Relation::LessEqual, Some(Sign::Negative)) => Some(true),
-                (Relation::Less | Relation::LessEqual, Some(Sign::Positive)) => Some(false),
-                (Relation::NotEqual, Some(Sign::Positive | Sign::Negative)) => Some(true),
-                _ => None,
-            };
-            match holds {
-                Some(true) => {}
-                Some(false) => return Status::Wrong,
-                None => status = Status::Undecided,
-            }
-        }
-        status
-    }
-
-    /// Whether an answer by the names of others is right with the values that were given for these, wrong ones among them:
-    /// a square is whose root has the wrong sign.
-    fn stands(&self, name: &Symbol, answer: &Content) -> Option<bool> {
-        let mut answer = self.with_own(answer.expr()?);
-        let wrong = |n: &Symbol| {
-            let told = self.finals.get(&**n).filter(|_| n != name);
-            told.is_some_and(|f| f.verdict != Verdict::Equivalent)
-        };
-        // One answer may stand on the other.
-        for _ in 0..self.said.len().min(4) {
-            answer = answer.substitute(&self.said);
-        }
-        let truth = self.closed.get(name)?;
-        let open = answer.symbols().iter().any(wrong);
-        let off = self.all_zero(&[answer - truth], &BTreeMap::new());
-        off.filter(|_| !open)
-    }
-
-    /// The velocity that is asked for as a vector which a name with an arrow stands for.
-    fn asked_vector(&self, name: &Symbol) -> Option<Symbol> {
-        let mine = formula::has_arrow(name).then(|| self.components(name))??;
-        let mut asked = self.sheet.scene.questions.iter();
-        let asked = asked.find(|q| {
-            let theirs = matches!(q.ask, Ask::Velocity { .. }).then(|| self.components(&q.name));
-            theirs.flatten().is_some_and(|theirs| {
-                let gaps: Vec<Expr> = mine.iter().zip(&theirs).map(|(a, b)| a - b).collect();
-                self.all_zero(&gaps, &BTreeMap::new()) == Some(true)
-            })
-        });
-        asked.map(|q| Symbol::from(q.name.as_str()))
-    }
-
-    /// Whether a side stands in what is given, and in answers that were given before, or names that a line gave.
-    fn is_in_given(&self, name: &Symbol, side: &Content) -> bool {
-        let parameters = &self.sheet.scene.parameters;
-        let told = |n: &Symbol| {
-            let told = self.finals.contains_key(&**n);
-            n != name && (told || self.learned.contains(n) && self.is_stated(n))
-        };
-        let given = |e: &Expr| {
-            let used = self.with_own(e).symbols();
-            let mut used = used.iter();
-            used.all(|n| told(n) || &**n == "pi" || parameters.iter().any(|p| p.name == *n))
-        };
-        let mut in_given = true;
-        side.each(&mut |e| in_given &= given(e));
-        in_given
-    }
-
-    /// Keeps what a line says of a quantity that is asked for, where it ends in what is given; `there` are the values of another
-    /// moment or case of which it speaks.
-    pub(super) fn note_final(
-        &mut self,
-        number: usize,
-        text: &str,
-        reading: &Reading,
-        there: &BTreeMap<Symbol, Expr>,
-    ) {
-        // What is a number in the unit that is asked for is one.
-        let fits = |measured: &Reading| {
-            let links = self.links(measured);
-            links.is_some_and(|links| self.in_another_unit(&links).is_none())
-        };
-        let measured = self.measured(text, reading).filter(fits);
-        let Content::Relations(sides, signs) = &measured.as_ref().unwrap_or(reading).content else {
-            return;
-        };
-        let ([first, .., last], true) = (sides.as_slice(), signs.iter().all(|s| equal(*s))) else {
-            return;
-        };
-        let Some(name) = first.expr().and_then(Expr::as_symbol) else {
-            return;
-        };
-        let name = self.spins.get(&**name).map_or(name, |(spin, _)| spin);
-        let vector = self.asked_vector(name);
-        let name = vector
-            .as_ref()
-            .or(self.stands_for.get(name))
-            .unwrap_or(name);
-        let answers = &self.sheet.derivation.answers;
-        let asked = |a: &crate::answer::Answer| *a.name == **name || *a.question == **name;
-        // Answers may stand on an acceleration that nobody asked for.
-        let lent = ACCELERATIONS.contains(&&**name) && self.closed.contains_key(name)
-            || self.learned.contains(name);
-        // An answer may stand on another that was given.
-        let used: Vec<Verdict> = {
-            let mut used = Vec::new();
-            last.each(&mut |e| used.extend(self.with_own(e).symbols()));
-            let used = used.iter().filter(|n| *n != name);
-            used.filter_map(|n| Some(self.finals.get(&**n)?.verdict))
-                .collect()
-        };
-        let in_given = self.is_in_given(name, last);
-        let Some(ends) = self.link(first, last) else {
-            return;
-        };
-        // A speed is no answer where a velocity is asked for.
-        let whole = self.vector(first, false).is_some() == self.vector(last, false).is_some();
-        if !whole || !(lent || answers.iter().any(asked)) {
-            return;
-        }
-        if !in_given {
-            // What is wrong by the names of others is wrong until it is said again.
-            let wrong = there.is_empty()
-                && self.all_zero(&ends.differences, there) == Some(false)
-                && !self.is_rounded(text, &ends, there)
-                && !self.follows_condition(&ends);
-            if wrong {
-                let last = Final::new(number, text, Verdict::Different);
-                self.finals.entry(name.to_string()).or_insert(last);
-            }
-            return;
-        }
-        let end = &text[text.rfind(['=', '≈']).unwrap_or(0)..];
-        let in_another_unit = self.in_another_unit(std::slice::from_ref(&ends)).is_some();
-        let verdict = match self.all_zero(&ends.differences, there) {
-            _ if in_another_unit => Verdict::Different,
-            Some(true) => Verdict::Equivalent,
-            _ if self.is_rounded(end, &ends, there) => Verdict::Equivalent,
-            // What it was worked out from may be rounded more coarsely.
-            _ if self.is_rounded(text, &ends, there) => Verdict::Equivalent,
-            // What holds where a condition does is a step on the way to what the condition is for.
-            Some(false) if self.follows_condition(&ends) => return,
-            Some(false) => Verdict::Different,
-            None => Verdict::Undecided,
-        };
-        let verdict = match (verdict, used.iter().all(|v| *v == Verdict::Equivalent)) {
-            (verdict, true) => verdict,
-            (verdict, false) => match (self.stands(name, last), verdict) {
-                (Some(true), _) => Verdict::Equivalent,
-                (Some(false), _) => Verdict::Different,
-                (None, Verdict::Equivalent) if used.contains(&Verdict::Different) => {
-                    Verdict::Different
-                }
-                (None, _) => Verdict::Undecided,
-            },
-        };
-        match (last.expr(), verdict) {
-            (Some(value), Verdict::Different | Verdict::Undecided) => {
-                let value = self.with_own(value);
-                self.said.insert(name.clone(), value);
-            }
-            _ => drop(self.said.remove(name)),
-        }
-        self.finals
-            .insert(name.to_string(), Final::new(number, text, verdict));
     }
 
     /// The finding about the link of a chain that does not hold.
