@@ -303,6 +303,17 @@ fn a_tolerance_is_relative_absolute_or_in_digits() {
         edge("10.1000000000000000000001"),
         "different DIFF_TOLERANCE"
     );
+    // Of an equation the solutions count, all of them.
+    let root = |answer: &str| {
+        let symbols = json!({"x": "real"});
+        judged(
+            json!({"expected": "x^2 = 2", "answer": answer, "tolerance": "1%", "symbols": symbols}),
+        )
+    };
+    assert_eq!(root("x = ±1.414"), "equivalent EQUIV_TOLERANCE");
+    assert!(root("x = 1.414").starts_with("different"));
+    assert!(root("x = ±1.44").starts_with("different"));
+    assert!(root("x = ±1.414 or x = 3").starts_with("different"));
     for wrong in [
         json!(-1),
         json!("two"),

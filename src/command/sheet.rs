@@ -35,6 +35,7 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
     let laws = story::lent(&worked.scene, &worked.told);
     let impacts: Vec<Scene> = impacts.into_iter().map(|(_, impact)| impact).collect();
     let moments = story::moments(&worked.told);
+    let ends = story::ends(&worked.scene, &worked.told);
     // Of one impact beliefs are tried on that alone, not on all that friction leaves.
     let story = has_stages.then(|| worked.scene.clone());
     let ways = worked.ways()?.into_iter().map(|way| Sheet {
@@ -46,6 +47,7 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
         moments: moments.clone(),
         all: all.clone(),
         impacts: impacts.clone(),
+        ends: ends.clone(),
         laws: laws.clone(),
         accelerations: story::accelerations(&worked.told),
         coefficients: coefficients.clone(),

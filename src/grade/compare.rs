@@ -153,9 +153,17 @@ pub(crate) fn verdict_of(key: &Key, answer: &Reading, options: &Options) -> Verd
 /// Compares with every number of the answer that the tolerance allows in the place of the expected one.
 fn tolerated(ctx: &Context, answer: &Reading) -> Finding {
     let found = compare(ctx, answer);
+    let (expected, domains) = (&ctx.key.reading.content, &ctx.key.question.domains);
+    let changed = |content: &Content| *content != answer.content;
+    let in_place = |tolerance| number::aligned(expected, &answer.content, tolerance);
+    let near = |tolerance| {
+        let near = |a: &Expr, e: &Expr| number::within(a, e, tolerance) == Some(true);
+        relation::at_zeros(expected, &answer.content, &near, domains)
+    };
     if let (Verdict::Different, Some(tolerance)) = (found.verdict, &ctx.options.tolerance)
-        && let Some(content) = number::aligned(&ctx.key.reading.content, &answer.content, tolerance)
-        && content != answer.content
+        && let Some(content) = in_place(tolerance)
+            .filter(changed)
+            .or_else(|| near(tolerance).filter(changed))
     {
         let exact = compare(&ctx.plain(), &answer.with(content));
         if exact.is_equivalent() {

@@ -27,7 +27,7 @@ use super::compare::{Context, Finding};
 use super::{Apart, Verdict};
 use crate::algebra::{self, Element, Field, Sign};
 use crate::domain::{Domain, Domains, roles};
-use crate::expr::{Expr, Function, Node, Symbol};
+use crate::expr::{Expr, Function, Node, Symbol, ratio};
 use crate::formula::{Content, Join, Relation, is_angle_name, write_plain};
 use crate::interval::{Big, Outcome, evaluate};
 use cells::Cases;
@@ -231,6 +231,36 @@ fn negated(cases: &Cases, domains: &Domains) -> Option<Vec<Normal>> {
     cases.iter().map(turned).collect()
 }
 
+/// An answer with the solution of the expected equation in one symbol wherever its own number is near that; those beyond the
+/// domain as well, which an exact comparison rules out.
+pub(super) fn at_zeros(
+    expected: &Content,
+    answer: &Content,
+    near: &dyn Fn(&Expr, &Expr) -> bool,
+    domains: &Domains,
+) -> Option<Content> {
+    let Content::Relations(sides, signs) = expected else {
+        return None;
+    };
+    let ([left, right], [Relation::Equal]) = (&sides[..], &signs[..]) else {
+        return None;
+    };
+    let gap = left.expr()? - right.expr()?;
+    let mut names = gap.symbols().into_iter();
+    let (name, None) = (names.next()?, names.next()) else {
+        return None;
+    };
+    let mut all = domains.clone();
+    all.symbols.insert(name.clone(), Domain::real());
+    let zeros = zeros::zeros(&gap, &name, &all)?;
+    let exact = |e: &Expr| {
+        let roots = zeros.iter().map(|(root, _)| root);
+        let mut roots = roots.filter(|_| e.symbols().is_empty());
+        roots.find(|root| near(e, root)).unwrap_or(e).clone()
+    };
+    Some(answer.map(&exact))
+}
+
 /// The systems of which one holds.
 fn cases(content: &Content) -> Option<Vec<Vec<Normal>>> {
     match content {
@@ -295,7 +325,10 @@ fn links(sides: &[Content], signs: &[Relation]) -> Option<Vec<Normal>> {
                 let (a, b) = (a.expr()?, b.expr()?);
                 let n = normal(a, b, *sign);
                 let gone = cancelled([a, b], &n.difference);
-                out.push(n);
+                match squares(&n) {
+                    Some(all) => out.extend(all),
+                    None => out.push(n),
+                }
                 out.extend(gone);
             }
             _ => return None,
@@ -319,6 +352,25 @@ fn normal(left: &Expr, right: &Expr, relation: Relation) -> Normal {
         Relation::Equal | Relation::NotEqual => Normal::new(rooted(difference), relation),
         _ => Normal::new(difference, relation),
     }
+}
+
+/// A sum of squares vanishes where each of them does.
+fn squares(n: &Normal) -> Option<Vec<Normal>> {
+    let terms = n.difference.terms();
+    let even = |k: &Expr| {
+        let half = k.as_number().map(|k| k / ratio(2, 1));
+        half.is_some_and(|half| half.is_integer() && half.is_positive())
+    };
+    let base = |term: &Expr| match term.split_number() {
+        (factor, rest) => match rest.node() {
+            Node::Power(base, k) if even(k) => Some((factor.is_positive(), base.clone())),
+            _ => None,
+        },
+    };
+    let all: Vec<(bool, Expr)> = terms.iter().map(base).collect::<Option<_>>()?;
+    let alike = all.len() > 1 && all.iter().all(|(sign, _)| *sign == all[0].0);
+    let each = all.into_iter();
+    (alike && n.relation == Relation::Equal).then(|| each.map(|(_, base)| n.of(base)).collect())
 }
 
 /// A power vanishes where its base does.

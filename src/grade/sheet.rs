@@ -30,6 +30,8 @@ pub struct Sheet {
     pub all: Vec<Answer>,
     /// The impacts of a scene with stages, each with the motion that comes in and with its own questions.
     pub impacts: Vec<Scene>,
+    /// The bodies at the end of each motion, by name of its stage.
+    pub ends: Vec<(String, Scene)>,
     /// Laws of the motions between the impacts, in the names of the answers: expressions that are zero.
     pub laws: Vec<Expr>,
     /// Accelerations along the lines of the motions, whether they are asked for or not.
@@ -91,6 +93,7 @@ pub fn sheet(scene: Scene) -> Result<Sheet, derive::Stop> {
         moments: Vec::new(),
         all: Vec::new(),
         impacts: Vec::new(),
+        ends: Vec::new(),
         laws: Vec::new(),
         accelerations: Vec::new(),
         coefficients: Vec::new(),

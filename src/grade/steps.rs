@@ -13,6 +13,7 @@ mod finals;
 mod impact;
 mod link;
 mod names;
+mod open;
 mod rounded;
 mod said;
 mod sought;
@@ -137,6 +138,8 @@ struct Meant {
     marked: BTreeSet<(Symbol, &'static str)>,
     /// Whether a name of the student's own may stand for something else further down, as W does for each way.
     anew: bool,
+    /// Whether `h = 0.2 m` says how many meters, though m be a mass.
+    in_units: bool,
 }
 
 /// Checks a worked solution. Where it may be meant in several ways it is read in the one in which fewest of its lines are wrong:
@@ -186,7 +189,17 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
         anew: true,
         ..meant
     });
-    let others = speeds.chain(marked).chain(with_own).map(worked);
+    let symbols = desk.symbols("");
+    let own = names::definitions(&plain, &symbols);
+    let measured = own
+        .iter()
+        .any(|(_, right)| names::in_unit(right, &symbols).is_some());
+    let measured = measured.then(|| Meant {
+        in_units: true,
+        ..best.1.clone()
+    });
+    let others = speeds.chain(marked).chain(with_own).chain(measured);
+    let others = others.map(worked);
     let others = others.filter(|other| {
         let right = |told: &Option<Final>| Some(told.as_ref()?.verdict == Verdict::Equivalent);
         let (Worked { finals, .. }, meant, _) = other;
@@ -260,6 +273,7 @@ fn check_with(
     desk.own_with_mark = names::of_a_later_moment(sheet, &read);
     desk.own_with_mark.extend(meant.marked.iter().cloned());
     desk.anew = meant.anew;
+    desk.in_units = meant.in_units;
     desk.ahead = names::definitions(&read, &desk.symbols(""));
     let mut before = String::new();
     let dashes = text::has_dashes(text);
@@ -273,6 +287,7 @@ fn check_with(
             let line = line.trim();
             if text::is_heading(line) {
                 desk.of_earlier_parts = desk.own.keys().cloned().collect();
+                desk.head(line);
             }
             // What is aligned may begin with a minus sign.
             let item = text::unlisted(read.trim(), dashes && !line.contains('&'));
@@ -292,6 +307,19 @@ fn check_with(
 }
 
 impl Desk<'_> {
+    /// Takes the motion that a heading names; one further in may be about anything in it.
+    fn head(&mut self, heading: &str) {
+        let words = heading.split(|c: char| !c.is_alphanumeric() && !"'_()".contains(c));
+        let words = words.filter(|word| !word.is_empty());
+        let words = format!(" {} ", words.collect::<Vec<_>>().join(" ")).to_lowercase();
+        let stages = self.sheet.ends.iter().map(|(stage, _)| stage);
+        let named = stages.filter(|stage| words.contains(&format!(" {} ", stage.to_lowercase())));
+        let named = named.max_by_key(|stage| stage.len()).cloned();
+        if named.is_some() || !heading.starts_with("###") {
+            self.under = named;
+        }
+    }
+
     /// The final answers in the order of the questions; of a vector its components, where these stand alone.
     fn finals(&self) -> Vec<(String, Option<Final>)> {
         let mut out = Vec::new();
@@ -301,10 +329,21 @@ impl Desk<'_> {
                 |a: &Answer| !matches!(a.form, Form::Words | Form::Open(_)) || !a.range.is_empty();
             answers.any(|a| a.question == q.name && said(a))
         };
+        // What a speed or a center of rotation is put together from is asked by nobody.
+        let helps = |q: &Question| {
+            let of = ["_velocity", "_spin", "_from"]
+                .iter()
+                .find_map(|part| q.name.strip_suffix(part));
+            let asked = |name: String| self.sheet.scene.question(&name).is_some();
+            of.is_some_and(|of| asked(of.to_string()) || asked(format!("{of}_x")))
+        };
         let asked = self.sheet.answered().filter(|q| !q.hidden);
         for q in asked.filter(has_value) {
             let parts: Vec<String> = [format!("{}_x", q.name), format!("{}_y", q.name)].into();
             let told = |name: &String| self.finals.contains_key(name);
+            if helps(q) && !told(&q.name) && !parts.iter().any(told) {
+                continue;
+            }
             // `a_y` is no part of an angular acceleration a.
             let vector = self.components(&q.name).is_some();
             if told(&q.name) || !vector || !parts.iter().any(told) {
@@ -327,15 +366,30 @@ impl Desk<'_> {
         }
         let mut line = (Status::Comment, Vec::new());
         for equation in text::equations(text) {
+            if self.is_supposed(text, equation) {
+                continue;
+            }
             let turned = self.with_sense(equation);
             let equation = turned.as_deref().unwrap_or(equation);
             let (status, diagnosis) = self.equation(number, equation, options);
+            self.note_clear(equation, &status);
             if status.weight() > line.0.weight() {
                 line.0 = status;
             }
             line.1.extend(diagnosis);
         }
         line
+    }
+
+    /// Notes an own name that is said anew in a line that cannot be read: what it is from here on is not known.
+    fn note_clear(&mut self, equation: &str, status: &Status) {
+        let own = names::named(equation).filter(|(name, _)| self.own.contains_key(name));
+        if let Some((name, _)) = own {
+            match status {
+                Status::Unreadable(_) => self.unclear.insert(name),
+                _ => self.unclear.remove(&name),
+            };
+        }
     }
 
     fn equation(
@@ -364,6 +418,9 @@ impl Desk<'_> {
                     }
                     None if self.has_normal(text, &reading) && self.new_side(text).is_some() => {
                         formula::read(text, &self.symbols(text)).unwrap_or(reading)
+                    }
+                    None if names::are_letters(text, &reading) => {
+                        return (Status::Undecided, Vec::new());
                     }
                     None => reading,
                 }
@@ -491,10 +548,8 @@ impl Desk<'_> {
             if text::is_of_time(text) {
                 return (Status::Undecided, Vec::new());
             }
-            if self.is_of_a_motion(&links) {
-                let words = "which moment of the motion this tells of is not known";
-                let hint = "say which moment is meant";
-                return (Status::Undecided, vec![Diagnosis::new(MOMENT, words, hint)]);
+            if let Some(found) = self.left_open(&links) {
+                return found;
             }
             // The student may have meant the other reading of a slash, or m u by `mu`.
             let symbols = self.symbols(text);
@@ -530,10 +585,7 @@ impl Desk<'_> {
             Weighed::Holds if link::in_vectors(&links) => {
                 self.count(&links, &BTreeMap::new());
                 let says = self.says_enough(&links, &self.parts, false);
-                let words = "what vanishes at this moment may stand in this line with any factor";
-                let hint = "check the signs of the terms that vanish, or say which moment is meant";
-                let remark = (!says).then(|| Diagnosis::new("VANISHES", words, hint));
-                remark.into_iter().collect()
+                (!says).then(open::vanishes).into_iter().collect()
             }
             _ => Vec::new(),
         };

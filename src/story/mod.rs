@@ -26,7 +26,9 @@ pub(crate) use granted::NO_TIME;
 pub use lent::{accelerations, lent};
 pub(crate) use motion::by_coordinate;
 pub use second::held;
-pub use sheet::{Way, beginning, impact, impacts, is_clockwise, moments, outcomes, sheet, ways};
+pub use sheet::{
+    Way, beginning, ends, impact, impacts, is_clockwise, moments, outcomes, sheet, ways,
+};
 pub(crate) use told::line;
 
 pub use told::{Case, Cluster, Kept, Part, StageTold, State, Step, Told};

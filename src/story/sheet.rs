@@ -8,7 +8,7 @@ use crate::answer::calc::sign;
 use crate::answer::{Answer, Form};
 use crate::derive::{self, Derivation, Moment, Stop};
 use crate::expr::{Expr, cross, minus};
-use crate::scene::{ContactLaw, Question, Scene, StageKind};
+use crate::scene::{Ask, ContactLaw, Question, Scene, StageKind};
 
 /// The scene of an impact, by name of its stage; the first one for `None`. `None` where there is no such impact. Of several
 /// cases it is the first, kept to where that holds.
@@ -103,6 +103,37 @@ pub fn moments(told: &Told) -> Vec<Moment> {
         })
     });
     cases.collect()
+}
+
+/// The scene at the end of each motion, by name of its stage: the bodies, and the points on them that questions are about, are
+/// where they are then and move as they do.
+pub fn ends(scene: &Scene, told: &Told) -> Vec<(String, Scene)> {
+    let on_bodies = scene.questions.iter().filter_map(|q| match &q.ask {
+        Ask::Velocity { body, point, .. } => Some((*body, point.as_ref()?.0.as_str())),
+        Ask::PointAcceleration { body, point, .. } => Some((*body, point.as_deref()?)),
+        _ => None,
+    });
+    let on_bodies: Vec<(usize, &str)> = on_bodies.collect();
+    let motions = told.stages.iter().filter(|stage| stage.cases.is_empty());
+    let each = motions.map(|stage| {
+        let (mut out, after) = (stage.placed.scene.clone(), &stage.after);
+        out.questions.clear();
+        let bodies = out.bodies.iter_mut().enumerate();
+        for (b, body) in bodies.filter(|(_, body)| !body.is_fixed()) {
+            body.center.clone_from(&after.center[b]);
+            body.angle.clone_from(&after.angle[b]);
+            body.velocity.clone_from(&after.velocity[b]);
+            body.spin.clone_from(&after.spin[b]);
+        }
+        for (b, name) in &on_bodies {
+            let arm = after.carried(scene, *b, name);
+            if let Some(point) = out.points.iter_mut().find(|p| p.name == *name) {
+                point.at = [0, 1].map(|axis| &after.center[*b][axis] + &arm[axis]);
+            }
+        }
+        (stage.name.clone(), out)
+    });
+    each.collect()
 }
 
 /// One of the ways a told scene can go, as one scene and one derivation.

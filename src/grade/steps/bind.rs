@@ -188,8 +188,7 @@ impl Desk<'_> {
             })
             .collect();
         let moves = self.sheet.story.as_ref().is_some_and(Story::has_motions);
-        // The end of a motion has such marks as well.
-        let is_after = |mark: &str| mark == "'" || mark == "^+" && !moves;
+        let is_after = |mark: &str| mark == "'" || mark == "^+";
         let mut of: Vec<Values> = vec![Values::new(); all.len()];
         for (name, key, mark, body, part) in &named {
             let mut others = named.iter();
@@ -204,9 +203,18 @@ impl Desk<'_> {
                 let marks = MARKS.iter().map(|mark| ((*name).clone(), *mark));
                 self.own_with_mark.extend(marks);
             }
+            if after {
+                self.of_bodies.insert((*name).clone(), (*body, *part));
+            }
             for (around, values) in all.iter().zip(&mut of) {
                 let value = around.value(*body, *part, after).cloned();
                 values.extend(value.map(|value| ((*name).clone(), value)));
+            }
+            // The end of a motion has such a mark as well.
+            for ((_, values), (_, scene)) in self.ends.iter_mut().zip(&self.sheet.ends) {
+                let body = &scene.bodies[*body];
+                let [x, y] = &body.velocity;
+                values.insert((*name).clone(), [x, y, &body.spin][*part].clone());
             }
             let mut asked = self.sheet.scene.questions.iter();
             let asked = asked.find(|q| match &q.ask {

@@ -10,10 +10,11 @@ use super::sought::{self, Sought};
 use super::vectors::{in_products, is_marked, marked_after};
 use super::{Final, text};
 use crate::answer::Form;
-use crate::derive::Moment;
+use crate::derive::{Moment, Names};
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{self, Content, Reading, Symbols};
+use crate::laws::Unknown;
 use crate::scene::{Ask, ContactLaw, Question, Scene};
 
 /// Most moments and ways whose values are tried on a line.
@@ -28,8 +29,12 @@ pub(super) struct Desk<'a> {
     pub moments: Vec<Moment>,
     /// The vectors with arrows that the solution names: at other moments, and of other systems of bodies.
     pub vectors: Vec<Stand>,
-    /// Their components in whatever motion.
-    pub whatever: BTreeMap<Symbol, Expr>,
+    /// Velocities, spins and the vectors that the solution names at the end of each motion, by name of its stage.
+    pub ends: Vec<(String, BTreeMap<Symbol, Expr>)>,
+    /// The motion whose stage the last heading names.
+    pub under: Option<String>,
+    /// Their components in whatever motion, first of all that moves, then of each body alone.
+    pub whatever: Vec<BTreeMap<Symbol, Expr>>,
     /// Of which body a vector that two share is at first, and on this page.
     pub first_of: BTreeMap<String, usize>,
     pub counted: BTreeMap<String, usize>,
@@ -48,12 +53,18 @@ pub(super) struct Desk<'a> {
     pub stands_for: BTreeMap<Symbol, Symbol>,
     /// Those of velocities by their bodies of which a motion may have others, until a line holds with them.
     pub by_body: BTreeSet<Symbol>,
+    /// Names of velocities and spins after an impact by their bodies: of which, and 0 and 1 for the axes, 2 for the spin.
+    pub of_bodies: BTreeMap<Symbol, (usize, usize)>,
     /// All names that have their values from the scene without being its own.
     pub learned: BTreeSet<Symbol>,
     /// Own names whose values are the scene's, as long as no line has spoken of them.
     pub bound: BTreeSet<Symbol>,
     /// Own names that wrong lines use, with the values of the scene by which they hold.
     pub needed: Vec<(Symbol, Expr)>,
+    /// Own names whose last definition could not be read.
+    pub unclear: BTreeSet<Symbol>,
+    /// How answers are typeset whose names read otherwise: `u_x` for a component of `u_velocity`.
+    pub typeset: Vec<(Symbol, String)>,
     /// Names the student introduced.
     pub own: BTreeMap<Symbol, Expr>,
     /// Names that were defined with a slip, or may have been: the line that shows it, the name, and its value without the slip.
@@ -68,6 +79,8 @@ pub(super) struct Desk<'a> {
     pub of_earlier_parts: BTreeSet<Symbol>,
     /// Whether own names may stand for something else further down.
     pub anew: bool,
+    /// Whether numbers of own names have units where these may be letters of the scene as well.
+    pub in_units: bool,
     /// Own names that were used before the line that says what they are.
     pub early: BTreeSet<Symbol>,
     /// Spins as vectors: the name with an arrow, the spin, and whether it counts clockwise.
@@ -102,12 +115,14 @@ impl<'a> Desk<'a> {
                 closed.entry(Symbol::from(q.name.as_str())).or_insert(along);
             }
         }
-        Desk {
+        let mut desk = Desk {
             sheet,
             moments: moments(sheet, &closed),
             closed,
             vectors: Vec::new(),
-            whatever: BTreeMap::new(),
+            ends: ends(sheet),
+            under: None,
+            whatever: Vec::new(),
             first_of: BTreeMap::new(),
             counted: BTreeMap::new(),
             primed: BTreeSet::new(),
@@ -121,9 +136,12 @@ impl<'a> Desk<'a> {
             },
             stands_for: BTreeMap::new(),
             by_body: BTreeSet::new(),
+            of_bodies: BTreeMap::new(),
             learned: BTreeSet::new(),
             bound: BTreeSet::new(),
             needed: Vec::new(),
+            unclear: BTreeSet::new(),
+            typeset: Vec::new(),
             own: BTreeMap::new(),
             slipped: Vec::new(),
             ahead: Vec::new(),
@@ -131,6 +149,7 @@ impl<'a> Desk<'a> {
             own_with_mark: BTreeSet::new(),
             of_earlier_parts: BTreeSet::new(),
             anew: false,
+            in_units: false,
             early: BTreeSet::new(),
             spins: spins(&sheet.scene),
             parts: parts(&sheet.scene),
@@ -139,7 +158,16 @@ impl<'a> Desk<'a> {
             supposed: Vec::new(),
             finals: BTreeMap::new(),
             said: BTreeMap::new(),
-        }
+        };
+        let symbols = desk.symbols("");
+        let answers = sheet.derivation.answers.iter();
+        let unread = answers.filter(|a| {
+            let known = desk.closed.contains_key(a.name.as_str());
+            known && formula::read(&a.latex, &symbols).is_err()
+        });
+        let typeset = unread.map(|a| (Symbol::from(a.name.as_str()), a.latex.clone()));
+        desk.typeset = typeset.collect();
+        desk
     }
 
     /// The names a line may use; around the cross of `ω × r_{B/C}` letters are vectors without their arrows.
@@ -212,6 +240,9 @@ impl<'a> Desk<'a> {
                 symbols.declare(name);
             }
         }
+        for (name, latex) in &self.typeset {
+            symbols.declare_typeset(name.clone(), latex);
+        }
         // `ω⁺` and `ω'` are what is asked of the moment just after, and a vector may wear its arrow.
         let now = |name: &&Symbol| !name.contains('^') && !is_vector(name);
         for name in self.closed.keys().chain(later).filter(now) {
@@ -221,18 +252,24 @@ impl<'a> Desk<'a> {
                 symbols.declare_typeset(name.clone(), &after);
             }
         }
-        let vectors = self.sheet.scene.questions.iter().map(|q| q.name.as_str());
-        let vectors = vectors.filter(|name| self.components(name).is_some());
-        let spins = self
-            .spins
-            .iter()
-            .map(|(arrow, (spin, _))| (&**arrow, &**spin));
         for (arrow, (spin, _)) in self.spins.iter().filter(|(_, (spin, _))| is_vector(spin)) {
             let latex = formula::latex_name(spin);
             for moment in ["", "^{+}"] {
                 symbols.declare_as(arrow.clone(), Some(&format!("{latex}{moment}")), None);
             }
         }
+        self.declare_arrows(&mut symbols);
+        symbols
+    }
+
+    /// Declares what is asked for with an arrow, where it is a vector or a spin.
+    fn declare_arrows(&self, symbols: &mut Symbols) {
+        let vectors = self.sheet.scene.questions.iter().map(|q| q.name.as_str());
+        let vectors = vectors.filter(|name| self.components(name).is_some());
+        let spins = self
+            .spins
+            .iter()
+            .map(|(arrow, (spin, _))| (&**arrow, &**spin));
         for (name, plain) in vectors.map(|name| (name, name)).chain(spins) {
             let latex = formula::latex_name(plain);
             let (base, index) = latex.split_at(latex.find(['_', '^']).unwrap_or(latex.len()));
@@ -241,7 +278,6 @@ impl<'a> Desk<'a> {
                 symbols.declare_typeset(name, &arrow);
             }
         }
-        symbols
     }
 
     /// A solution with signs and names for words, line by line.
@@ -425,6 +461,27 @@ fn moments(sheet: &Sheet, closed: &BTreeMap<Symbol, Expr>) -> Vec<Moment> {
         .chain(asked)
         .filter(|(_, values)| differs(values));
     all.take(MOST_MOMENTS).collect()
+}
+
+/// Velocities and spins at the end of each motion, by the names that derivations give them.
+fn ends(sheet: &Sheet) -> Vec<(String, BTreeMap<Symbol, Expr>)> {
+    let each = sheet.ends.iter().map(|(stage, scene)| {
+        let names = Names::of(scene);
+        let bodies = scene.bodies.iter().enumerate();
+        let parts = bodies
+            .filter(|(_, body)| !body.is_fixed())
+            .flat_map(|(b, body)| {
+                let [x, y] = &body.velocity;
+                let along = [(Unknown::Velocity(b, 0), x), (Unknown::Velocity(b, 1), y)];
+                let spin = (Unknown::Spin(b), &body.spin);
+                along
+                    .into_iter()
+                    .chain((!body.is_particle()).then_some(spin))
+            });
+        let values = parts.map(|(unknown, value)| (names.plain(unknown).into(), value.clone()));
+        (stage.clone(), values.collect())
+    });
+    each.collect()
 }
 
 /// Spins that are asked for, as vectors out of the page.

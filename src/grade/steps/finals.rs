@@ -4,12 +4,13 @@
 
 use std::collections::BTreeMap;
 
-use super::super::sheet::Entry;
-use super::super::{Diagnosis, Options, Verdict};
+use super::super::{Diagnosis, Grade, Options, Verdict};
 use super::link::{Link, Weighed, equal};
 use super::names::ACCELERATIONS;
+use super::sought::Sought;
 use super::{Desk, Final, Status};
 use crate::algebra::{self, Sign};
+use crate::answer::Answer;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Content, Reading, Relation};
 use crate::scene::Ask;
@@ -27,9 +28,9 @@ impl Desk<'_> {
             return None;
         };
         let name = sides.first()?.expr()?.as_symbol()?;
-        let mut sought = self.sought.iter().filter(|s| s.is_named(name));
+        let sought = self.sought.iter().filter(|s| s.is_named(name));
         // Where a quantity is largest is no answer of its own.
-        let places = sought.clone().filter(|s| s.condition.is_none());
+        let places = sought.filter(|s| s.condition.is_none());
         let links = self.links(reading).unwrap_or_default();
         for place in places {
             // All sides of `d = a = b` are to be the place.
@@ -42,24 +43,12 @@ impl Desk<'_> {
                 _ => {}
             }
         }
-        let question = match sought.find(|s| s.condition.is_some()) {
-            Some(sought) => sought.question.clone(),
-            None => {
-                let mut bounds = self.sheet.bounds();
-                bounds.find(|b| b.parameter == *name)?.name
-            }
-        };
-        if let (Content::Relations(_, signs), [_, end]) = (&reading.content, sides.as_slice()) {
-            let none = BTreeMap::new();
-            let is_end =
-                |value: &Expr| Some(self.all_zero(&[end.expr()? - value], &none) == Some(true));
-            let mut granted = self.sheet.granted(name).into_iter();
-            // What the answers suppose is said of it as well.
-            if granted.any(|(sign, value)| signs[0] == sign && is_end(&value) == Some(true)) {
-                return Some((Status::Holds, Vec::new()));
-            }
+        let asked = self.asked_of(name);
+        asked.first()?;
+        // What the answers suppose is said of it as well.
+        if self.is_granted(name, reading) {
+            return Some((Status::Holds, Vec::new()));
         }
-        let entry: Entry = self.sheet.entry(&question).ok()?;
         let told = self.of_value(reading);
         if let Some(Content::Relations(told, _)) = told.as_ref().map(|told| &told.content)
             && told.len() == 1
@@ -75,14 +64,31 @@ impl Desk<'_> {
         let Content::Relations(sides, _) = &reading.content else {
             return None;
         };
-        let grade = match self.in_given(reading) {
-            Some(text) => self.sheet.judge(&entry, &text, options),
-            None if first.is_some() => {
-                let text = super::super::show(&reading.content);
-                self.sheet.judge(&entry, &text, options)
-            }
-            None => self.sheet.judge(&entry, text, options),
-        };
+        let own = self.in_given(reading);
+        let own = own.or_else(|| {
+            first
+                .is_some()
+                .then(|| super::super::show(&reading.content))
+        });
+        let said = own.as_deref().unwrap_or(text);
+        let mut judged = self.judged_as(&asked, said, options);
+        let place = |is: &dyn Fn(&Grade) -> bool| judged.iter().position(|(_, grade)| is(grade));
+        let right = place(&|grade| grade.verdict == Verdict::Equivalent);
+        // A bound answers no question for a value.
+        let fits = place(&|grade| grade.diagnosis.iter().all(|d| d.code != "RELATION"));
+        if right.is_none()
+            && let Some(question) = self.answer_of_a_case(reading, &asked)
+        {
+            let last = Final::new(number, text, Verdict::Equivalent);
+            self.finals.insert(question, last);
+            return Some((Status::Holds, Vec::new()));
+        }
+        let (first, _) = judged.first()?;
+        // What was supposed last has no one value.
+        if right.is_none() && *first != asked[0] {
+            return Some((Status::Undecided, Vec::new()));
+        }
+        let (question, grade) = judged.swap_remove(right.or(fits).unwrap_or(0));
         // In numbers the values behind it are those of the scene.
         let verdict = match grade.note {
             "DIFF_ROUNDED" => Verdict::Equivalent,
@@ -105,6 +111,82 @@ impl Desk<'_> {
             .insert(question, Final::new(number, text, verdict));
         let found = Some(grade.diagnosis).filter(|_| grade.verdict == verdict);
         Some((status, found.unwrap_or_default()))
+    }
+
+    /// Whether the answers suppose of a parameter what a line says of it.
+    fn is_granted(&self, name: &Symbol, reading: &Reading) -> bool {
+        let Content::Relations(sides, signs) = &reading.content else {
+            return false;
+        };
+        let [_, end] = sides.as_slice() else {
+            return false;
+        };
+        let is_end = |value: &Expr| {
+            let off = end.expr().map(|end| end - value);
+            off.is_some_and(|off| self.all_zero(&[off], &BTreeMap::new()) == Some(true))
+        };
+        let mut granted = self.sheet.granted(name).into_iter();
+        granted.any(|(sign, value)| signs[0] == sign && is_end(&value))
+    }
+
+    /// How a line is judged as an answer to these questions, in each of the ways the scene can go, until it is right.
+    fn judged_as(&self, asked: &[String], said: &str, options: &Options) -> Vec<(String, Grade)> {
+        let mut judged = Vec::new();
+        let ways = std::iter::once(self.sheet).chain(&self.sheet.otherwise);
+        for (sheet, question) in ways.flat_map(|sheet| asked.iter().map(move |q| (sheet, q))) {
+            if let Ok(entry) = sheet.entry(question) {
+                let grade = sheet.judge(&entry, said, options);
+                let right = grade.verdict == Verdict::Equivalent;
+                judged.push((question.clone(), grade));
+                if right {
+                    break;
+                }
+            }
+        }
+        judged
+    }
+
+    /// The question of these to which a line gives an answer that is right in one of the cases of the scene, or one of several
+    /// values: `u ≥ 7 g d/(10 e w)` where the ball sticks.
+    fn answer_of_a_case(&self, reading: &Reading, asked: &[String]) -> Option<String> {
+        let Content::Relations(sides, signs) = &reading.content else {
+            return None;
+        };
+        let ([name, end], [sign]) = (sides.as_slice(), signs.as_slice()) else {
+            return None;
+        };
+        let is_end = |value: &Expr| {
+            let end = end.expr().map(|end| end - value);
+            end.is_some_and(|off| self.all_zero(&[off], &BTreeMap::new()) == Some(true))
+        };
+        let says = |answer: &&Answer| {
+            let mut range = answer.range.iter();
+            let value = answer
+                .formula()
+                .filter(|_| equal(*sign) && answer.range.is_empty());
+            asked.contains(&answer.question)
+                && (value.is_some_and(is_end)
+                    || range.any(|(of, relation, value)| {
+                        name.expr() == Some(of) && relation == sign && is_end(value)
+                    }))
+        };
+        let found = self.sheet.all.iter().find(says);
+        found.map(|answer| answer.question.clone())
+    }
+
+    /// The questions that ask what a parameter is or may be, under the condition that was supposed last where one was.
+    pub(super) fn asked_of(&self, name: &Symbol) -> Vec<String> {
+        let named = |s: &&Sought| s.condition.is_some() && s.is_named(name);
+        let all = self.sought.iter().filter(named);
+        let supposed = self.supposed.iter().rev().map(|i| &self.sought[*i]);
+        let last = supposed.filter(named).next();
+        let same = |s: &&Sought| last.is_none_or(|last| s.condition == last.condition);
+        let asked: Vec<String> = all.filter(same).map(|s| s.question.clone()).collect();
+        if !asked.is_empty() {
+            return asked;
+        }
+        let bounds = self.sheet.bounds().filter(|b| b.parameter == *name);
+        bounds.map(|b| b.name).take(1).collect()
     }
 
     /// Whether an inequality in numbers is a bound that is asked for, as far as their digits tell.

@@ -34,12 +34,14 @@ struct Meant {
     when: When,
 }
 
-/// A moment of an impact, or any motion that bodies can have.
+/// A moment of an impact or a motion, or any motion that bodies can have.
 #[derive(Clone, Copy, PartialEq)]
 enum When {
     Before,
     After,
     Whatever,
+    /// At the end of a motion, without an impact.
+    Moving,
 }
 
 /// The vectors of a page at a moment, of one system of bodies.
@@ -180,7 +182,7 @@ impl<'a> Impact<'a> {
 
     fn velocity(&self, b: usize, at: &Vector, when: When) -> Option<Vector> {
         match when {
-            When::Before => Some(self.geometry.velocity_before(b, at)),
+            When::Before | When::Moving => Some(self.geometry.velocity_before(b, at)),
             When::After => {
                 let [x, y] = self.after.velocity_of(&self.geometry, b, at);
                 Some([self.put_in(&x)?, self.put_in(&y)?])
@@ -197,7 +199,7 @@ impl<'a> Impact<'a> {
     fn spin(&self, b: usize, when: When) -> Option<Expr> {
         match when {
             When::After => self.put_in(&self.after.spin[b]),
-            When::Before => Some(self.geometry.before(b).1.clone()),
+            When::Before | When::Moving => Some(self.geometry.before(b).1.clone()),
             When::Whatever => Some(Expr::symbol(&format!("any spin of {b}"))),
         }
     }
@@ -297,11 +299,11 @@ impl<'a> Impact<'a> {
     fn vector(&self, name: &Symbol, meant: &Meant) -> Option<[Expr; 3]> {
         let system = &meant.system;
         let (base, index, mark) = formula::vector_name(name)?;
-        let when = match &*mark {
-            _ if meant.when == When::Whatever => When::Whatever,
-            "" => meant.when,
-            "'" | "^+" => When::After,
-            "^-" => When::Before,
+        let when = match (&*mark, meant.when) {
+            (_, When::Whatever) => When::Whatever,
+            ("" | "'" | "^+", When::Moving) | ("", _) => meant.when,
+            ("'" | "^+", _) => When::After,
+            ("^-", When::Before | When::After) => When::Before,
             _ => return None,
         };
         let flat = |[x, y]: Vector| [x, y, Expr::zero()];
@@ -331,7 +333,9 @@ impl<'a> Impact<'a> {
                 let about = self.point(about)?.at;
                 self.angular_momentum(&only, &about, when).map(out_of_page)
             }
-            "P" if when != When::Whatever => self.impulse(&index, meant).map(flat),
+            "P" if [When::Before, When::After].contains(&when) => {
+                self.impulse(&index, meant).map(flat)
+            }
             "n" => {
                 let mut contacts = self.scene.contacts.iter();
                 let contacts: Vec<_> = contacts.by_ref().filter(|c| c.normal.is_some()).collect();
@@ -391,12 +395,29 @@ impl<'a> Impact<'a> {
         formula::listed(&names.collect::<Vec<_>>())
     }
 
-    /// The vectors of all that moves in whatever motion.
-    pub fn of_whatever_motion(&self, names: &[(Symbol, Symbol)]) -> BTreeMap<Symbol, Expr> {
+    /// The vectors of each system in whatever motion, first of all that moves.
+    pub fn of_whatever_motion(&self, names: &[(Symbol, Symbol)]) -> Vec<BTreeMap<Symbol, Expr>> {
+        let systems = self.systems().into_iter();
+        systems
+            .map(|system| self.of_system(system, names, When::Whatever))
+            .collect()
+    }
+
+    /// The vectors of all that moves at the end of a motion, which the scene is of.
+    pub fn of_a_motion(&self, names: &[(Symbol, Symbol)]) -> BTreeMap<Symbol, Expr> {
+        self.of_system(self.moving(), names, When::Moving)
+    }
+
+    fn of_system(
+        &self,
+        system: Vec<usize>,
+        names: &[(Symbol, Symbol)],
+        when: When,
+    ) -> BTreeMap<Symbol, Expr> {
         let meant = Meant {
-            system: self.moving(),
+            system,
             on: None,
-            when: When::Whatever,
+            when,
         };
         self.components(names, &meant)
     }

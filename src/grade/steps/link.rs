@@ -296,7 +296,11 @@ impl Desk<'_> {
                 .all(|(key, _)| stand.of.get(key) == self.counted.get(key))
         };
         let mut stands = self.vectors.iter().filter(|_| vectors).filter(agrees);
-        let stand = stands.find(|s| fits(&s.values) && !self.is_idle(links, s))?;
+        let stand = stands.find(|s| fits(&s.values) && !self.is_idle(links, s));
+        let Some(stand) = stand else {
+            let (stage, values) = self.end_here().filter(|(_, values)| fits(values))?;
+            return Some((format!("at the end of `{stage}`"), values, BTreeMap::new()));
+        };
         let of = stand
             .of
             .iter()

@@ -82,6 +82,24 @@ pub(super) fn behind(text: &str, reading: &Reading) -> Option<(usize, usize)> {
     Some((note.start + last, note.start + unit.len()))
 }
 
+/// Whether what was read as units behind a formula in symbols is several letters of quantities: `m g h`, of a g and an h that
+/// are said nowhere.
+pub(super) fn are_letters(text: &str, reading: &Reading) -> bool {
+    let mut notes = reading.notes.iter();
+    let note = notes.find(|n| n.remark == Remark::UnitOfSymbols);
+    let unit = note.and_then(|note| text.get(note.start..note.end));
+    let words = unit.map(|unit| unit.split_whitespace().rev().collect::<Vec<_>>());
+    words.is_some_and(|words| words.len() > 1 && is_quantity_first(words[0]))
+}
+
+/// A number with its unit where a letter of the scene may stand as well: `0.2 m`, though m be a mass.
+pub(super) fn in_unit(text: &str, symbols: &Symbols) -> Option<Reading> {
+    let read = formula::read(text, &Symbols::strict()).ok()?;
+    let own = formula::read(text, symbols).ok()?;
+    let measured = matches!(read.content, Content::Quantity(_)) && read.literal.is_some();
+    (measured && matches!(own.content, Content::Scalar(_))).then_some(read)
+}
+
 /// Whether a side is a name and nothing else.
 fn is_alone(side: &Content, name: &str) -> bool {
     side.expr()
@@ -299,7 +317,10 @@ impl Desk<'_> {
         let new = |name: &Symbol| !self.is_known(name) && !name.chars().all(known);
         let (name, right) = named(text).filter(|(name, _)| new(name))?;
         let right = super::super::read::sense(right).map_or(right, |(value, _)| value);
+        let measured = || in_unit(right, &self.symbols(right));
+        let measured = self.in_units.then(measured).flatten();
         let right = match formula::read(right, &self.symbols(right)) {
+            Ok(reading) if measured.is_some() => measured.unwrap_or(reading),
             // Of a normal force that is said nowhere yet, nothing is known.
             Ok(reading) if self.has_normal(right, &reading) => match self.looked_ahead(right) {
                 Some(reading) => reading,
@@ -373,6 +394,11 @@ impl Desk<'_> {
                 self.slipped.push((cause, name, first));
                 (Status::Carried(cause), Vec::new())
             }
+            Weighed::Slip(_) if self.is_unclear(&links) => (Status::Undecided, Vec::new()),
+            // `ω_2 = 2 ω = …` of another case.
+            Weighed::Slip(_) if self.at_another_moment(&links).is_some() => {
+                (Status::Defines, Vec::new())
+            }
             Weighed::Slip(at) => {
                 self.slipped.push((number, name, first));
                 let broken = self.broken(&right, at, text);
@@ -399,6 +425,10 @@ impl Desk<'_> {
             Weighed::Holds | Weighed::Rounded => (Status::Defines, Vec::new()),
             Weighed::Open => (Status::Undecided, Vec::new()),
             Weighed::Carried(cause) => (Status::Carried(cause), Vec::new()),
+            Weighed::Slip(_) if self.at_another_moment(&links).is_some() => {
+                (Status::Defines, Vec::new())
+            }
+            Weighed::Slip(_) if self.is_of_a_motion(&links) => (Status::Undecided, Vec::new()),
             Weighed::Slip(at) => {
                 let broken = self.broken(right, at, text);
                 (Status::Wrong, broken.into_iter().collect())
@@ -667,8 +697,17 @@ impl Desk<'_> {
             .any(|n| n.remark == formula::Remark::Letters && !product(n));
         let mut new: Vec<Symbol> = reading.symbols().into_iter().collect();
         new.retain(|name| !self.is_known(name));
+        let symbols = self.symbols(text);
+        // What the scene has, with a mark, is not new.
+        let is_read = |name: &Symbol| {
+            let reading = formula::read(&formula::latex_name(name), &symbols).ok();
+            let read = reading.as_ref().and_then(|r| r.expr()?.as_symbol());
+            read.is_some_and(|read| self.closed.contains_key(read))
+        };
+        if new.iter().any(is_read) {
+            return None;
+        }
         if new.len() > 1 {
-            let symbols = self.symbols(text);
             new.retain(|name| !self.said_ahead(name, &symbols));
         }
         let ([name], false, true) = (new.as_slice(), letters, self.own.len() < MOST_NAMES) else {

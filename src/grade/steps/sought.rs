@@ -7,7 +7,7 @@ use super::super::relation::{follows, proportional, solve_for};
 use super::super::sheet::Sheet;
 use super::Desk;
 use super::link::{Link, Weighed};
-use crate::algebra::Field;
+use crate::algebra::{Field, quotient};
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol};
 use crate::formula::Content;
@@ -34,10 +34,18 @@ impl Sought {
 
 /// The parameters whose values a scene asks for.
 pub(super) fn sought(sheet: &Sheet) -> Vec<Sought> {
-    let questions = sheet.scene.questions.iter();
-    let each = questions.filter_map(|q| {
+    let ways = std::iter::once(sheet).chain(&sheet.otherwise);
+    let questions = ways.enumerate().flat_map(|(way, sheet)| {
+        let questions = sheet.scene.questions.iter();
+        questions.map(move |q| (way, sheet, q))
+    });
+    let each = questions.filter_map(|(way, sheet, q)| {
         let mut answers = sheet.derivation.answers.iter();
         let answer = answers.find(|a| *a.name == q.name);
+        // In another case something may be largest elsewhere.
+        if way > 0 && !matches!(q.ask, Ask::Maximum { .. }) {
+            return None;
+        }
         let (parameter, condition, value) = match &q.ask {
             Ask::Condition {
                 parameter,
@@ -151,7 +159,10 @@ impl Desk<'_> {
     /// ends, where the rest holds with it.
     pub(super) fn states(&self, links: &[Link], sought: &Sought) -> bool {
         let is = |link: &Link| match (&sought.condition, link.differences.as_slice()) {
-            (Some(c), [one]) => self.is_multiple(&self.with_own(one), c),
+            (Some(c), [one]) => {
+                let one = self.with_own(one);
+                self.is_multiple(&one, c) || self.is_closed_form_of(&one, c, &sought.parameter)
+            }
             _ => false,
         };
         let ends = match links {
@@ -162,6 +173,21 @@ impl Desk<'_> {
         let holds = |link: &Link| self.all_zero(&link.differences, &none) == Some(true);
         let fits = |link: &Link| is(link) || holds(link) || self.holds_where(link, sought);
         links.iter().chain(&ends).any(is) && links.iter().all(fits)
+    }
+
+    /// Whether a line is a condition in what is given, as the scene goes or in another of its cases, multiplied by what does not
+    /// hang on the parameter at most.
+    fn is_closed_form_of(&self, line: &Expr, condition: &Expr, parameter: &Symbol) -> bool {
+        if !line.mentions(parameter) || line.symbols().iter().any(|n| self.closed.contains_key(n)) {
+            return false;
+        }
+        let none = BTreeMap::new();
+        let others = self.moments.iter().map(|(_, values)| values);
+        std::iter::once(&none).chain(others).any(|values| {
+            let told = self.put_in(condition, values);
+            let ratio = quotient(line, &told, &self.sheet.scene.domains);
+            told.mentions(parameter) && ratio.is_ok_and(|k| !k.is_zero() && !k.mentions(parameter))
+        })
     }
 
     /// Whether a line is a condition, multiplied by given quantities at most: m w²/L = m g where w² = g L is asked about.

@@ -80,7 +80,7 @@ pub(super) fn equations(text: &str) -> Vec<&str> {
 }
 
 /// First words of what is no step: about a root that is not taken, or under which conditions results hold.
-const ASIDES: &str = "discarded:|rejected:|not taken:|impossible:|the results hold for|the result holds for|valid for|assumed:";
+const ASIDES: &str = "discarded:|rejected:|not taken:|not determined:|impossible:|the results hold for|the result holds for|valid for|assumed:";
 
 /// Whether nothing is open before a new sentence.
 fn ends_sentence(before: &str) -> bool {

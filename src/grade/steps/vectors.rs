@@ -130,14 +130,30 @@ impl Desk<'_> {
         });
         let names: BTreeSet<Symbol> = before.chain(names.iter().cloned()).collect();
         let names: Vec<(Symbol, Symbol)> = names.into_iter().filter_map(read_as).collect();
-        let no_impact = sheet.story.is_some() && sheet.impacts.is_empty();
-        if names.is_empty() || names.len() > MOST_VECTORS || no_impact {
+        if names.is_empty() || names.len() > MOST_VECTORS {
             return;
         }
+        if sheet.story.is_none() || !sheet.impacts.is_empty() {
+            self.know_impacts(&names);
+        }
+        for ((_, values), (_, scene)) in self.ends.iter_mut().zip(&sheet.ends) {
+            let named = Names::of(scene);
+            let there = Impact::new(scene, &named, &|_| None).of_a_motion(&names);
+            for (name, value) in &there {
+                let told = self.parts.entry(name.clone());
+                told.or_insert_with(|| value.clone());
+            }
+            values.extend(there);
+        }
+    }
+
+    /// The vectors of all impacts by what they are read as.
+    fn know_impacts(&mut self, names: &[(Symbol, Symbol)]) {
+        let sheet = self.sheet;
         let closed = self.closed.clone();
         let name_of = |name: &Symbol| closed.contains_key(name).then(|| Expr::symbol(name));
         let first = Impact::new(&sheet.scene, &sheet.derivation.names, &name_of);
-        for stand in first.moments(&names, "the impact") {
+        for stand in first.moments(names, "the impact") {
             for (name, value) in &stand.values {
                 let told = self.parts.entry(name.clone());
                 told.or_insert_with(|| value.clone());
@@ -147,13 +163,13 @@ impl Desk<'_> {
             }
             self.vectors.push(stand);
         }
-        self.whatever = first.of_whatever_motion(&names);
+        self.whatever = first.of_whatever_motion(names);
         for (scene, (when, motion)) in sheet.impacts.iter().zip(&sheet.moments) {
             let value = |name: &Symbol| motion.get(name).cloned();
             let names_there = Names::of(scene);
             let impact = Impact::new(scene, &names_there, &value);
             let which = when.trim_start_matches("just after ");
-            for stand in impact.moments(&names, which) {
+            for stand in impact.moments(names, which) {
                 let all = motion.clone().into_iter().chain(stand.values);
                 let values = all.collect();
                 self.vectors.push(Stand { values, ..stand });
@@ -176,8 +192,22 @@ impl Desk<'_> {
             marked &= mark || base == "r" || self.spins.contains_key(name);
             any |= mark;
         }
+        // Below the heading of a motion marks tell its ends; what is known there can be wrong.
+        let told = match self.end_here() {
+            Some((_, values)) => names.iter().all(|name| {
+                self.spins.contains_key(name) || values.contains_key(&*format!("{name}_z"))
+            }),
+            None => any,
+        };
         let story = self.sheet.story.as_ref();
-        story.is_some_and(Story::has_motions) && moves && !(marked && any)
+        story.is_some_and(Story::has_motions) && moves && !(marked && told)
+    }
+
+    /// What is known of the end of the motion whose heading stands above, or of the only one where nothing collides.
+    pub(super) fn end_here(&self) -> Option<&(String, BTreeMap<Symbol, Expr>)> {
+        let lone = self.sheet.impacts.is_empty() && self.ends.len() == 1;
+        let mut ends = self.ends.iter();
+        ends.find(|(stage, _)| lone || self.under.as_ref() == Some(stage))
     }
 
     /// The vectors with arrows that a line names.
@@ -226,15 +256,41 @@ impl Desk<'_> {
         !gone.iter().any(|name| unmarked(&name)) || self.is_law(links)
     }
 
-    /// Whether a line holds of whatever motion of the bodies, as H = r × m v + I ω does.
+    /// Whether a line holds of whatever motion of all that moves, as H = r × m v + I ω does.
     fn is_law(&self, links: &[Link]) -> bool {
+        self.whatever
+            .first()
+            .is_some_and(|all| self.is_law_of(links, all))
+    }
+
+    fn is_law_of(&self, links: &[Link], whatever: &BTreeMap<Symbol, Expr>) -> bool {
         let marks = Desk::arrows(links).into_iter();
         let marks: BTreeSet<String> = marks
             .filter_map(|n| Some(formula::vector_name(&n)?.2))
             .collect();
         let all: Vec<Expr> = links.iter().flat_map(|l| l.differences.clone()).collect();
         let one = marks.iter().filter(|mark| !mark.is_empty()).count() < 2;
-        one && self.all_zero(&all, &self.whatever) == Some(true)
+        one && self.all_zero(&all, whatever) == Some(true)
+    }
+
+    /// Whether a line about angular momenta holds of one body, of which so much vanishes that it could be any: that it is
+    /// kept where it is nothing, or what it is made of in whatever motion.
+    pub(super) fn is_lost_in_a_body(&self, links: &[Link]) -> bool {
+        let all: Vec<Expr> = links.iter().flat_map(|l| l.differences.clone()).collect();
+        let bases = Desk::arrows(links).into_iter();
+        let bases = bases.filter_map(|name| Some(formula::vector_name(&name)?.0));
+        let bases: BTreeSet<String> = bases.collect();
+        let of_one = self.whatever.get(1..).unwrap_or_default();
+        let is_law = || of_one.iter().any(|body| self.is_law_of(links, body));
+        let fits = bases.contains("H") && (bases.len() == 1 || is_law());
+        let mut alone = self
+            .vectors
+            .iter()
+            .filter(|stand| fits && stand.when.ends_with(" alone"));
+        alone.any(|stand| {
+            let values = &stand.values;
+            self.all_zero(&all, values) == Some(true) && !self.says_enough(links, values, false)
+        })
     }
 
     /// Whether a line says how vectors of both moments are related that an impact does not change.

@@ -447,6 +447,24 @@ impl Desk<'_> {
             let question = asked.find(|q| q.name == answer.question)?;
             return Some((name.clone(), question.ask.clone(), answer.axis()));
         }
+        if let Some(&(body, part)) = self.of_bodies.get(name) {
+            let (point, along) = (None, None);
+            return Some(match part {
+                2 => (
+                    name.clone(),
+                    Ask::Spin {
+                        body,
+                        clockwise: false,
+                    },
+                    None,
+                ),
+                axis => (
+                    name.clone(),
+                    Ask::Velocity { body, point, along },
+                    Some(axis),
+                ),
+            });
+        }
         if !std::ptr::eq(scene, &self.sheet.scene) {
             return None;
         }

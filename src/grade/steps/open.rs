@@ -1,0 +1,119 @@
+//! What a line leaves open that fails as it is read: of which moment its rates are, what a name stands for that was said anew
+//! and not read, and what its words only suppose.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::super::believed::Story;
+use super::link::Link;
+use super::names::named;
+use super::{Desk, Diagnosis, MOMENT, Status};
+use crate::expr::{Expr, Symbol};
+use crate::formula::Content;
+use crate::scene::Ask;
+
+/// Words before an equation by which something given is no more than supposed.
+const SUPPOSED: [&str; 3] = ["is", "are", "with"];
+
+/// The remark that a line may be so for want of what it speaks of.
+pub(super) fn vanishes() -> Diagnosis {
+    let words = "what vanishes at this moment may stand in this line with any factor";
+    let hint = "check the signs of the terms that vanish, or say which moment is meant";
+    Diagnosis::new("VANISHES", words, hint)
+}
+
+impl Desk<'_> {
+    /// What is found of a line that fails and tells of no certain moment, or of something that is not known.
+    pub(super) fn left_open(&self, links: &[Link]) -> Option<(Status, Vec<Diagnosis>)> {
+        let which = |words: &str| vec![Diagnosis::new(MOMENT, words, "say which moment is meant")];
+        if self.is_unclear(links) || self.is_of_a_place(links) {
+            return Some((Status::Undecided, Vec::new()));
+        }
+        if self.is_lost_in_a_body(links) {
+            return Some((Status::Undecided, vec![vanishes()]));
+        }
+        match self.is_rate_at_end(links) {
+            Some(true) => {
+                let words = "this holds at the end of the motion";
+                return Some((Status::Holds, which(words)));
+            }
+            None if !self.is_of_a_motion(links) && !self.is_of_some_end(links) => return None,
+            _ => {}
+        }
+        let words = "which moment of the motion this tells of is not known";
+        Some((Status::Undecided, which(words)))
+    }
+
+    /// Whether a line speaks of an own name whose last definition could not be read.
+    pub(super) fn is_unclear(&self, links: &[Link]) -> bool {
+        let sides = links.iter().flat_map(|link| &link.sides);
+        let used: BTreeSet<Symbol> = sides.flat_map(Content::symbols).collect();
+        !used.is_disjoint(&self.unclear)
+    }
+
+    /// Whether a line holds at the end of a motion, with a mark that may be of that as well as of an impact.
+    fn is_of_some_end(&self, links: &[Link]) -> bool {
+        let all: Vec<Expr> = links.iter().flat_map(|l| l.differences.clone()).collect();
+        let used = all.iter().flat_map(Expr::symbols).collect::<BTreeSet<_>>();
+        let marked = |name: &Symbol| name.ends_with("^+") && self.of_bodies.contains_key(name);
+        let mut ends = self.ends.iter().filter(|_| used.iter().any(marked));
+        ends.any(|(_, values)| self.all_zero(&all, values) == Some(true))
+    }
+
+    /// Whether a line is about given quantities alone, one of which is sought where something is largest, and its place is not one
+    /// value.
+    fn is_of_a_place(&self, links: &[Link]) -> bool {
+        let sides = links.iter().flat_map(|link| &link.sides);
+        let used: BTreeSet<Symbol> = sides.flat_map(Content::symbols).collect();
+        let is_open = |name: &Symbol| {
+            let mut questions = self.sheet.scene.questions.iter();
+            let known = self.sought.iter().any(|s| s.parameter == *name);
+            !known
+                && questions
+                    .any(|q| matches!(&q.ask, Ask::Maximum { over, .. } if over.contains(name)))
+        };
+        let given = |name: &Symbol| self.sheet.scene.parameter(name).is_some();
+        used.iter().all(given) && used.iter().any(is_open)
+    }
+
+    /// Whether a line holds with a rate such as θ̇ as it is at the end of a motion, a velocity or spin then; nothing where it
+    /// speaks of no rate, or of a plain multiple of what that is.
+    fn is_rate_at_end(&self, links: &[Link]) -> Option<bool> {
+        let story = self.sheet.story.as_ref();
+        let ([link], true) = (links, story.is_some_and(Story::has_motions)) else {
+            return None;
+        };
+        let [gap] = &link.differences[..] else {
+            return None;
+        };
+        let is_rate = |name: &Symbol| name.ends_with("_dot");
+        let needed = self.own_needed(gap).into_iter();
+        let (_, [_, needed]) = needed.filter(|(name, _)| is_rate(name)).next()?;
+        let all: Vec<&Expr> = match self.end_here() {
+            Some((_, values)) => values.values().collect(),
+            None => self.ends.iter().flat_map(|(_, v)| v.values()).collect(),
+        };
+        let same = |value: &Expr| self.all_zero(&[value - &needed], &BTreeMap::new()) == Some(true);
+        if all.iter().any(|value| same(value) || same(&-*value)) {
+            return Some(true);
+        }
+        let multiple = |value: &&Expr| self.share(value, &needed).is_some();
+        let mut all = all.into_iter().filter(|value| !value.is_zero());
+        (!all.any(|value| multiple(&value))).then_some(false)
+    }
+
+    /// Whether an equation in a sentence only supposes something of a given quantity that nobody asks about: `The exception is
+    /// $θ = 0$`, `With $e = 1$, …`.
+    pub(super) fn is_supposed(&self, text: &str, equation: &str) -> bool {
+        let Some((before, _)) = text.split_once(equation) else {
+            return false;
+        };
+        let words = before.trim_end().strip_suffix('$').map(str::trim_end);
+        let last = words.and_then(|words| words.rsplit(' ').next());
+        let supposes =
+            last.is_some_and(|last| SUPPOSED.iter().any(|w| w.eq_ignore_ascii_case(last)));
+        supposes
+            && named(equation).is_some_and(|(name, _)| {
+                self.sheet.scene.parameter(&name).is_some() && self.asked_of(&name).is_empty()
+            })
+    }
+}
