@@ -361,11 +361,12 @@ fn squares(n: &Normal) -> Option<Vec<Normal>> {
         let half = k.as_number().map(|k| k / ratio(2, 1));
         half.is_some_and(|half| half.is_integer() && half.is_positive())
     };
-    let base = |term: &Expr| match term.split_number() {
-        (factor, rest) => match rest.node() {
+    let base = |term: &Expr| {
+        let (factor, rest) = term.split_number();
+        match rest.node() {
             Node::Power(base, k) if even(k) => Some((factor.is_positive(), base.clone())),
             _ => None,
-        },
+        }
     };
     let all: Vec<(bool, Expr)> = terms.iter().map(base).collect::<Option<_>>()?;
     let alike = all.len() > 1 && all.iter().all(|(sign, _)| *sign == all[0].0);

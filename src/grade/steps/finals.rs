@@ -178,8 +178,8 @@ impl Desk<'_> {
     pub(super) fn asked_of(&self, name: &Symbol) -> Vec<String> {
         let named = |s: &&Sought| s.condition.is_some() && s.is_named(name);
         let all = self.sought.iter().filter(named);
-        let supposed = self.supposed.iter().rev().map(|i| &self.sought[*i]);
-        let last = supposed.filter(named).next();
+        let mut supposed = self.supposed.iter().rev().map(|i| &self.sought[*i]);
+        let last = supposed.find(named);
         let same = |s: &&Sought| last.is_none_or(|last| s.condition == last.condition);
         let asked: Vec<String> = all.filter(same).map(|s| s.question.clone()).collect();
         if !asked.is_empty() {

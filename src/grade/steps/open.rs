@@ -86,8 +86,8 @@ impl Desk<'_> {
             return None;
         };
         let is_rate = |name: &Symbol| name.ends_with("_dot");
-        let needed = self.own_needed(gap).into_iter();
-        let (_, [_, needed]) = needed.filter(|(name, _)| is_rate(name)).next()?;
+        let mut needed = self.own_needed(gap).into_iter();
+        let (_, [_, needed]) = needed.find(|(name, _)| is_rate(name))?;
         let all: Vec<&Expr> = match self.end_here() {
             Some((_, values)) => values.values().collect(),
             None => self.ends.iter().flat_map(|(_, v)| v.values()).collect(),
