@@ -8,7 +8,7 @@ use crate::expr::Expr;
 use crate::figure::Piece;
 use crate::solution::{Inline, Line, Math, Part, Slot, Solution};
 
-/// A picture that belongs into a solution.
+/// A picture that belongs to a solution.
 #[derive(Clone, Debug)]
 pub struct Picture {
     /// Where.

@@ -99,7 +99,7 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     ];
     for (what, count) in misplaced {
         if count.is_some_and(|n| n > 0) {
-            let message = format!("`{what}` of a scene with stages belongs into an impact");
+            let message = format!("`{what}` of a scene with stages belongs to an impact");
             let hint = match what {
                 "hinges" => {
                     "above the stages stand hinges on a fixed body, whose bodies never fall or slide; of a body that is let go, a `turn` says its point by \"about\", and hinges belong into the impacts they hold in"
