@@ -180,6 +180,19 @@ pub struct Step {
     pub by_time: Vec<Expr>,
     /// For an acceleration, the inertia it is multiplied by in its equation of motion \[kg or kg m²\].
     pub inertia: Option<Expr>,
+    /// For the pull of a string, the equation of motion it comes from.
+    pub balance: Option<Balance>,
+}
+
+/// An equation of motion of what a string moves: inertia × acceleration = force + pulls.
+#[derive(Clone, Debug)]
+pub struct Balance {
+    /// What the acceleration is multiplied by \[kg\].
+    pub inertia: Expr,
+    /// All forces but those of the string \[N\].
+    pub force: Expr,
+    /// How often each pull of the string counts, by the letter of its step.
+    pub pulls: Vec<(&'static str, Expr)>,
 }
 
 impl Step {
@@ -204,6 +217,7 @@ impl Step {
             why,
             by_time: Vec::new(),
             inertia: None,
+            balance: None,
         }
     }
 }

@@ -1,9 +1,10 @@
 //! What is asked about the end of a stage: a box with each answer by what it is made of, in the names that stand on the page.
 
 use super::Page;
+use super::motion::driven;
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol, dot};
-use crate::scene::{Ask, EnergyWhen, Question, Scene, SlideEnd, StageKind};
+use crate::scene::{Ask, EnergyWhen, Question, Scene, StageKind};
 use crate::solution::known;
 use crate::solution::neat::tidied;
 use crate::solution::opening::NUMBERS;
@@ -128,7 +129,9 @@ impl Page<'_> {
         let flown = self.flown(here, &ask, answer).or_else(by_energy);
         let by_ratio = || self.tied(here, &ask, answer, formula);
         let by_plank = || self.gone_along(here, &ask);
+        let by_mean_rate = || self.turned_by(here, &ask, formula);
         let flown = flown
+            .or_else(by_mean_rate)
             .or_else(by_rolling)
             .or_else(by_ratio)
             .or_else(by_plank);
@@ -201,9 +204,41 @@ impl Page<'_> {
             let by = |way: &Expr| &ratio * way / radius;
             return is_rim.then(|| [by(&Expr::symbol(&distance.name)), by(way)]);
         }
-        let rolls = matches!(slide.until, SlideEnd::Rolls);
+        match ask {
+            Ask::Spin { .. } => self.by_rim(told, value),
+            _ => None,
+        }
+    }
+
+    /// The angle through which a moment turns a body in a given time: the mean of the angular velocities times that time.
+    fn turned_by(&self, told: &StageTold, ask: &Ask, value: &Expr) -> Option<[Expr; 2]> {
+        let (StageKind::Turn(turn), Ask::Angle { .. }, Some(_)) =
+            (&told.placed.kind, ask, driven(told))
+        else {
+            return None;
+        };
+        let spins = [&told.before, &told.after].map(|s| &s.spin[turn.body]);
+        let by =
+            |spins: [Expr; 2]| Some(Expr::ratio(1, 2) * Expr::sum(spins) * told.time.as_ref()?);
+        let [shown, whole] = [
+            by(spins.map(|w| self.named(w)))?,
+            by(spins.map(Expr::clone))?,
+        ];
+        let gap = |whole: &Expr| tidied(self.scene, &(value - whole)).is_zero();
+        match (gap(&whole), gap(&-&whole)) {
+            (true, _) => Some([shown, whole]),
+            (_, true) => Some([-shown, -whole]),
+            _ => None,
+        }
+    }
+
+    /// The angular velocity of what rolls, by its speed over its radius: by letters and in full.
+    pub(super) fn by_rim(&self, told: &StageTold, value: &Expr) -> Option<[Expr; 2]> {
+        let body = *told.placed.kind.moved().first()?;
+        let radius = told.placed.scene.bodies[body].shape.radius()?;
         let find = |letter: &str| told.steps.iter().find(|s| s.letter == letter);
-        let (speed, below) = (find("v")?, find("V"));
+        let speed = find("v").filter(|s| self.serves(told, s))?;
+        let below = find("V");
         // On a body that moves too it is the speed over that one.
         let over = |of: &dyn Fn(&Step) -> Expr| match below {
             Some(below) => of(speed) - of(below),
@@ -213,10 +248,12 @@ impl Page<'_> {
             over(&|s| self.letter_of(told, s)),
             over(&|s| s.value.clone()),
         ];
+        if by_value.is_zero() {
+            return None;
+        }
         let way = tidied(self.scene, &(value * radius / &by_value));
         let is_rim = way == Expr::one() || way == -Expr::one();
-        (rolls && is_rim && matches!(ask, Ask::Spin { .. }))
-            .then(|| [by_letter, by_value].map(|speed| &way * &speed / radius))
+        is_rim.then(|| [by_letter, by_value].map(|speed| &way * &speed / radius))
     }
 
     /// Where a body that slides on another has come to, or the one below it, x + V t + A t²/2, by letters and in full.
@@ -278,13 +315,15 @@ impl Page<'_> {
         let StageKind::Slide(slide) = &told.placed.kind else {
             return None;
         };
-        if slide.strings.is_empty() || value.is_zero() || told.steps.iter().any(is_own) {
+        // Without a string the velocity asked for is a component of the one along the line.
+        let may_be = !slide.strings.is_empty() || matches!(ask, Ask::Velocity { .. });
+        if !may_be || value.is_zero() || told.steps.iter().any(is_own) {
             return None;
         }
         let step = told
             .steps
             .iter()
-            .find(|s| s.letter == letter && !s.value.is_zero())?;
+            .find(|s| s.letter == letter && !s.value.is_zero() && self.serves(told, s))?;
         let others = self.answered(told).filter(|a| {
             let is_told = self.solution.meanings.contains_key(a.name.as_str());
             letter == "v"

@@ -11,6 +11,7 @@ mod motion;
 mod newton;
 mod pivot;
 mod speeds;
+mod spring;
 mod swing;
 
 use super::asked;
@@ -23,7 +24,7 @@ use super::words::{self, say};
 use super::{Before, Detail, Inline, Math, Part, Scope, Slot, Solution, Writer};
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol};
-use crate::formula::{Sentence, sentence as saying};
+use crate::formula::{Piece, Sentence, sentence as saying};
 use crate::scene::{Ask, Scene, Stage, StageKind};
 use crate::story::{Case, StageTold, Told, line};
 
@@ -173,24 +174,7 @@ impl Page<'_> {
             }
         } else {
             self.from(i);
-            // What happens may stand with an earlier stage.
-            let said = self.told.stages[..i]
-                .iter()
-                .flat_map(|s| &s.words)
-                .collect::<Vec<_>>();
-            let is_case = |w: &Sentence| on_condition(&w) && said.contains(&w);
-            let words = match told.words.iter().all(is_case) {
-                true => &[],
-                false => told.words.as_slice(),
-            };
-            match words {
-                [] => {}
-                [one] => self.solution.text(full_sentence(self.scene, one)),
-                all => {
-                    let items = all.iter().map(|w| full_sentence(self.scene, w)).collect();
-                    self.solution.push(Part::List(items));
-                }
-            }
+            self.happens(i);
         }
         self.solution.push(Part::Figure(Slot::Stage(i)));
         let rests = told.time.as_ref().is_some_and(Expr::is_zero);
@@ -235,7 +219,9 @@ impl Page<'_> {
                 &Sentence::join(told.assumptions.clone(), "; "),
             ));
             text.push(say("."));
-            self.solution.text(text);
+            if !self.solution.says(&text) {
+                self.solution.text(text);
+            }
         }
         // Why it cannot happen stands at the head of the solution.
         let refusals = self.told.refusals();
@@ -246,6 +232,48 @@ impl Page<'_> {
             self.solution
                 .text(vec![say(sentence::called(self.scene, &words))]);
         }
+    }
+
+    /// What happens in a stage.
+    fn happens(&mut self, i: usize) {
+        let told = &self.told.stages[i];
+        let on_condition = |w: &Sentence| w.to_string().starts_with("where ");
+        // What happens may stand with an earlier stage.
+        let said = self.told.stages[..i]
+            .iter()
+            .flat_map(|s| &s.words)
+            .collect::<Vec<_>>();
+        // Another way of going on from the same stage goes like the one before.
+        let parent = |s: &StageTold| s.branch.map(|(parent, _)| parent);
+        let mut others = self.told.stages[..i].iter();
+        let is_sibling = told.cases.is_empty()
+            && told.branch.is_some()
+            && others.any(|s| parent(s) == parent(told) && s.words == told.words);
+        let is_case = |w: &Sentence| on_condition(w) && said.contains(&w);
+        let words = match is_sibling || told.words.iter().all(is_case) {
+            true => &[],
+            false => told.words.as_slice(),
+        };
+        match words {
+            [] => {}
+            [one] => self
+                .solution
+                .text(full_sentence(self.scene, &self.by_told(one))),
+            all => {
+                let items = all.iter().map(|w| self.by_told(w));
+                let items = items.map(|w| full_sentence(self.scene, &w)).collect();
+                self.solution.push(Part::List(items));
+            }
+        }
+    }
+
+    /// A sentence in which what stands on the page by a name goes by it.
+    fn by_told(&self, sentence: &Sentence) -> Sentence {
+        let each = sentence.0.iter().map(|piece| match piece {
+            Piece::Formula(e) if e.size() >= newton::WORTH_A_NAME => Piece::Formula(self.named(e)),
+            piece => piece.clone(),
+        });
+        Sentence(each.collect())
     }
 
     /// What the stage keeps and what not: of a motion its energy, for an impact the balances themselves say why they hold; all
@@ -274,6 +302,8 @@ impl Page<'_> {
             .collect();
         match items.len() {
             0 => {}
+            // Why it is so may stand with an earlier stage.
+            1 if self.solution.says(&items[0]) => {}
             1 => self.solution.text(items.remove(0)),
             _ => self.solution.push(Part::List(items)),
         }
@@ -511,6 +541,12 @@ impl Page<'_> {
             text.push(say("."));
             items.push(text);
         }
+        // What no answer needs has no conditions either.
+        let unused = &self.told.unused;
+        self.valid.retain(|condition| {
+            let mut symbols = sentence::symbols(condition).peekable();
+            symbols.peek().is_none() || symbols.any(|s| !unused.contains(&s))
+        });
         self.valid.retain(|condition| match condition {
             Inline::Text(words) if words.starts_with(words::AT_ONCE) => {
                 items.push(vec![say(words::capital(words) + ".")]);

@@ -4,7 +4,7 @@
 use super::Page;
 use crate::answer::Answer;
 use crate::expr::{Expr, Node, Symbol, dot, minus};
-use crate::scene::{Ask, Linkage, Slide, SlideEnd, Spring, Stage, StageKind, Turn, Until};
+use crate::scene::{Ask, Linkage, Slide, SlideEnd, Stage, StageKind, Turn, Until};
 use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::words::{self, fill, name, say, set, vector};
 use crate::solution::{Claim, Inline, Line, Math};
@@ -100,7 +100,7 @@ impl Page<'_> {
     fn chain(&mut self, head: Vec<Math>, raw: &Expr, value: &Expr, why: &str) -> Line {
         let mut math = head;
         math.push(Math::Op("="));
-        let shown = neat(self.scene, raw);
+        let shown = self.by_names(&neat(self.scene, raw), value);
         if !alike(&shown, value) {
             math.extend([Math::Expr(shown), Math::Op("=")]);
         }
@@ -108,7 +108,13 @@ impl Page<'_> {
         self.claimed(math, raw, value, why)
     }
 
-    fn claimed(&mut self, math: Vec<Math>, left: &Expr, right: &Expr, why: &str) -> Line {
+    pub(super) fn claimed(
+        &mut self,
+        math: Vec<Math>,
+        left: &Expr,
+        right: &Expr,
+        why: &str,
+    ) -> Line {
         let claim = Claim::new(left.clone(), right.clone());
         let step = Some(self.solution.step(Vec::new(), vec![claim], why));
         Line { math, step }
@@ -186,6 +192,20 @@ impl Page<'_> {
             }
             letters.push((words::kinetic("", "+"), "the kinetic energy at the end"));
         }
+        // What is asked for stands in these equations before its box.
+        let mut sought: Vec<(Math, &str)> = Vec::new();
+        for answer in self.answered(told) {
+            let why = match self.ask(answer) {
+                Some(Ask::Velocity { point: None, .. }) if !to_rest => "the velocity at the end",
+                Some(Ask::Spin { .. }) if !to_rest => "the angular velocity at the end",
+                Some(Ask::Distance) if to_rest => "the distance covered",
+                _ => continue,
+            };
+            sought.push((Expr::symbol(&answer.name).into(), why));
+        }
+        if let [one] = sought.as_slice() {
+            letters.push(one.clone());
+        }
         self.meant(letters);
     }
 
@@ -200,34 +220,6 @@ impl Page<'_> {
         let mut questions = self.scene.questions.iter();
         let question = questions.find(|q| q.name == answer.question);
         question.map(|q| &q.ask)
-    }
-
-    /// How a spring stops a body: the work of all forces on the way takes up the kinetic energy.
-    fn pressed(&mut self, told: &StageTold, spring: &Spring) -> Option<Line> {
-        let [start, end] = told.energy.as_ref()?;
-        let way = told.way.as_ref()?;
-        let asked = self.to(told, |ask| matches!(ask, Ask::Distance));
-        let asked = asked.map(|a| a.name.clone());
-        let symbol = Expr::symbol(asked.as_deref().unwrap_or("s"));
-        if asked.is_none() {
-            let latex = String::from("s");
-            self.solution.names.insert(Symbol::from("s"), latex);
-        }
-        let others = told.work.iter().filter(|(what, _)| *what != "spring");
-        let others = others.map(|(_, work)| tidied(self.scene, &(work / way)) * &symbol);
-        let stored = &spring.stiffness * (Expr::ratio(1, 2) * symbol.powi(2));
-        let given = &spring.stiffness * &spring.relaxed * &symbol;
-        let work = Expr::sum(others) + given - stored;
-        let total = Expr::sum(told.work.iter().map(|(_, w)| w.clone()));
-        let claim = Claim::new(start + total, end.clone());
-        let why = "the work of all forces takes up the kinetic energy";
-        let step = Some(self.solution.step(Vec::new(), vec![claim], why));
-        let taken = neat(self.scene, &-work);
-        let mut math = set("{} = {}", [taken.into(), words::kinetic("", "-")]);
-        if asked.is_none() {
-            math.extend(set("⇒ {} = {}", [symbol.into(), way.into()]));
-        }
-        Some(Line { math, step })
     }
 
     /// How a moment alone stops a rotation: its work takes up the kinetic energy.
@@ -286,7 +278,7 @@ impl Page<'_> {
     }
 
     /// The time of a motion by its name, and its value, if it is asked for.
-    fn time_asked(&self, told: &StageTold) -> Option<(Expr, Expr)> {
+    pub(super) fn time_asked(&self, told: &StageTold) -> Option<(Expr, Expr)> {
         let asked = self.to(told, |ask| matches!(ask, Ask::Time))?;
         Some((Expr::symbol(&asked.name), told.time.clone()?))
     }
@@ -379,33 +371,15 @@ impl Page<'_> {
         {
             return self.at_mean_speed(told, slide);
         }
-        let time = match (&stage.kind, &told.time) {
-            (StageKind::Linkage(_), _) => vec![say(
+        if !takes {
+            return;
+        }
+        match &stage.kind {
+            StageKind::Linkage(_) => self.solution.say(
                 "The acceleration is constant, so the time is the change of velocity divided by it.",
-            )],
-            (StageKind::Slide(slide), Some(time)) if slide.spring.is_some() => {
-                let v = &told.before.velocity[slide.body];
-                let relaxed = slide.spring.iter().any(|spring| match &slide.until {
-                    SlideEnd::Stops => spring.relaxed.is_zero(),
-                    SlideEnd::Distance(s) => *s == spring.relaxed && v.iter().all(Expr::is_zero),
-                    _ => false,
-                });
-                let alone = told.work.iter().all(|(what, _)| *what == "spring");
-                let period = tidied(self.scene, &(Expr::from(4) * time));
-                match relaxed && alone {
-                    true => fill(
-                        "The motion is a quarter of a harmonic oscillation of period {}.",
-                        [words::formula(&period)],
-                    ),
-                    false => vec![say(
-                        "The motion is a part of a harmonic oscillation about the place where the forces balance; the time follows from the places and the velocities at its ends.",
-                    )],
-                }
-            }
-            _ => return,
-        };
-        if takes {
-            self.solution.text(time);
+            ),
+            StageKind::Slide(slide) => self.swung(told, slide),
+            _ => {}
         }
     }
 
@@ -430,8 +404,8 @@ impl Page<'_> {
                 if asks(|_| true) || spins || fall.bodies().len() > 1 {
                     return None;
                 }
-                let mass = stage.scene.bodies[fall.body].mass.clone();
-                ("v", mass)
+                let mass = &stage.scene.bodies[fall.body].mass;
+                ("v", tidied(self.scene, mass))
             }
             StageKind::Turn(turn) => {
                 let is_given = *end == told.energy.as_ref()?[0];

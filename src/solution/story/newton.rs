@@ -10,7 +10,7 @@ use crate::solution::{Claim, Detail, Inline, Line, Math, Meaning};
 use crate::story::{StageTold, State, Step};
 
 /// Smallest formula, in nodes, whose name is worth standing for it.
-const WORTH_A_NAME: usize = 6;
+pub(super) const WORTH_A_NAME: usize = 6;
 /// The speed at the beginning of a motion along a line.
 const START: &str = "v_0";
 
@@ -75,8 +75,8 @@ impl Page<'_> {
                 if !is_boxed {
                     math.push(Math::Op("⇒"));
                 }
-            } else if let Some(meets) = self.meets(told, step) {
-                math.extend(meets);
+            } else if let Some(law) = self.law(told, step) {
+                math.extend(law);
                 if !is_boxed {
                     math.extend([
                         Math::Op("⇒"),
@@ -177,7 +177,7 @@ impl Page<'_> {
     }
 
     /// Whether a step is worth telling: a time or a way only where a question or another step needs it.
-    fn serves(&self, told: &StageTold, step: &Step) -> bool {
+    pub(super) fn serves(&self, told: &StageTold, step: &Step) -> bool {
         let is_asked = self.asked(told, |ask| match ask {
             Ask::Position { .. } => true,
             Ask::Time => step.letter == "t",
@@ -254,8 +254,8 @@ impl Page<'_> {
             // Its equation of motion stands above.
             return Vec::new();
         }
-        if self.meets(told, step).is_some() {
-            // What the time makes equal stands above.
+        if self.law(told, step).is_some() {
+            // The equation that it solves stands above.
             return Vec::new();
         }
         let time = told.steps.iter().find(|s| s.letter == "t");
@@ -269,7 +269,7 @@ impl Page<'_> {
                 };
                 Expr::sum(powers.map(|(k, n)| self.by_names(&named(k), &step.value) * time.powi(n)))
             }
-            None => match self.steadily(told, step) {
+            None => match self.uniformly(told, step) {
                 Some(raw) => raw,
                 None => {
                     let raw = self.by_names(&step.raw, &step.value);
@@ -287,6 +287,42 @@ impl Page<'_> {
             true => Vec::new(),
             false => vec![Math::Expr(raw), Math::Op("=")],
         }
+    }
+
+    /// The equation that a step solves: what the time makes equal, or how the pull of a string moves what hangs on it.
+    fn law(&self, told: &StageTold, step: &Step) -> Option<Vec<Math>> {
+        let Some(balance) = &step.balance else {
+            return self.meets(told, step);
+        };
+        let letter = |sought: &str| {
+            let mut steps = told.steps.iter();
+            let step = steps.find(|s| s.letter == sought && !s.value.is_zero())?;
+            Some(self.letter_of(told, step))
+        };
+        let inertia = spread(&neat(self.scene, &balance.inertia));
+        let force = self.by_letter(told, "F", 0, &neat(self.scene, &balance.force));
+        let pulls = balance.pulls.iter();
+        let pulls = pulls.filter_map(|(pull, factor)| Some(factor * letter(pull)?));
+        let mut terms: Vec<Expr> = [force].into_iter().chain(pulls).collect();
+        terms.retain(|t| !t.is_zero());
+        terms.sort_by_key(Expr::is_negative);
+        let mut math = match (letter("a"), inertia.node()) {
+            (None, _) => vec![Expr::zero().into()],
+            (Some(a), Node::Sum(_)) => vec![Math::Factor(inertia), a.into()],
+            (Some(a), _) => vec![(inertia * a).into()],
+        };
+        for (i, term) in terms.into_iter().enumerate() {
+            math.push(Math::Op(match (i, term.is_negative()) {
+                (0, _) => "=",
+                (_, true) => "−",
+                (_, false) => "+",
+            }));
+            math.push(match i > 0 && term.is_negative() {
+                true => Math::Factor(-term),
+                false => term.into(),
+            });
+        }
+        Some(math)
     }
 
     /// What the time makes equal, v + a t = V + A t of a body and the one below it, v + a t = −r ω − r α t of one that comes to
@@ -334,8 +370,8 @@ impl Page<'_> {
         Some(words::related(&own, "=", &other))
     }
 
-    /// The way or the time of a motion whose velocity stays as it is, by that velocity.
-    fn steadily(&self, told: &StageTold, step: &Step) -> Option<Expr> {
+    /// What a step of a motion at a constant acceleration finds, by that acceleration and the velocity at the beginning.
+    fn uniformly(&self, told: &StageTold, step: &Step) -> Option<Expr> {
         let StageKind::Slide(slide) = &told.placed.kind else {
             return None;
         };
@@ -347,9 +383,29 @@ impl Page<'_> {
             .as_ref()
             .map_or(own.clone(), |on| own - along(on.body));
         let speed = self.named(&tidied(self.scene, &own));
+        let speed = self.by_names(&speed, &step.value);
         match (self.is_steady(told), step.letter) {
-            (true, "s") => Some(speed * told.time.as_ref()?),
-            (true, "t") => Some(told.way.as_ref()? / &speed),
+            (true, "s") => {
+                let time = self.named(told.time.as_ref()?);
+                return Some(speed * self.by_names(&time, &step.value));
+            }
+            (true, "t") => return Some(told.way.as_ref()? / &speed),
+            _ => {}
+        }
+        let find = |letter: &str| told.steps.iter().find(|s| s.letter == letter);
+        if step.letter == "omega" {
+            return self.by_rim(told, &step.value).map(|[shown, _]| shown);
+        }
+        let a = find("a").filter(|a| a.inertia.is_some() && !a.value.is_zero())?;
+        let a = self.letter_of(told, a);
+        let two_a = Expr::from(2) * &a;
+        match (step.letter, &slide.until) {
+            _ if slide.on.is_some() || slide.spring.is_some() => None,
+            ("v", SlideEnd::Distance(s)) => Some((speed.powi(2) + two_a * self.named(s)).sqrt()),
+            ("v", SlideEnd::Time(t)) => Some(speed + a * t),
+            ("s", SlideEnd::Stops) => Some(-(speed.powi(2) / two_a)),
+            ("t", SlideEnd::Stops) => Some(-(speed / a)),
+            ("s", SlideEnd::Time(t)) => Some(speed * t + Expr::ratio(1, 2) * a * t.powi(2)),
             _ => None,
         }
     }
@@ -463,6 +519,7 @@ fn replaced(e: &Expr, part: &Expr, by: &Expr) -> Expr {
             let (number, rest) = part.split_number();
             let sought = match rest.node() {
                 Node::Product(sought) => sought.clone(),
+                Node::Power(..) => vec![rest.clone()],
                 _ => Vec::new(),
             };
             let mut left = factors.clone();

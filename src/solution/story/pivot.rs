@@ -83,11 +83,10 @@ impl Page<'_> {
         let arm = minus(&center, &turn.about).map(|e| tidy(&e));
         let zero = Expr::zero();
         let g = turn.gravity.as_ref().unwrap_or(&zero);
-        let weight = [Expr::zero(), -(&lump.mass * g)];
         let rates = self.rates(told, turn, at_end)?;
         let at = &turn.about_name;
         let who = words::bodies(self.scene, &places);
-        let (g, who) = match places.as_slice() {
+        let (center_name, who) = match places.as_slice() {
             [one] if scene.bodies[*one].is_particle() => (words::center(self.scene, *one), who),
             [one] => {
                 let g = words::center(self.scene, *one);
@@ -98,19 +97,28 @@ impl Page<'_> {
                 (String::from("G"), who)
             }
         };
-        let (lines, acceleration) = self.circling(&rates, at, &g, &arm);
+        let (lines, acceleration) = self.circling(&rates, at, &center_name, &arm);
         if acceleration.iter().any(|e| e.size() > READABLE) || rates.square.size() > READABLE {
             return None;
         }
         self.solution.say(&format!(
-            "{} moves on a circle about {at}; Newton's second law for it gives the force.",
+            "{} moves on a circle about {at}; Newton's second law gives the force on it there.",
             words::capital(&who)
         ));
-        let lines = lines.into_iter().map(Line::plain);
-        self.solution.display(lines.collect());
+        let mass = tidy(&lump.mass);
+        let weight = [Expr::zero(), &mass * g];
+        let (force, mass) = (vector("F", at, ""), Math::Factor(mass));
+        let mut law = set("{} = {} {}", [force, mass, vector("a", &center_name, "")]);
+        if !g.is_zero() {
+            law.extend(set("+ {}", [weight.clone().into()]));
+        }
+        let lines = lines.into_iter().chain([law]);
+        let fresh = lines.filter(|line| !self.solution.shows(line));
+        let fresh = fresh.map(Line::plain).collect();
+        self.solution.display(fresh);
         let force = [
             &lump.mass * &acceleration[0],
-            &lump.mass * &acceleration[1] - &weight[1],
+            &lump.mass * &acceleration[1] + &weight[1],
         ];
         Some(neat(self.scene, &dot(&force, along)))
     }

@@ -8,7 +8,7 @@ use super::tidied;
 use crate::answer::calc::{Seen, is_zero, sign};
 use crate::expr::{Expr, Vector, cross, dot, minus};
 use crate::scene::{Slide, Stage, Strung};
-use crate::story::{Refused, State, Step};
+use crate::story::{Balance, Refused, State, Step};
 
 /// A string, with what moves at its other end.
 pub(super) struct Pulled<'a> {
@@ -246,11 +246,28 @@ impl Pulled<'_> {
             "its pull on this side of the pulleys, from the moment that turns them",
         ];
         let letters = ["T", "S"];
-        let each = letters
-            .into_iter()
-            .zip(why)
-            .zip(self.tensions(acceleration));
-        each.map(|((letter, why), raw)| Ok(Step::new(letter, &raw, &tidied(stage, &raw)?, why)))
+        // A movable pulley hangs on two parts of the string, and moves half as fast.
+        let parts = Expr::one() / self.string.ratio();
+        let way = Expr::from(if self.draws { 1 } else { -1 });
+        let hung = Balance {
+            inertia: tidied(stage, &(&self.mass * &parts))?,
+            force: tidied(stage, &((&self.pull + &self.friction) * &parts))?,
+            pulls: vec![("T", -(&way * parts))],
+        };
+        let pulleys = Balance {
+            inertia: self.turning.clone(),
+            force: Expr::zero(),
+            pulls: vec![("T", way.clone()), ("S", -way)],
+        };
+        let tensions = self.tensions(acceleration).into_iter();
+        let each = letters.into_iter().zip(why).zip([hung, pulleys]);
+        each.zip(tensions)
+            .map(|(((letter, why), balance), raw)| {
+                Ok(Step {
+                    balance: Some(balance),
+                    ..Step::new(letter, &raw, &tidied(stage, &raw)?, why)
+                })
+            })
             .collect()
     }
 

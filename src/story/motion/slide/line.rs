@@ -201,7 +201,7 @@ impl<'a> Line<'a> {
         } else if self.strings.is_empty() {
             "the acceleration along the line"
         } else if self.strings.iter().any(|s| s.string.under.is_some()) {
-            "the acceleration of all bodies along the string, where one that moves half as fast counts with half its weight and a quarter of its mass"
+            "the acceleration along the string, of which what hangs on the movable pulley has half, so that it counts with half its weight and a quarter of its mass"
         } else if self.strings.iter().all(|s| s.turning.is_zero()) {
             "the acceleration of all bodies along the string"
         } else {
