@@ -5,6 +5,7 @@ use super::words::{self, fill, name, set, vector};
 use super::{Claim, Inline, Math, Writer};
 use crate::expr::{Expr, Symbol, Vector, cross};
 use crate::laws::Place;
+use crate::scene::Shape;
 
 impl Writer<'_> {
     /// Which system, about which point, and why other impulses do not appear.
@@ -128,7 +129,7 @@ impl Writer<'_> {
     /// H as the sum over the bodies of r × m v + I ω, without what vanishes.
     fn definition(&mut self, system: &[usize], about: Place, h: Math) {
         let o = words::point(self.scene, about);
-        let mut sum = Vec::new();
+        let (mut sum, mut inertias) = (Vec::new(), Vec::new());
         for &b in system {
             let c = words::center(self.scene, b);
             let arm = self.arm(&self.g.place(Place::Center(b)).clone(), about);
@@ -136,17 +137,35 @@ impl Writer<'_> {
             let moves = !arm.iter().all(Expr::is_zero) && !self.vanishes(&self.g.mass(b).clone());
             if moves {
                 let arm = vector("r", &format!("{c}/{o}"), "");
-                let mass = Math::Factor(self.g.mass(b).clone());
+                let mass = self.g.mass(b).clone();
+                let mass = Math::Factor(self.tidy(&mass));
                 sum.push(set("{} × {} {}", [arm, mass, vector("v", &c, "")]));
             }
             if spins {
-                sum.push(vec![self.inertia_name(b), words::spin(self.scene, b, "")]);
+                let inertia = self.inertia_name(b);
+                sum.push(vec![inertia.clone(), words::spin(self.scene, b, "")]);
+                // Its value stands with its first use, that of a body of parts where these are told.
+                let body = &self.scene.bodies[b];
+                let by_parts = matches!(body.shape, Shape::Composite { .. }) && !body.inertia_given;
+                let is_new = matches!(inertia, Math::Name(_))
+                    && !by_parts
+                    && self.told.insert(Symbol::from(format!("I of {c}")));
+                if is_new {
+                    let value = self.g.inertia(b).clone();
+                    inertias.push((inertia, self.tidy(&value)));
+                }
             }
         }
         if !sum.is_empty() {
             let mut math = set("{} =", [h]);
             math.extend(sum.join(&Math::Op("+")));
             self.show(math, None);
+        }
+        for (inertia, value) in inertias {
+            let math = set("{} = {}", [inertia, value.into()]);
+            if !self.solution.stood(&math) {
+                self.show(math, None);
+            }
         }
     }
 
@@ -199,6 +218,7 @@ impl Writer<'_> {
         let mut raw = Vec::new();
         for (&b, (v, w)) in system.iter().zip(motion) {
             let mass = self.g.mass(b).clone();
+            let mass = self.tidy(&mass);
             let arm = self.arm(&self.g.place(Place::Center(b)).clone(), about);
             let moves = !v.iter().all(Expr::is_zero) && !arm.iter().all(Expr::is_zero);
             raw.push(&mass * cross(&arm, v));

@@ -13,6 +13,11 @@ const NAMED: usize = 3;
 impl Writer<'_> {
     /// Whether a question asks for more than the unknowns of the blocks.
     pub(super) fn is_derived(&self, question: &Question) -> bool {
+        // A brief solution tells where an energy comes from; velocities and impulses follow from its key equations.
+        let is_told = self.detail() != Detail::Brief || matches!(question.ask, Ask::Energy { .. });
+        if !is_told || self.is_open(question) {
+            return false;
+        }
         self.answers_of(question).iter().any(|a| {
             let solved = self
                 .d

@@ -148,10 +148,22 @@ impl Writer<'_> {
         words::impulses_at(&inside, "is internal.", "are internal.")
     }
 
+    /// The bodies of a system, each behind those that carry it along, by whose motion its own is told.
+    fn carriers_first(&self, system: &[usize]) -> Vec<usize> {
+        let link = |b: usize| self.reduction.tree.iter().find(|l| l.body == b);
+        let chain = |b: &usize| {
+            let carrier = |b: &usize| link(*b).map(|l| l.to).filter(|to| link(*to).is_some());
+            let mut chain: Vec<usize> = std::iter::successors(Some(*b), carrier).collect();
+            chain.reverse();
+            chain
+        };
+        system.iter().flat_map(chain).collect()
+    }
+
     /// How the bodies move just after, in vectors, where joints leave only their spins free; whether there was anything to tell.
     pub(super) fn motion_words(&mut self, system: &[usize]) -> bool {
         let mut any = false;
-        for &b in system {
+        for b in self.carriers_first(system) {
             let Some(link) = self.reduction.tree.iter().find(|l| l.body == b).copied() else {
                 continue;
             };

@@ -28,10 +28,10 @@ impl Writer<'_> {
         for question in self.scene.asked_of_impact() {
             let asked = |b: &&&Block| b.asked_by.as_deref() == Some(question.name.as_str());
             let mine: Vec<&Block> = blocks.iter().filter(asked).copied().collect();
-            let derived = self.is_derived(question) && !self.is_open(question);
+            let derived = self.is_derived(question);
             let renamed = mine.is_empty() && self.is_renamed(question);
             let begins = !mine.is_empty() || kept.iter().any(|b| asked(&b));
-            if !begins && (!derived || self.detail() == Detail::Brief) {
+            if !begins && !derived {
                 continue;
             }
             let several = mine
@@ -60,7 +60,7 @@ impl Writer<'_> {
                     at += 1;
                 }
             }
-            if derived && self.detail() != Detail::Brief {
+            if derived {
                 self.derived(question);
             }
         }
@@ -120,10 +120,12 @@ impl Writer<'_> {
                 self.key_equation(equation);
             }
         } else if n == 1 {
+            self.name_impulses(block);
             self.balance(&block.equations[0], true);
         } else if self.told_through(block) {
             return;
         } else {
+            self.name_impulses(block);
             let unknowns: Vec<Inline> = self.symbols(&block.unknowns);
             let count = words::count(n);
             let [many, same] = [say(words::capital(&count)), say(count)];

@@ -2,7 +2,7 @@
 //! bodies for the touching points, and where a normal passes through a center of mass.
 
 use super::words::{self, say, set, vector};
-use super::{Inline, Math, Writer};
+use super::{Inline, Math, Part, Writer};
 use crate::expr::{Expr, Symbol, Vector};
 use crate::laws::Place;
 use crate::scene::{ContactLaw, KnownQuantity};
@@ -88,17 +88,25 @@ impl Writer<'_> {
             "Restitution: the points in contact separate along the normal at "
         };
         let at_it = words::at(self.scene, Place::Contact(c));
-        // A rule that was told for one contact is not told again for the next.
-        let again = !self
-            .told
-            .insert(Symbol::from(format!("{rule} {restitution:?}")));
+        // A rule that was told for one contact, or in an earlier stage, is not told again for the next.
+        let factor = rule.ends_with("at ").then(|| words::formula(&restitution));
+        let tells = |part: &Part| match part {
+            Part::Text(text) => {
+                let mut pieces = text.iter();
+                pieces.next() == Some(&say(rule))
+                    && factor.as_ref().is_none_or(|f| pieces.next() == Some(f))
+            }
+            _ => false,
+        };
+        let above = self.solution.earlier().any(tells);
+        let own = Symbol::from(format!("{rule} {restitution:?}"));
+        let again = !self.told.insert(own) || above;
         let mut text = vec![say(match again {
             true => format!("Likewise at {at_it}"),
             false => rule.to_string(),
         })];
-        if rule.ends_with("at ") && !again {
-            text.push(words::formula(&restitution));
-            text.push(say(" times their speed of approach"));
+        if let Some(factor) = factor.filter(|_| !again) {
+            text.extend([factor, say(" times their speed of approach")]);
         }
         let there = match again {
             true => String::new(),

@@ -36,6 +36,21 @@ impl Solution {
         })
     }
 
+    /// What stands in the stages before the one under way; nothing where there are none.
+    pub(super) fn earlier(&self) -> impl Iterator<Item = &Part> {
+        let stage = self.sections.iter().rposition(|s| s.depth == 0);
+        let before = &self.sections[..stage.unwrap_or(0)];
+        before.iter().flat_map(|s| &s.parts)
+    }
+
+    /// Whether an equation stands in an earlier stage.
+    pub(super) fn stood(&self, math: &[Math]) -> bool {
+        self.earlier().any(|part| match part {
+            Part::Display(lines) => lines.iter().any(|l| l.math == math),
+            _ => false,
+        })
+    }
+
     /// Whether these sentences stand there already.
     pub(super) fn says(&self, text: &[Inline]) -> bool {
         let mut parts = self.sections.iter().flat_map(|s| &s.parts);

@@ -7,6 +7,7 @@ use super::words::{self, fill, say};
 use crate::derive::{Block, Equation};
 use crate::expr::{Expr, Symbol};
 use crate::laws::{Direction, Law, Place, Unknown};
+use crate::scene::Ask;
 
 /// Largest equation, in nodes, that is written for the impulses alone.
 const READABLE: usize = 90;
@@ -274,14 +275,21 @@ impl Writer<'_> {
         true
     }
 
-    /// What the impulses along normals in a block are.
-    fn name_impulses(&mut self, block: &Block) {
+    /// What the impulses along normals in a block are, unless its heading says so.
+    pub(super) fn name_impulses(&mut self, block: &Block) {
+        let mut questions = self.scene.questions.iter();
+        let heads = questions.find(|q| block.asked_by.as_deref() == Some(q.name.as_str()));
+        if heads.is_some_and(|q| matches!(q.ask, Ask::Impulse { .. })) && block.unknowns.len() == 1
+        {
+            return;
+        }
         let mut all = Vec::new();
         for u in &block.unknowns {
             let Unknown::Normal(c) = u else {
                 continue;
             };
             let contact = &self.scene.contacts[*c];
+            let on = contact.bodies[usize::from(!self.d.names.is_reversed(*u))];
             let line = match self.scene.figure.string(&contact.name) {
                 Some(_) => "the string",
                 None => "the normal",
@@ -290,7 +298,7 @@ impl Writer<'_> {
                 words::formula(&Expr::symbol(self.d.names.plain(*u))),
                 say(if all.is_empty() { " be" } else { "" }),
                 say(words::at(self.scene, Place::Contact(*c))),
-                say(words::body(self.scene, contact.bodies[1])),
+                say(words::body(self.scene, on)),
                 say(line),
             ];
             all.push(fill("{}{} the impulse at {} on {}, along {}", parts));

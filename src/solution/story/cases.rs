@@ -55,10 +55,7 @@ impl Writer<'_> {
             }
         }
         for question in questions {
-            if self.is_derived(question)
-                && !self.is_open(question)
-                && self.detail() != Detail::Brief
-            {
+            if self.is_derived(question) {
                 if !renamed.iter().any(|q| q.name == question.name) {
                     let heading = self.heading(question);
                     self.section(heading);
