@@ -23,6 +23,7 @@ mod page;
 mod results;
 mod roots;
 mod rough;
+mod rounded;
 mod sentence;
 mod story;
 mod through;
@@ -338,6 +339,7 @@ pub fn write(scene: &Scene, told: &Told, detail: Detail) -> Solution {
         None => story::tell(scene, told, detail),
     };
     solution.explain(scene);
+    solution.round(opening::AXES);
     opening::set_axes(&mut solution);
     solution
 }

@@ -238,10 +238,18 @@ fn is_unit(before: &str, word: &str, after: &str) -> bool {
     let below = after.strip_prefix('/').unwrap_or("");
     let end = below.find(|c: char| !c.is_alphanumeric() && c != '^');
     let below = &below[..end.unwrap_or(below.len())];
-    let number = before.strip_suffix(' ').unwrap_or("");
-    number.ends_with(|c: char| c.is_ascii_digit())
-        && !below.is_empty()
-        && dimension::unit(&format!("{word}/{below}")).is_ok()
+    let words = before.strip_suffix(' ').unwrap_or("");
+    let start = words.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.');
+    let number = words[start.len()..].parse::<f64>();
+    // A body may have the mass 2 m, or 10 m, and nothing else is 200 m but a length.
+    let is_long =
+        number.as_ref().is_ok_and(|n| *n >= 10.0 || n.fract() > 0.0) && !start.ends_with("mass ");
+    let unit = match below {
+        "" if is_long => word.to_owned(),
+        "" => return false,
+        _ => format!("{word}/{below}"),
+    };
+    number.is_ok() && dimension::unit(&unit).is_ok()
 }
 
 /// The symbol that a word of a sentence stands for, as it is typed or as it is set: `omega_0`, `ω₀`. Words of the language stay
