@@ -75,7 +75,10 @@ impl Desk<'_> {
         let place = |is: &dyn Fn(&Grade) -> bool| judged.iter().position(|(_, grade)| is(grade));
         let right = place(&|grade| grade.verdict == Verdict::Equivalent);
         // A bound answers no question for a value.
-        let fits = place(&|grade| grade.diagnosis.iter().all(|d| d.code != "RELATION"));
+        let fits = place(&|grade| {
+            let asked = grade.diagnosis.iter().all(|d| d.code != "RELATION");
+            asked && grade.verdict == Verdict::Different
+        });
         if right.is_none()
             && let Some(question) = self.answer_of_a_case(reading, &asked)
         {

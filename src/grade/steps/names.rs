@@ -425,9 +425,7 @@ impl Desk<'_> {
             Weighed::Holds | Weighed::Rounded => (Status::Defines, Vec::new()),
             Weighed::Open => (Status::Undecided, Vec::new()),
             Weighed::Carried(cause) => (Status::Carried(cause), Vec::new()),
-            Weighed::Slip(_) if self.at_another_moment(&links).is_some() => {
-                (Status::Defines, Vec::new())
-            }
+            Weighed::Slip(_) if self.holds_there(&links) => (Status::Defines, Vec::new()),
             Weighed::Slip(_) if self.is_of_a_motion(&links) => (Status::Undecided, Vec::new()),
             Weighed::Slip(at) => {
                 let broken = self.broken(right, at, text);

@@ -96,7 +96,8 @@ impl Desk<'_> {
         if all.iter().any(|value| same(value) || same(&-*value)) {
             return Some(true);
         }
-        let multiple = |value: &&Expr| self.share(value, &needed).is_some();
+        let square = needed.powi(2);
+        let multiple = |value: &&Expr| self.share(&value.powi(2), &square).is_some();
         let mut all = all.into_iter().filter(|value| !value.is_zero());
         (!all.any(|value| multiple(&value))).then_some(false)
     }

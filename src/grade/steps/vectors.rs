@@ -194,13 +194,27 @@ impl Desk<'_> {
         }
         // Below the heading of a motion marks tell its ends; what is known there can be wrong.
         let told = match self.end_here() {
-            Some((_, values)) => names.iter().all(|name| {
-                self.spins.contains_key(name) || values.contains_key(&*format!("{name}_z"))
-            }),
+            Some(end) => self.knows(end, links),
             None => any,
         };
         let story = self.sheet.story.as_ref();
         story.is_some_and(Story::has_motions) && moves && !(marked && told)
+    }
+
+    /// Whether a line that fails holds at the end of the motion it stands in or, where that is not known, at some moment.
+    pub(super) fn holds_there(&self, links: &[Link]) -> bool {
+        let all: Vec<Expr> = links.iter().flat_map(|l| l.differences.clone()).collect();
+        match self.end_here().filter(|end| self.knows(end, links)) {
+            Some((_, values)) => self.all_zero(&all, values) == Some(true),
+            None => self.at_another_moment(links).is_some(),
+        }
+    }
+
+    /// Whether all vectors of a line have values at the end of a motion.
+    fn knows(&self, (_, values): &(String, BTreeMap<Symbol, Expr>), links: &[Link]) -> bool {
+        Desk::arrows(links)
+            .iter()
+            .all(|name| self.spins.contains_key(name) || values.contains_key(&*format!("{name}_z")))
     }
 
     /// What is known of the end of the motion whose heading stands above, or of the only one where nothing collides.
