@@ -75,6 +75,8 @@ pub struct UnitFault {
     pub start: usize,
     /// Byte after the last one concerned.
     pub end: usize,
+    /// Whether brackets below a slash would make it a unit.
+    pub is_unclear: bool,
 }
 
 /// Longest unit text looked at, in bytes.
@@ -193,8 +195,12 @@ impl<'a> Reader<'a> {
     }
 
     fn unclear(&self, at: usize) -> Result<Unit, UnitFault> {
-        let message = "what is below the slash is unclear; write brackets, as in kg/(m s)";
-        fault(message, at, self.text.len())
+        Err(UnitFault {
+            message: "what is below the slash is unclear; write brackets, as in kg/(m s)".into(),
+            start: at,
+            end: self.text.len(),
+            is_unclear: true,
+        })
     }
 
     fn atom(&mut self, depth: u32) -> Result<Unit, UnitFault> {
@@ -212,6 +218,11 @@ impl<'a> Reader<'a> {
             Some('1') => {
                 self.at += 1;
                 Ok(Unit::number())
+            }
+            // In a product or quotient a degree Celsius is a difference of temperatures: `J/(kg °C)`.
+            Some('°') if self.text[start..].starts_with("°C") && self.text.trim() != "°C" => {
+                self.at += "°C".len();
+                named("K").map_or_else(|| fault(NONE, start, self.at), Ok)
             }
             Some('°') => {
                 self.at += '°'.len_utf8();
@@ -327,6 +338,7 @@ fn fault<T>(message: impl Into<String>, start: usize, end: usize) -> Result<T, U
         message: message.into(),
         start,
         end,
+        is_unclear: false,
     })
 }
 

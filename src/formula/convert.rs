@@ -303,7 +303,7 @@ fn reciprocal(w: &Written, mode: Mode) -> Faulty<Expr> {
         return Err(w.fault("division by zero"));
     }
     // 1/(x^-n) stays within the limit of powers, and 1/number is exact.
-    Ok(below.powi(-1))
+    Ok(below.written_power(Expr::from(-1)))
 }
 
 fn power(w: &Written, base: &Written, exponent: Expr, mode: Mode) -> Faulty<Expr> {
@@ -337,7 +337,7 @@ fn power(w: &Written, base: &Written, exponent: Expr, mode: Mode) -> Faulty<Expr
             return Ok(Expr::one());
         }
     }
-    Ok(below.power(exponent))
+    Ok(below.written_power(exponent))
 }
 
 /// Bits of the number an expression is or starts with.

@@ -114,6 +114,11 @@ impl Lexer<'_> {
                 format!("the numbers of a formula have at most {MAX_LONG_DIGITS} digits in all");
             return Err(Fault::new(message, start, end));
         }
+        if literal.decimal && number::uncertain(&self.text[end..]) {
+            let message = "digits in brackets behind a decimal number may be its uncertainty";
+            let fault = Fault::new(message, start, end);
+            return Err(fault.hint("write * for a product, ± for an uncertainty"));
+        }
         self.pos = end;
         Ok(Tok::Number(literal))
     }
@@ -145,9 +150,8 @@ impl Lexer<'_> {
             && self.text[end..].starts_with(' ')
             && behind.is_some_and(|c| c.is_alphabetic() || c == '\\');
         let alone = closer || behind.is_none_or(|c| "+-−±*·/=<>≤≥≈)]},;.$|".contains(c));
-        // Behind a bracket that ends the text: `(33 + 1/3)%`.
-        let bracket = behind.is_none() && self.text[..start].trim_end().ends_with(')');
-        if !alone || !bracket && !matches!(self.before, Before::Number { .. }) {
+        // Behind a bracket or a fraction too: `(33 + 1/3)%`, `\frac{1}{3}\%`.
+        if !alone || self.before == Before::Nothing {
             let fault = Fault::new("a percent sign belongs behind a number", start, end);
             return Err(fault.hint("write 5% or 0.05"));
         }

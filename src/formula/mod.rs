@@ -4,6 +4,7 @@
 //! [`Fault`] with its place. What could be read in two ways is noted, and the other readings can be asked for. This
 //! module never decides whether two formulas are equal.
 
+mod again;
 mod bound;
 mod calls;
 mod characters;
@@ -131,6 +132,11 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     {
         return reading;
     }
+    if held.any(")]")
+        && let Some(reading) = again::said_again(text, symbols)
+    {
+        return Ok(reading);
+    }
     if several::is_likely(text, held)
         && let Some(pair) = several::values(text, symbols)
     {
@@ -170,7 +176,7 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
         return Ok(reading);
     }
     if worded && let Some(reading) = read_behind_words(text, symbols) {
-        return Ok(reading);
+        return reading.map_err(|fault| *fault);
     }
     // What no rule read as words is no product of their letters.
     let between = |word: &str| Some((text.find(word)?, word.len()));
@@ -233,7 +239,7 @@ pub(crate) fn read_interval(text: &str, symbols: &Symbols) -> Option<Reading> {
 }
 
 /// A formula with words around or before it.
-fn read_behind_words(text: &str, symbols: &Symbols) -> Option<Reading> {
+fn read_behind_words(text: &str, symbols: &Symbols) -> Option<Faulty<Reading>> {
     let known = |word: &str| {
         symbols.find(word).is_some() || words::function(word).is_some() || is_greek(word)
     };
@@ -248,13 +254,17 @@ fn read_behind_words(text: &str, symbols: &Symbols) -> Option<Reading> {
         Some(reading)
     };
     let split = |r: &Reading| r.notes.iter().any(|n| n.remark == Remark::Letters);
-    let marked = prose::formula_in_words(text).and_then(part);
+    let marked = match prose::formula_in_words(text) {
+        Some(Err(fault)) => return Some(Err(fault)),
+        Some(Ok(place)) => part(place),
+        None => None,
+    };
     let marked = marked.or_else(|| {
         let start = prose::behind_words(text, &known)?;
         part((start, text.len())).filter(|reading| !split(reading))
     });
     // `x is 5` says what a name is, in a text of the same length.
-    marked.or_else(|| {
+    let said = || {
         let named = |verb| {
             text.split_once(verb)
                 .map(|(name, value)| (name, verb, value))
@@ -265,7 +275,8 @@ fn read_behind_words(text: &str, symbols: &Symbols) -> Option<Reading> {
         let is_name =
             !name.trim().contains(' ') && !std::ptr::eq(reading.content.answer(), &reading.content);
         (is_name && !split(&reading)).then_some(reading)
-    })
+    };
+    marked.or_else(said).map(Ok)
 }
 
 /// Reads a formula that is a single expression, such as those in scenes.

@@ -195,6 +195,17 @@ pub(crate) fn repeating(
     Some((literal, end + mark.len() + digits.len() + 1))
 }
 
+/// Whether digits in brackets with a unit or a name behind them follow: `(2) m` of `1.5(2) m`.
+pub(crate) fn uncertain(rest: &str) -> bool {
+    let inside = rest.strip_prefix('(').and_then(|r| r.split_once(')'));
+    inside.is_some_and(|(digits, behind)| {
+        let behind = behind.trim_start().trim_start_matches("\\,");
+        matches!(digits.len(), 1 | 2)
+            && digits.bytes().all(|b| b.is_ascii_digit())
+            && behind.starts_with(|c: char| c.is_alphabetic() || c == '\\')
+    })
+}
+
 /// A number in groups of three digits: `12\,000`, `12 000`, `12,\!000` and `12'000`, `1,000,000` with two commas or more or
 /// a point behind, which nothing else could be outside a `list`; `inside` brackets `(1,234.5)` could be one.
 pub(crate) fn grouped(

@@ -244,13 +244,17 @@ impl<'a> Parser<'a> {
         };
         self.units += 1;
         let (start, end) = (term.start, token.end);
+        let whole = matches!(&term.shape, Shape::Number(n) if !n.decimal);
         let larger = (*unit).clone();
         let measured = Written::new(Shape::Measured(Box::new(term), unit), start, end);
-        // `1 m 20 cm`: a smaller unit of the same kind goes on.
-        if let Tok::Number(_) = self.peek()?.tok {
+        // `1 m 20 cm`: a smaller unit of the same kind goes on, less than one of the larger, behind a whole number of those.
+        if let Tok::Number(number) = &self.peek()?.tok {
+            let number = number.value.clone();
             let rest = self.factor()?;
             let smaller = match &self.peek()?.tok {
-                Tok::Unit(next) => next.is_part_of(&larger),
+                Tok::Unit(next) => {
+                    whole && next.is_part_of(&larger) && number * &next.factor < larger.factor
+                }
                 _ => false,
             };
             if !smaller {

@@ -59,6 +59,8 @@ impl Parser<'_> {
             if let Some(rest) = rest {
                 end = rest.end;
                 factors.push((Link::Beside, rest));
+            } else {
+                factors = marked_behind(factors);
             }
         }
         match first {
@@ -235,9 +237,8 @@ fn beside(before: &Written, factor: &Written) -> Faulty<()> {
         Shape::Fraction(above, below) => inner(above) && inner(below),
         _ => false,
     };
-    // `33\frac13\%`: its hundred begins where the fraction does.
     let percent = match &factor.shape {
-        Shape::Fraction(above, below) => is_fraction(above) && below.start == above.start,
+        Shape::Fraction(above, _) => is_fraction(above) && factor.is_percentage(),
         _ => false,
     };
     if whole(before) && (is_fraction(factor) || percent) {
@@ -255,6 +256,33 @@ fn beside(before: &Written, factor: &Written) -> Faulty<()> {
         }
         _ => Ok(()),
     }
+}
+
+/// `45/2°` and `100/4 %`: behind a quotient of numbers the mark of its last one is that of all of it, as a unit would be.
+fn marked_behind(factors: Vec<(Link, Written)>) -> Vec<(Link, Written)> {
+    let bare = |last: &Written| match &last.shape {
+        Shape::Degrees(inner) => Some((**inner).clone()),
+        Shape::Fraction(inner, _) if last.is_percentage() => Some((**inner).clone()),
+        _ => None,
+    };
+    let Some(((Link::Over, last), before)) = factors.split_last() else {
+        return factors;
+    };
+    let Some(inner) = bare(last).filter(|inner| inner.is_bare_number()) else {
+        return factors;
+    };
+    if !before.iter().all(|(_, factor)| factor.is_bare_number()) {
+        return factors;
+    }
+    let mark = last.clone();
+    let (start, end) = (before[0].1.start, mark.end);
+    let divided = before.iter().cloned().chain([(Link::Over, inner)]);
+    let quotient = Written::new(Shape::Product(divided.collect()), start, end);
+    let whole = match mark.shape {
+        Shape::Fraction(_, hundred) => quotient.over(hundred.at(start, end)),
+        _ => quotient.inside(Shape::Degrees),
+    };
+    vec![(Link::Times, whole)]
 }
 
 /// A unit vector never stands below: 3v/2ℓ k̂.

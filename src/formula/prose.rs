@@ -3,6 +3,8 @@
 //! Deliberately timid: it finds nothing where two formulas stand in the sentence, or where what stands outside could
 //! belong to the formula.
 
+use super::fault::{Fault, Faulty};
+
 /// The ASCII characters of a text as bits; the first bit stands for all others, the second for those that Unicode has arrows
 /// and signs of relations among. Nearly all texts are a formula and nothing else, which one look at each character tells.
 #[derive(Clone, Copy)]
@@ -43,11 +45,44 @@ impl Held {
 
 /// Whether a word could change the value of what it stands beside.
 pub(super) fn changes(word: &str) -> bool {
-    const CHANGING: &str = "above below cannot cosine cube cubed difference double except exceeds \
-        false half if impossible incorrect inverse least less logarithm minus more most negative never no not opposite or over \
-        per plus product quarter ratio reverse root sine square squared sum tangent tenth than third \
-        thrice triple twice unless without";
+    const CHANGING: &str = "above anything below but cannot complement cosine cotangent cube cubed decreased denied difference \
+        divided double doubled doubt except exceeds false fifth fourth fraction half halved hardly if impossible incorrect \
+        incorrectly increased instead inverse least less log logarithm minus mistaken more most multiplied negative neither \
+        never no nobody none nor not nothing opposite or over per percent plus product proportional quarter quotient rather \
+        ratio reciprocal reduced reverse reversed root sine square squared sum tangent tenth than third thirds thrice times \
+        triple twice unless untrue unlikely without wrong wrongly";
     CHANGING.split(' ').any(|w| word.eq_ignore_ascii_case(w))
+        || word.ends_with("n't")
+        || word.ends_with("n’t")
+}
+
+/// Whether words before and behind a formula say no more than that it is what was asked: `Solving gives`, `is the answer`.
+/// Before it a verb or a colon leads to it, or all words are plain ones; behind it all are. What no list knows could change the
+/// value.
+fn lead_to_it(before: &str, behind: &str) -> bool {
+    const LEADS: &str = "is are was be becomes became equals gives give gave get got gets obtain obtains obtained find finds found \
+        yields yield have hence thus so then therefore finally namely follows answer solution result";
+    const TO: &str = "equal equals simplifies reduces leads comes evaluates amounts";
+    const PLAIN: &str = "a after an and angular answer asked at ball before block bodies body both by center centre collision \
+        correct desired disk energy final finally for here his hit i immediately impact impulse in is it its just kinetic loss \
+        mass momentum my now of our qed required result rod sought solution speed spin stick that the their thus value \
+        velocities velocity wanted we which with";
+    let words = |text: &str| -> Vec<String> {
+        let parts = text.split(|c: char| !c.is_alphabetic() && !"'’".contains(c));
+        let parts = parts.filter(|word| !word.is_empty());
+        parts.map(str::to_lowercase).collect()
+    };
+    let is_in = |list: &str, word: &String| list.split(' ').any(|known| known == word);
+    let (said, more) = (words(before), words(behind));
+    let led = match said.as_slice() {
+        [.., verb, to] if to == "to" => is_in(TO, verb),
+        [.., given, by] if by == "by" => given == "given",
+        [.., last] => is_in(LEADS, last) || before.trim_end().ends_with(':'),
+        [] => true,
+    };
+    let plain = |word: &String| is_in(PLAIN, word);
+    let unchanged = !said.iter().chain(&more).any(|word| changes(word));
+    unchanged && (led || said.iter().all(plain)) && more.iter().all(plain)
 }
 
 /// Where the formula starts behind words that say what it is: `the speed of the boy u = 2 g t`, `its speed is 3 m/s`. Nothing
@@ -134,20 +169,22 @@ pub(super) fn value(text: &str) -> Option<&str> {
     {
         return (!behind.starts_with(['=', '>', '<'])).then_some(behind);
     }
-    let is_number = |text: &str| {
-        let number = text.trim_start();
-        number.starts_with(|c: char| c.is_ascii_digit() || "-−+.".contains(c))
+    // A value, and no further word.
+    let is_value = |text: &str| {
+        let first = text.trim_start().split(' ').next().unwrap_or_default();
+        let letters = first.chars().all(char::is_alphabetic);
+        !first.is_empty() && (!letters || first.chars().count() == 1)
     };
     // `\text{about } 5`
     let framed = text.strip_prefix("\\text{").and_then(|r| r.split_once('}'));
     if let Some((said, behind)) = framed {
         let said = said.trim();
         let known = WORDS.iter().any(|word| word.eq_ignore_ascii_case(said));
-        return (known && is_number(behind)).then_some(behind);
+        return (known && is_value(behind)).then_some(behind);
     }
     let said = |word: &str| {
         let (said, behind) = text.split_at_checked(word.len())?;
-        let number = behind.strip_prefix(' ').is_some_and(is_number);
+        let number = behind.strip_prefix(' ').is_some_and(is_value);
         (said.eq_ignore_ascii_case(word) && number).then_some(behind)
     };
     WORDS.into_iter().find_map(said)
@@ -192,7 +229,10 @@ pub(super) fn conclusion(text: &str, held: Held) -> Option<usize> {
     // `\text{so } t = …`, `\text{The velocity is } …`
     if let Some((said, behind)) = rest.strip_prefix("\\text{").and_then(|r| r.split_once('}')) {
         let said = said.trim().trim_end_matches([',', ':']);
-        if said.ends_with(" is") || WORDS.split('|').any(|word| word.eq_ignore_ascii_case(said)) {
+        let plain = !said.split(' ').any(changes);
+        if plain && said.ends_with(" is")
+            || WORDS.split('|').any(|word| word.eq_ignore_ascii_case(said))
+        {
             return Some(text.len() - behind.len());
         }
     }
@@ -244,8 +284,9 @@ fn last_line(text: &str) -> Option<usize> {
         .then_some(before.len() + 1)
 }
 
-/// Start and end of the only formula in a sentence; nothing where there are none or several, or no words around it.
-pub(super) fn formula_in_words(text: &str) -> Option<(usize, usize)> {
+/// Start and end of the only formula in a sentence; nothing where there are none or several, or no words around it, and a fault
+/// where these could change what it says.
+pub(super) fn formula_in_words(text: &str) -> Option<Faulty<(usize, usize)>> {
     if !text.contains(['$', '\\']) {
         return None;
     }
@@ -268,5 +309,16 @@ pub(super) fn formula_in_words(text: &str) -> Option<(usize, usize)> {
     // `$5$ m/s` and `$5$ meters` carry a unit outside.
     let unit =
         crate::dimension::unit(behind.trim().trim_end_matches('.')).is_ok_and(|_| words(behind));
-    (prose && !several && !unit && !text[start..end].trim().is_empty()).then_some((start, end))
+    if !prose || several || unit || text[start..end].trim().is_empty() {
+        return None;
+    }
+    if lead_to_it(before, behind) {
+        return Some(Ok((start, end)));
+    }
+    let fault = Fault::new(
+        "words beside the formula could change what it says",
+        0,
+        text.len(),
+    );
+    Some(Err(fault.hint("give the formula alone")))
 }

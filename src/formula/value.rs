@@ -5,7 +5,7 @@ use super::fault::{Fault, Faulty};
 use super::lexer::{Before, Tok, Token};
 use super::parser::Parser;
 use super::written::{Literal, Shape, Sign, Written};
-use crate::expr::ratio;
+use crate::expr::{Function, ratio};
 
 impl Parser<'_> {
     /// A value with its exponents.
@@ -46,7 +46,14 @@ impl Parser<'_> {
                 }
                 Tok::Degree => {
                     let token = self.next()?;
-                    if !base.is_numeric() {
+                    // `sin(45)°` is no number of degrees, and an arcsine is one.
+                    let arc = match &base.shape {
+                        Shape::Call(Function::Asin | Function::Acos | Function::Atan, inner) => {
+                            inner.is_bare_number()
+                        }
+                        _ => base.is_numeric(),
+                    };
+                    if !arc {
                         let message = "degrees stand behind a number";
                         return Err(token.fault(message));
                     }

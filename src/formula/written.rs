@@ -248,6 +248,20 @@ impl Written {
         }
     }
 
+    /// Whether it is a percentage: its hundred begins where the number does.
+    pub(super) fn is_percentage(&self) -> bool {
+        matches!(&self.shape, Shape::Fraction(above, below) if below.start == above.start)
+    }
+
+    /// Whether it is made of numbers and π, functions and sums of them too, without a unit, a degree or percent sign.
+    pub(super) fn is_bare_number(&self) -> bool {
+        match &self.shape {
+            Shape::Symbol(name) => &**name == "pi",
+            Shape::Degrees(_) | Shape::Measured(..) | Shape::List(_) => false,
+            _ => !self.is_percentage() && self.pieces().into_iter().all(Written::is_bare_number),
+        }
+    }
+
     /// The number, when the whole is one written as digits, a sign and a power of ten.
     pub fn literal(&self) -> Option<Literal> {
         match &self.shape {
