@@ -109,6 +109,17 @@ impl Expr {
         Expr::new(Node::Power(self.clone(), exponent))
     }
 
+    /// A power as somebody wrote it: 1/(1/x) keeps its hole at 0.
+    pub(crate) fn written_power(&self, exponent: Expr) -> Expr {
+        let below = |k: &Expr| k.as_number().is_some_and(Signed::is_negative);
+        match self.node() {
+            Node::Power(base, k) if below(k) && below(&exponent) && base.as_number().is_none() => {
+                Expr::new(Node::Power(self.clone(), exponent))
+            }
+            _ => self.power(exponent),
+        }
+    }
+
     /// Integer power.
     pub fn powi(&self, exponent: i64) -> Expr {
         self.power(Expr::from(exponent))
