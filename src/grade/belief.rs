@@ -7,7 +7,7 @@
 mod motions;
 mod slips;
 
-use crate::expr::{Expr, Vector, minus};
+use crate::expr::{Expr, Symbol, Vector, minus};
 use crate::numeric::Unknown;
 use crate::scene::{ContactLaw, Scene, Shape};
 pub(super) use motions::in_stages;
@@ -165,7 +165,13 @@ pub const BELIEFS: &[Belief] = &[
         slips: |s| {
             let axes = [[Expr::one(), Expr::zero()], [Expr::zero(), Expr::one()]];
             let all = sticking(s).flat_map(|c| axes.clone().map(|axis| (c, axis)));
-            each(s, all, |scene, (c, axis)| {
+            // Particles that do not approach each other along an axis pass each other under no belief.
+            let meet = |(c, [x, _]): &(usize, Vector)| {
+                let [a, b] = s.contacts[*c].bodies.map(|b| &s.bodies[b]);
+                let along = usize::from(x.is_zero());
+                !(a.is_particle() && b.is_particle()) || a.velocity[along] != b.velocity[along]
+            };
+            each(s, all.filter(meet), |scene, (c, axis)| {
                 let restitution = Expr::zero();
                 scene.contacts[c].law = ContactLaw::Frictionless { restitution };
                 scene.contacts[c].normal.get_or_insert(axis);
@@ -302,7 +308,14 @@ pub const BELIEFS: &[Belief] = &[
         belief: "sine and cosine are exchanged in the geometry",
         hint: "from which line is the angle measured?",
         slips: |s| {
-            let swap = |v: &mut Vector| *v = v.each_ref().map(super::partial::swap);
+            // The phase √(k/m) t of a spring is no angle of a figure.
+            let plain = |name: &Symbol| {
+                let mut all = s.parameters.iter();
+                &**name == "pi" || all.any(|p| p.name == *name && p.dimension.is_none())
+            };
+            let is_angle = |x: &Expr| x.symbols().iter().all(plain);
+            let swapped = |e: &Expr| super::partial::swap_of(e, &is_angle);
+            let swap = |v: &mut Vector| *v = v.each_ref().map(swapped);
             let places = [
                 "in the positions",
                 "in the velocities before",
@@ -362,7 +375,11 @@ pub const BELIEFS: &[Belief] = &[
         code: "TRANSLATION_ENERGY_FORGOTTEN",
         belief: "the energy of translation is left out",
         hint: "which parts has the kinetic energy of a body that turns?",
-        slips: |s| vec![changed(s, Change::NoTranslationEnergy, "")],
+        slips: |s| {
+            // Where nothing can turn nobody forgets all energy.
+            let turns = rigid(s).next().is_some();
+            Vec::from_iter(turns.then(|| changed(s, Change::NoTranslationEnergy, "")))
+        },
     },
     Belief {
         code: "POINT_IS_CENTER",

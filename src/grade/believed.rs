@@ -247,6 +247,9 @@ fn pairs(written: &Written, trials: &Trials, slips: &[(&Belief, Slip)]) -> Vec<D
                     return found;
                 }
                 let pair = [first.code, second.code];
+                if !has_inertia(&other, trials) {
+                    continue;
+                }
                 if !named.contains(&pair) && trials.fits(written, &other) {
                     named.push(pair);
                     if found.len() == PAIRS_NAMED {
@@ -265,6 +268,15 @@ fn pairs(written: &Written, trials: &Trials, slips: &[(&Belief, Slip)]) -> Vec<D
         }
     }
     found
+}
+
+/// Whether no moment of inertia is negative: two slips that make one so are an equation with another sign, and no beliefs.
+fn has_inertia(slip: &Slip, trials: &Trials) -> bool {
+    let Some(point) = trials.points.first() else {
+        return true;
+    };
+    let mut bodies = slip.scene.bodies.iter();
+    bodies.all(|b| b.inertia.evaluate(point).is_none_or(|i: f64| i >= 0.0))
 }
 
 fn trials(written: &Written) -> Option<Trials> {

@@ -188,11 +188,16 @@ fn simple(q: &Rational) -> bool {
 
 /// Sines and cosines exchanged everywhere.
 pub(crate) fn swap(e: &Expr) -> Expr {
+    swap_of(e, &|_| true)
+}
+
+/// Those of some angles exchanged.
+pub(crate) fn swap_of(e: &Expr, is_angle: &dyn Fn(&Expr) -> bool) -> Expr {
     match e.node() {
-        Node::Call(Function::Sin, x) => x.cos(),
-        Node::Call(Function::Cos, x) => x.sin(),
-        Node::Call(Function::Tan, x) => x.tan().powi(-1),
-        _ => e.map_parts(swap),
+        Node::Call(Function::Sin, x) if is_angle(x) => x.cos(),
+        Node::Call(Function::Cos, x) if is_angle(x) => x.sin(),
+        Node::Call(Function::Tan, x) if is_angle(x) => x.tan().powi(-1),
+        _ => e.map_parts(|part| swap_of(part, is_angle)),
     }
 }
 

@@ -350,7 +350,9 @@ impl<'a> Trial<'a> {
                     continue;
                 }
                 let pair = [(a.clone(), Expr::symbol(b)), (b.clone(), Expr::symbol(a))];
-                if base(a) == base(b) {
+                // A body has its index: m is no other body's m₁.
+                let indexed = [a, b].iter().all(|name| name.len() > base(name).len());
+                if base(a) == base(b) && indexed {
                     all.extend(pair.clone());
                 }
                 let swapped = |point: &mut Place| {

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::super::{Given, Key, key_of, read, show, unit};
 use super::{Entry, Sheet};
+use crate::answer::Form;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Reading};
 
@@ -49,12 +50,18 @@ impl Sheet {
 
     /// A key that knows the names of earlier answers, and what these are.
     pub(super) fn key_with_earlier(&self, entry: &Entry) -> (Key, BTreeMap<Symbol, Expr>) {
-        let asked = self.scene.questions.iter();
-        let before = asked.take_while(|q| q.name != entry.question.name);
         let of = |name: &str| {
             let mut answers = self.derivation.answers.iter();
             answers.find(|a| a.question == name)
         };
+        // And of what the short form of the answer is written in: `ω = −3 d P/(m (a² + b²))`.
+        let own = of(&entry.question.name).map(|a| &a.form);
+        let printed =
+            |name: &str| matches!(own, Some(Form::Value { short, .. }) if short.mentions(name));
+        let mut asked = self.scene.questions.iter();
+        let before = asked.by_ref().take_while(|q| q.name != entry.question.name);
+        let before: Vec<_> = before.collect();
+        let before = before.into_iter().chain(asked.filter(|q| printed(&q.name)));
         let given = &self.scene.parameters;
         let values: BTreeMap<Symbol, Expr> = before
             .filter(|q| given.iter().all(|p| *p.name != *q.name))
