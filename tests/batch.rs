@@ -266,6 +266,13 @@ fn a_rounding_is_told_where_there_is_one() {
 }
 
 #[test]
+fn a_name_without_an_index_belongs_to_no_second_body() {
+    let line = |answer: &str| judged(json!({"expected": "m_1 v_1", "answer": answer}));
+    assert_eq!(line("m 1 v 1"), "different DIFF_SYMBOLS");
+    assert_eq!(line("m_2 v_2"), "different DIFF_EXCHANGED");
+}
+
+#[test]
 fn a_tolerance_is_relative_absolute_or_in_digits() {
     let line = |answer: &str, tolerance: Value| {
         judged(json!({"expected": "9.81 m/s^2", "answer": answer, "tolerance": tolerance}))
@@ -295,6 +302,14 @@ fn a_tolerance_is_relative_absolute_or_in_digits() {
         line("9.8 m/s^2", json!({"significant": 3})),
         "different DIFF_TOLERANCE"
     );
+    // Numbers near those of a difference say nothing of its value.
+    let near = |expected: &str, answer: &str| {
+        judged(json!({"expected": expected, "answer": answer, "tolerance": "1%"}))
+    };
+    assert_eq!(near("a+b", "a+1.009b"), "equivalent EQUIV_TOLERANCE");
+    assert_eq!(near("a-b", "a-1.009b"), "undecided UNDECIDED_TOLERANCE");
+    let rounded = near("m*v/(m+M/3)", "m*v/(m+0.333M)");
+    assert_eq!(rounded, "equivalent EQUIV_TOLERANCE");
     // The edge of a tolerance belongs to it, exactly.
     let edge =
         |answer: &str| judged(json!({"expected": "10", "answer": answer, "tolerance": "1%"}));

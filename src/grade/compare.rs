@@ -165,10 +165,19 @@ fn tolerated(ctx: &Context, answer: &Reading) -> Finding {
             .filter(changed)
             .or_else(|| near(tolerance).filter(changed))
     {
-        let exact = compare(&ctx.plain(), &answer.with(content));
+        let near = answer.with(content);
+        let exact = compare(&ctx.plain(), &near);
         if exact.is_equivalent() {
             let (note, words) = ("EQUIV_TOLERANCE", tolerance.words());
             let mut finding = Finding::new(Verdict::Equivalent, note, "tolerance", words);
+            // Numbers near those of a difference say nothing of its value.
+            if let [Some(e), Some(a), Some(near)] =
+                [&ctx.key.reading, answer, &near].map(Reading::expr)
+                && !(scalar::has_one_sign(ctx, near) || scalar::is_near(ctx, e, a, tolerance))
+            {
+                let words = "the numbers in it are near enough, and it is not shown that the value always is";
+                finding = Finding::new(Verdict::Undecided, "UNDECIDED_TOLERANCE", "none", words);
+            }
             finding.assume(exact.assumed);
             return finding;
         }
@@ -339,20 +348,62 @@ pub(super) fn kind(words: &str) -> Finding {
     Finding::told("DIFF_KIND", "kind", words, words)
 }
 
-/// In `ω = a = b` all sides after the name should be equal; the last decides.
+/// In `ω = a = b` all sides after the name should be equal; the last one decides, and is not right where what leads to it is
+/// wrong for sure.
 fn chain(ctx: &Context, answer: &Reading, finding: &mut Finding) {
     let Content::Relations(sides, signs) = &answer.content else {
         return;
     };
-    if !ctx.diagnose {
-        return;
+    let wrong = sides
+        .get(1..)
+        .and_then(|sides| broken(ctx, sides, &signs[1..]));
+    let apart = wrong.or_else(|| apart(ctx, sides, signs).filter(|_| ctx.diagnose));
+    let Some([one, two]) = apart else { return };
+    if wrong.is_some() && finding.is_equivalent() {
+        *finding = chain_apart(ctx, [one, two]);
+    } else if ctx.diagnose {
+        finding
+            .diagnosis
+            .extend(chain_apart(ctx, [one, two]).diagnosis);
     }
-    if let Some([one, two]) = apart(ctx, sides, signs) {
-        let message = format!("{} and {} are not equal", ctx.say(one), ctx.say(two));
-        let hint = "two sides of your chain of equations are not equal";
-        let found = Diagnosis::new("CHAIN", message, hint);
-        finding.diagnosis.push(found);
-    }
+}
+
+/// The finding of two sides that are not equal.
+fn chain_apart(ctx: &Context, [one, two]: [&Expr; 2]) -> Finding {
+    let words = format!("{} and {} are not equal", ctx.say(one), ctx.say(two));
+    let hint = "two sides of your chain of equations are not equal";
+    Finding::told("DIFF_CHAIN", "kind", words, hint)
+}
+
+/// Two neighbouring values that are not equal although a chain says so, and not what is rounded for the other; names that the
+/// question does not know may be anything.
+fn broken<'a>(ctx: &Context, sides: &'a [Content], signs: &[Relation]) -> Option<[&'a Expr; 2]> {
+    let unit = |side: &Content| match side {
+        Content::Quantity(q) => q.unit.dimension.clone(),
+        _ => Dimension::none(),
+    };
+    let known = |e: &Expr| {
+        e.symbols()
+            .iter()
+            .all(|name| &**name == "pi" || named::declared_symbol(ctx, name))
+    };
+    let differ = |(pair, sign): (&'a [Content], &Relation)| {
+        let [one, two] = [pair[0].expr()?, pair[1].expr()?];
+        let same_kind = unit(&pair[0]) == unit(&pair[1]) && known(one) && known(two);
+        let exact = *sign == Relation::Equal && !(one.is_constant() && two.is_constant());
+        let apart = match sign {
+            _ if !same_kind => false,
+            Relation::Equal if exact => equality::decide(one, two, &ctx.key.question.domains)
+                .equality
+                .is_different(),
+            Relation::Equal | Relation::Approximately => {
+                named::is_close(ctx, one, two) == Some(false)
+            }
+            _ => false,
+        };
+        apart.then_some([one, two])
+    };
+    sides.windows(2).zip(signs).find_map(differ)
 }
 
 /// Two neighbouring sides of a chain of equations, after its first, that are not equal.

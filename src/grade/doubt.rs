@@ -176,12 +176,38 @@ pub(super) fn imaginary(key: &Key, reading: &Reading, finding: &mut compare::Fin
     let sides = [&key.reading.content, &reading.content].map(|content| content.answer().expr());
     if let (Verdict::Different, false, [Some(a), Some(b)]) =
         (finding.verdict, key.declares_i, sides)
-        && agree_as_complex(&(a - b), &key.question.domains)
+        && agree_as_complex(&turning(&(a - b)), &key.question.domains)
     {
         let words = "i is read as a symbol; as the imaginary unit it would be right";
         undecide(finding, words);
         let hint = "complex numbers are not compared: ask for real and imaginary part";
         finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
+    }
+}
+
+/// cos x + i sin x for e to the power of i x.
+fn turning(e: &Expr) -> Expr {
+    let exponent = match e.node() {
+        Node::Power(base, k) if base.as_symbol().is_some_and(|s| &**s == "e") => Some(k),
+        Node::Call(Function::Exp, k) => Some(k),
+        _ => None,
+    };
+    let factor = |k: &Expr| match k.node() {
+        Node::Product(parts) => {
+            let (units, others): (Vec<_>, Vec<_>) = parts
+                .iter()
+                .cloned()
+                .partition(|part| *part == Expr::symbol("i"));
+            (units.len() == 1 && others.iter().all(|part| !part.mentions("i")))
+                .then(|| Expr::product(others))
+        }
+        _ => (*k == Expr::symbol("i")).then(Expr::one),
+    };
+    match exponent.and_then(factor) {
+        Some(x) => {
+            Expr::call(Function::Cos, x.clone()) + Expr::symbol("i") * Expr::call(Function::Sin, x)
+        }
+        None => e.map_parts(turning),
     }
 }
 
@@ -530,7 +556,11 @@ pub(super) fn unit_behind(
     let spaces = answer.rmatch_indices(' ').take(3);
     let found = spaces.into_iter().find_map(|(at, _)| {
         let (formula, behind) = (answer[..at].trim_end(), &answer[at..]);
-        let text = formula::plain_unit(behind)?;
+        let inside = behind
+            .trim()
+            .strip_prefix('[')
+            .and_then(|unit| unit.strip_suffix(']'));
+        let text = formula::plain_unit(inside.unwrap_or(behind))?;
         let letters = text.split(|c: char| !c.is_alphabetic());
         let unit = dimension::unit(&text).ok()?;
         let mut words = letters.filter(|word| !word.is_empty());
@@ -540,7 +570,9 @@ pub(super) fn unit_behind(
             known(word)
         });
         let letter = text.chars().count() == 1 && !matches!(text.as_str(), "J" | "N" | "W");
-        if declared || letter || plain || unit.dimension.is_none() {
+        // Brackets show a unit: `v/2 [m/s]`.
+        let told = declared || letter || plain;
+        if told && inside.is_none() || unit.dimension.is_none() {
             return None;
         }
         let mut other = read::answer(key, formula).ok()?;

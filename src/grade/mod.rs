@@ -352,6 +352,11 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         grade.assumed.push(words);
         return grade;
     }
+    if key.quantity.is_some()
+        && let Some(fault) = unit::unclear(answer)
+    {
+        return unreadable(fault);
+    }
     let reading = read::answer(key, answer);
     let bounds = |reading: &Reading| reading.content.is_bounded();
     if let Some(range) = &key.range

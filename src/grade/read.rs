@@ -295,7 +295,7 @@ fn mended(key: &Key, text: &str, fault: Fault) -> Result<Reading, Fault> {
                 || is_size(&text[..at])
                 || computes(&text[..at], &open))
         {
-            return Ok(reading);
+            return Ok(with_middle(key, text, reading, left));
         }
     }
     if !split && !named_quantity && reading.symbols().iter().all(known) {
@@ -308,6 +308,32 @@ fn mended(key: &Key, text: &str, fault: Fault) -> Result<Reading, Fault> {
         formula::read(text, &symbols).ok()
     });
     named.ok_or(fault)
+}
+
+/// The number at the end of a chain with the numbers in its middle, which it has to equal.
+fn with_middle(key: &Key, text: &str, last: Reading, name: Option<Symbol>) -> Reading {
+    let asked = match &key.reading.content {
+        Content::Relations(sides, _) => sides[0].expr().and_then(Expr::as_symbol).cloned(),
+        _ => None,
+    };
+    let Some(name) = asked.or(name) else {
+        return last;
+    };
+    let pieces: Vec<&str> = text.split(['=', '≈']).collect();
+    let number = |piece: &&str| {
+        let reading = formula::read(piece, &key.readable).ok()?;
+        let plain = matches!(reading.content, Content::Scalar(_) | Content::Quantity(_));
+        (plain && reading.symbols().is_empty()).then_some(reading.content)
+    };
+    let middle = pieces[1..pieces.len() - 1].iter().filter_map(number);
+    let mut sides = vec![Content::Scalar(Expr::symbol(&name))];
+    sides.extend(middle);
+    if sides.len() == 1 {
+        return last;
+    }
+    sides.push(last.content.clone());
+    let signs = vec![Relation::Equal; sides.len() - 1];
+    last.with(Content::Relations(sides, signs))
 }
 
 /// Whether a side is worked out in what follows, as in `\sqrt{2gh} = 14 m/s`; with one symbol it would be an equation for it.

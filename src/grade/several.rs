@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::compare::{Context, Finding, kind, scalars, values};
 use super::{Diagnosis, Verdict, relation, show, unit};
 use crate::dimension::Unit;
+use crate::equality;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{self, UNNAMED};
 use crate::formula::{Content, Join, Quantity, Reading, Relation};
@@ -60,6 +61,19 @@ pub(super) fn joined(ctx: &Context, expected: &Content, reading: &Reading) -> Op
         let rest = given.iter().skip(expected.len()).all(Expr::is_zero);
         return rest.then(|| by_name(ctx, &expected, &answer));
     }
+    if let (Content::Joined(Join::And, parts), Some(given)) = (expected, given) {
+        return Some(relation::joined(
+            ctx,
+            expected,
+            &point(ctx, parts.len(), given)?,
+        ));
+    }
+    if let (Content::Scalar(_) | Content::Quantity(_), Content::Joined(Join::And, parts)) =
+        (expected, answer)
+        && let Some(found) = found_last(ctx, parts)
+    {
+        return Some(found);
+    }
     match (expected, expected.answer()) {
         // `v_x = 3, v_y = 4` for the vector `v`
         (Content::Vector(_), vector) | (_, vector @ Content::Vector(_))
@@ -96,6 +110,52 @@ pub(super) fn joined(ctx: &Context, expected: &Content, reading: &Reading) -> Op
         true => Some(relation::joined(ctx, expected, answer)),
         false => None,
     }
+}
+
+/// `(2, 1)` for `x + y = 3, x − y = 1`: numbers for the names of as many relations, in the order of the alphabet.
+fn point(ctx: &Context, count: usize, given: &[Expr]) -> Option<Content> {
+    let names = ctx.key.reading.content.symbols().into_iter();
+    let names: Vec<Symbol> = names.filter(|name| &**name != "pi").collect();
+    let (values, rest) = given.split_at_checked(count)?;
+    if names.len() != count
+        || !values.iter().all(Expr::is_constant)
+        || !rest.iter().all(Expr::is_zero)
+    {
+        return None;
+    }
+    let part = |(name, value): (&Symbol, &Expr)| {
+        let sides = [Expr::symbol(name), value.clone()].map(Content::Scalar);
+        Content::Relations(sides.to_vec(), vec![Relation::Equal])
+    };
+    Some(Content::Joined(
+        Join::And,
+        names.iter().zip(values).map(part).collect(),
+    ))
+}
+
+/// `2v_f = v; v_f = v/2` for `v/2`: a name of the answer's own is solved for last, and what stands before agrees with it.
+fn found_last(ctx: &Context, parts: &[Content]) -> Option<Finding> {
+    let (last, before) = parts.split_last()?;
+    let [(name, value)] = &results(last)?[..] else {
+        return None;
+    };
+    let known = |other: &Symbol| ctx.key.question.symbols.iter().any(|g| g.name == *other);
+    let whole = &ctx.key.reading.content;
+    if known(name) || !before.iter().any(|part| part.mentions(name)) {
+        return None;
+    }
+    let put = [(name.clone(), value.expr()?.clone())].into();
+    let contradicts = |part: &Content| match part.map(&|e| e.substitute(&put)) {
+        Content::Relations(sides, signs) if signs == [Relation::Equal] => {
+            let [left, right] = [sides[0].expr()?, sides[1].expr()?];
+            let own = left.symbols().iter().chain(&right.symbols()).all(known);
+            let decision = equality::decide(left, right, &ctx.key.question.domains);
+            Some(own && decision.equality.is_different())
+        }
+        _ => None,
+    };
+    let agree = before.iter().all(|part| contradicts(part) == Some(false));
+    agree.then(|| values(ctx, whole, value))
 }
 
 /// Whether the names of an answer are the only expected one with a number each, `x_1` and `x_2` for `x`.

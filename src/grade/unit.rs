@@ -6,7 +6,7 @@ use super::compare::{Context, Finding, scalars};
 use super::{Diagnosis, Key, Tolerance, Verdict};
 use crate::dimension::{self, Clash, Dimension, Unit};
 use crate::expr::Expr;
-use crate::formula::{self, Content, Quantity, Reading, Remark, write_plain};
+use crate::formula::{self, Content, Fault, Quantity, Reading, Remark, Symbols, write_plain};
 
 /// The unit behind a vector, a pair, or a formula in symbols, which carry none in their content.
 ///
@@ -80,6 +80,17 @@ pub(super) fn of_relations(key: &Key, reading: &Reading, finding: &mut Finding) 
         Some(bare) => missing(&parts[1 - bare].si()),
         None => wrong(&parts[0], &parts[1], &parts[1].si(), false),
     };
+}
+
+/// The fault of a number whose unit would be one but for brackets below its slash: `4186 J/kg K`.
+pub(super) fn unclear(answer: &str) -> Option<Fault> {
+    let at = answer.find(char::is_alphabetic)?;
+    let (number, unit) = answer.split_at(at);
+    let is_number = formula::read(number, &Symbols::strict()).is_ok_and(|r| r.literal.is_some());
+    let fault = dimension::unit(unit)
+        .err()
+        .filter(|fault| is_number && fault.is_unclear)?;
+    Some(*Fault::new(fault.message, at + fault.start, at + fault.end))
 }
 
 /// Two dimensions that relations set against each other, `known` being those of names.

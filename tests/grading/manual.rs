@@ -34,7 +34,7 @@ const TABLES: [(&str, &str, &str); 16] = [
     (
         "sentences.tsv",
         "Words, boxes and precedence",
-        "A product without signs and spaces stands below a slash; behind a fraction of two numbers, or behind a space, it does not. An answer that is right only in the other reading, taken for the whole formula, is right and told so; `--slash strict` wants brackets. Behind a function without brackets stand numbers and one angle, or a product of names; behind an inverse one also their quotient, `arcsin v/c`. How far the root of `√ab` reaches no habit decides: where the two readings part, the verdict is undecided.",
+        "A product without signs and spaces stands below a slash; behind a fraction of two numbers, or behind a space, it does not. Words beside a formula in dollars are passed over where they say that it is the answer; others could change it, and it is not read. In a chain every side has to be right. An answer that is right only in the other reading, taken for the whole formula, is right and told so; `--slash strict` wants brackets. Behind a function without brackets stand numbers and one angle, or a product of names; behind an inverse one also their quotient, `arcsin v/c`. How far the root of `√ab` reaches no habit decides: where the two readings part, the verdict is undecided.",
     ),
     (
         "graders.tsv",
@@ -79,7 +79,7 @@ const TABLES: [(&str, &str, &str); 16] = [
     (
         "quantities.tsv",
         "Numbers with units",
-        "A unit stands behind a number; in `1 m 20 cm` a smaller one goes on. Behind a formula in symbols it has to fit the symbols, and says nothing new.",
+        "A unit stands behind a number; in `1 m 20 cm` a smaller one goes on, and in brackets, `5 m/s (18 km/h)`, the same is said again. Degrees and percent are of all of a fraction of numbers, `45/2°`. Behind a formula in symbols it has to fit the symbols, and says nothing new.",
     ),
     (
         "relations.tsv",

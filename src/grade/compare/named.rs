@@ -2,7 +2,7 @@
 //! equation for a value.
 
 use super::super::{Diagnosis, Tolerance, Verdict, number, relation};
-use super::{Context, Finding, chain, kind, quotient, values};
+use super::{Context, Finding, chain, chain_apart, kind, quotient, values};
 use crate::dimension::{self, Dimension};
 use crate::domain::Sample;
 use crate::expr::{Expr, Function, Node, Symbol, ratio};
@@ -142,20 +142,36 @@ fn nameless(
         finding = values(&plain, expected, value);
     }
     let right = finding.is_equivalent();
+    let constant = |side: &Content| side.expr().is_some_and(Expr::is_constant);
     let follows = |(sign, side): (&Relation, &Content)| match sign {
         Relation::Equal => values(&plain, expected, side).is_equivalent(),
         Relation::Approximately => close(ctx, expected, side),
         _ => false,
     };
-    (right && signs.iter().zip(others).all(follows)).then_some(finding)
+    let apart = signs.iter().zip(others).find(|pair| !follows(*pair));
+    match apart {
+        None if right => Some(finding),
+        // Numbers alone are no equation for anything.
+        Some((_, other)) if sides.iter().all(constant) => {
+            Some(match (right, first.expr(), other.expr()) {
+                (true, Some(one), Some(two)) => chain_apart(ctx, [one, two]),
+                _ => values(ctx, expected, first),
+            })
+        }
+        _ => None,
+    }
 }
 
 /// Whether a side behind ≈ is the expected value with its factor rounded: to two digits a number is at most 1/20 off.
 fn close(ctx: &Context, expected: &Content, side: &Content) -> bool {
-    let plain = ctx.plain();
-    let share = || quotient(side.expr()?, expected.expr()?, &plain);
-    let near = |share| number::within(&share, &Expr::one(), &Tolerance::Relative(ratio(1, 20)));
-    share().and_then(near) == Some(true)
+    let pair = side.expr().zip(expected.expr());
+    pair.and_then(|(side, expected)| is_close(ctx, expected, side)) == Some(true)
+}
+
+/// The same of two expressions; nothing where their quotient is no number.
+pub(super) fn is_close(ctx: &Context, exact: &Expr, rounded: &Expr) -> Option<bool> {
+    let share = quotient(rounded, exact, &ctx.plain())?;
+    number::within(&share, &Expr::one(), &Tolerance::Relative(ratio(1, 20)))
 }
 
 /// Whether letters side by side, none of them of the question, are a name such as `KE`, `pe` or `Fnet`, or a product that
@@ -232,7 +248,7 @@ pub(super) fn is_size(e: &Expr, free: &dyn Fn(&Symbol) -> bool) -> bool {
     }
 }
 
-fn declared_symbol(ctx: &Context, name: &Symbol) -> bool {
+pub(super) fn declared_symbol(ctx: &Context, name: &Symbol) -> bool {
     ctx.key.question.symbols.iter().any(|g| g.name == *name)
 }
 

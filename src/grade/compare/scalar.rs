@@ -5,7 +5,7 @@ use num_traits::Signed;
 use super::super::number::{self, Tolerance};
 use super::super::{Apart, Diagnosis, Strength, Verdict, fraction, partial};
 use super::{Context, Finding};
-use crate::algebra::Field;
+use crate::algebra::{Field, Sign};
 use crate::equality::{
     self, Assumption, AtPoints, Condition, Equality, Evidence, Ground, How, Reason, Side, Value,
 };
@@ -216,8 +216,10 @@ fn tolerant(
         let Tolerance::Relative(_) = tolerance else {
             return None;
         };
-        let ratio = quotient(answer, expected, ctx)?;
-        number::within(&ratio, &Expr::one(), tolerance)?
+        match quotient(answer, expected, ctx) {
+            Some(ratio) => number::within(&ratio, &Expr::one(), tolerance)?,
+            None => is_near(ctx, expected, answer, tolerance),
+        }
     };
     if inside {
         let (note, words) = ("EQUIV_TOLERANCE", tolerance.words());
@@ -231,6 +233,48 @@ fn tolerant(
         }
         finding
     })
+}
+
+/// Whether an answer is proved to lie within a share of the expected value at all points of the domain: what is left of that
+/// share on either side has the sign of the value.
+pub(super) fn is_near(
+    ctx: &Context,
+    expected: &Expr,
+    answer: &Expr,
+    tolerance: &Tolerance,
+) -> bool {
+    let Tolerance::Relative(share) = tolerance else {
+        return true;
+    };
+    if !is_short(expected, answer) {
+        return false;
+    }
+    let allowed = Expr::from(share.clone()) * expected;
+    let off = answer - expected;
+    are_of_one_sign(ctx, &[&allowed + &off, &allowed - &off])
+}
+
+/// Whether all terms of an expression are of one sign on the domain, so that what is near each is near the whole.
+pub(super) fn has_one_sign(ctx: &Context, e: &Expr) -> bool {
+    match e.node() {
+        Node::Sum(terms) => are_of_one_sign(ctx, terms),
+        _ => true,
+    }
+}
+
+fn are_of_one_sign(ctx: &Context, all: &[Expr]) -> bool {
+    let sign = |e: &Expr| {
+        let (field, x) = Field::of(&ctx.key.question.domains, e).ok()?;
+        field.sign(&x)
+    };
+    let signs: Vec<Option<Sign>> = all.iter().map(sign).collect();
+    let are = |wanted: [Sign; 3]| {
+        signs
+            .iter()
+            .all(|sign| sign.is_some_and(|sign| wanted.contains(&sign)))
+    };
+    are([Sign::Positive, Sign::NotNegative, Sign::Zero])
+        || are([Sign::Negative, Sign::NotPositive, Sign::Zero])
 }
 
 /// Most terms of what is written out while looking for what is wrong; more would cost much and tell nobody anything.

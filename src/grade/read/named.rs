@@ -39,6 +39,12 @@ pub(super) fn named_in_order(key: &Key, text: &str) -> Option<String> {
 /// Most names that an answer says behind its formula.
 const MOST_DEFINITIONS: usize = 8;
 
+/// Whether a text is a number, with or without a unit.
+fn is_number(text: &str) -> bool {
+    formula::read(text, &Symbols::strict())
+        .is_ok_and(|reading| matches!(reading.content, Content::Scalar(_) | Content::Quantity(_)))
+}
+
 /// A formula with names of its own that are said behind it: `m d v/I where I = M l^2/3 + m d^2`.
 pub(super) fn with_definitions(key: &Key, text: &str) -> Option<Reading> {
     const WORDS: [&str; 6] = [
@@ -62,7 +68,8 @@ pub(super) fn with_definitions(key: &Key, text: &str) -> Option<Reading> {
         places.find_map(|(at, _)| names(sign, at))
     };
     let apart = || behind(", ").or_else(|| behind(" ("));
-    let (at, length) = found.min().or_else(apart)?;
+    let said_so = found.min();
+    let (at, length) = said_so.or_else(apart)?;
     let formula = text[..at]
         .trim_end_matches([' ', ',', ';', '$'])
         .trim_start_matches('$');
@@ -73,7 +80,7 @@ pub(super) fn with_definitions(key: &Key, text: &str) -> Option<Reading> {
     };
     let said = said.replace(" and ", ", ").replace(';', ",");
     let mut symbols = key.readable.clone();
-    let mut parts = Vec::new();
+    let (mut parts, mut told) = (Vec::new(), Vec::new());
     for part in said.split(", ") {
         let Some((name, value)) = part.trim_matches([' ', '$', '.']).split_once('=') else {
             // `and v_0 is the speed before`
@@ -84,6 +91,11 @@ pub(super) fn with_definitions(key: &Key, text: &str) -> Option<Reading> {
         let value = value.split(" is ").next().unwrap_or(value);
         let name = formula::read(name, &Symbols::open()).ok()?;
         let name = name.content.expr()?.as_symbol()?.clone();
+        // `m g, where g = 9.8 m/s²`: the value of a name of the question, which nobody asked for.
+        if said_so.is_some() && declared(key, &name) && is_number(value) {
+            told.push(name);
+            continue;
+        }
         if declared(key, &name) || value.contains('=') || parts.len() == MOST_DEFINITIONS {
             return None;
         }
@@ -97,11 +109,16 @@ pub(super) fn with_definitions(key: &Key, text: &str) -> Option<Reading> {
     };
     let values: BTreeMap<Symbol, Expr> = parts.into_iter().map(value).collect::<Option<_>>()?;
     let mut reading = formula::read(formula, &symbols).ok()?;
-    let used = values.keys().any(|name| reading.symbols().contains(name));
-    // `x = 2, x = 3` are two values of x.
-    let defined = matches!(&reading.content, Content::Relations(sides, _) if values
-        .keys()
-        .any(|name| sides[0].expr().and_then(Expr::as_symbol) == Some(name)));
+    let mut names = values.keys().chain(&told);
+    let used = names.any(|name| reading.symbols().contains(name));
+    // `x = 2, x = 3` are two values of x, and `m v = 2 m u, u = v/2` solves an equation.
+    let defined = match &reading.content {
+        Content::Relations(sides, _) => match sides[0].expr().and_then(Expr::as_symbol) {
+            Some(name) => values.contains_key(name),
+            None => said_so.is_none(),
+        },
+        _ => false,
+    };
     if !used || defined || reading.unit.is_some() {
         return None;
     }
