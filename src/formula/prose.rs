@@ -58,10 +58,13 @@ pub(super) fn changes(word: &str) -> bool {
 
 /// Whether words before and behind a formula say no more than that it is what was asked: `Solving gives`, `is the answer`.
 /// Before it a verb or a colon leads to it, or all words are plain ones; behind it all are. What no list knows could change the
-/// value.
-fn lead_to_it(before: &str, behind: &str) -> bool {
+/// value, but for that of an equation, which says itself what it is about.
+fn lead_to_it(before: &str, formula: &str, behind: &str) -> bool {
     const LEADS: &str = "is are was be becomes became equals gives give gave get got gets obtain obtains obtained find finds found \
         yields yield have hence thus so then therefore finally namely follows answer solution result";
+    const ADVERBS: &str =
+        "about again approximately exactly indeed just now simply then therefore thus";
+    const THAT: &str = "conclude concludes conclusion find finds follows implies see show shows";
     const TO: &str = "equal equals simplifies reduces leads comes evaluates amounts";
     const PLAIN: &str = "a after an and angular answer asked at ball before block bodies body both by center centre collision \
         correct desired disk energy final finally for here his hit i immediately impact impulse in is it its just kinetic loss \
@@ -73,16 +76,21 @@ fn lead_to_it(before: &str, behind: &str) -> bool {
         parts.map(str::to_lowercase).collect()
     };
     let is_in = |list: &str, word: &String| list.split(' ').any(|known| known == word);
-    let (said, more) = (words(before), words(behind));
+    let (mut said, more) = (words(before), words(behind));
+    let unchanged = !said.iter().chain(&more).any(|word| changes(word));
+    while said.last().is_some_and(|word| is_in(ADVERBS, word)) {
+        said.pop();
+    }
     let led = match said.as_slice() {
         [.., verb, to] if to == "to" => is_in(TO, verb),
         [.., given, by] if by == "by" => given == "given",
+        [.., find, that] if that == "that" => is_in(THAT, find),
         [.., last] => is_in(LEADS, last) || before.trim_end().ends_with(':'),
         [] => true,
     };
     let plain = |word: &String| is_in(PLAIN, word);
-    let unchanged = !said.iter().chain(&more).any(|word| changes(word));
-    unchanged && (led || said.iter().all(plain)) && more.iter().all(plain)
+    let leads = || (led || said.iter().all(plain)) && more.iter().all(plain);
+    unchanged && (formula.contains('=') || leads())
 }
 
 /// Where the formula starts behind words that say what it is: `the speed of the boy u = 2 g t`, `its speed is 3 m/s`. Nothing
@@ -312,7 +320,7 @@ pub(super) fn formula_in_words(text: &str) -> Option<Faulty<(usize, usize)>> {
     if !prose || several || unit || text[start..end].trim().is_empty() {
         return None;
     }
-    if lead_to_it(before, behind) {
+    if lead_to_it(before, &text[start..end], behind) {
         return Some(Ok((start, end)));
     }
     let fault = Fault::new(

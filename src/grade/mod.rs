@@ -323,6 +323,11 @@ fn judge_within(key: &Key, answer: &str, options: &Options) -> Grade {
     {
         return unreadable_key(fault.clone());
     }
+    if key.quantity.is_some()
+        && let Some(fault) = unit::unclear(answer)
+    {
+        return unreadable(fault);
+    }
     let mut grade = judge_here(key, answer, options);
     // How a product of letters reads is no matter where the text is a quantity.
     let is_quantity = |q: &Key| read::is_quantity(q, answer);
@@ -351,11 +356,6 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         let words = format!("{unit} is a unit, not a symbol");
         grade.assumed.push(words);
         return grade;
-    }
-    if key.quantity.is_some()
-        && let Some(fault) = unit::unclear(answer)
-    {
-        return unreadable(fault);
     }
     let reading = read::answer(key, answer);
     let bounds = |reading: &Reading| reading.content.is_bounded();
