@@ -6,8 +6,8 @@
 
 use std::collections::BTreeMap;
 
-use super::calc::{Seen, by_signs, essential, is_zero, sign, tidy};
-use super::solve::{Unsolved, end_of, solve, stated};
+use super::calc::{Seen, by_signs, constant, essential, is_zero, sign, tidy};
+use super::solve::{Root, Unsolved, end_of, solve, stated};
 use super::{Answer, Check, Form, ROOT, Refused};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, Limit};
@@ -234,24 +234,36 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
     let ends = search.ends();
     let is_end = |x: &Expr| (ends.iter()).any(|e| is_zero(&(x - e), domains) == Some(true));
     let mut inside = search.flat(&mut out)?;
-    inside.retain(|x| !is_end(x));
+    inside.retain(|root| !is_end(&root.value));
     let bends = match inside.as_slice() {
-        [only] => Some(search.at(only, &search.slope.derivative(p))?),
+        [only] => Some(search.at(&only.value, &search.slope.derivative(p))?),
         _ => None,
     };
     let bends = bends.map(|bends| sign(&bends, domains));
     let place = match (inside.as_slice(), bends) {
-        ([best], Some(bends)) if bends.is_negative() => {
-            let words = "the derivative vanishes there and nowhere else in the interval, and the second derivative is negative";
+        ([only], Some(bends)) if bends.is_negative() => {
             let holds = bends.is_proved().then_some(true);
-            out.checks.push(Check::new("maximum", words, holds));
-            best.clone()
+            match search.beyond(only, scene, &mut out)? {
+                Some(end) => {
+                    let words = "the derivative vanishes beyond that end and nowhere else, and the second derivative is negative there";
+                    out.checks.push(Check::new("maximum", words, holds));
+                    end
+                }
+                None => {
+                    let words = "the derivative vanishes there and nowhere else in the interval, and the second derivative is negative";
+                    out.checks.push(Check::new("maximum", words, holds));
+                    only.value.clone()
+                }
+            }
         }
         ([], _) => match search.at_an_end(&mut out)? {
             Some(place) => place,
             None => return Ok(vec![at_the_rim(out, &search.slope, p, domains)]),
         },
-        (several, _) => search.compared(several, &mut out)?,
+        (several, _) => {
+            let several: Vec<Expr> = several.iter().map(|root| root.value.clone()).collect();
+            search.compared(&several, &mut out)?
+        }
     };
     let value = search.at(&place, f)?;
     out.dimension = super::formulas::dimension_of(scene, &value, &name)?;
@@ -292,13 +304,13 @@ impl Search<'_> {
     }
 
     /// Where the derivative vanishes.
-    fn flat(&self, out: &mut Answer) -> Result<Vec<Expr>, Refused> {
+    fn flat(&self, out: &mut Answer) -> Result<Vec<Root>, Refused> {
         match solve(&self.slope, self.p, self.domains) {
             Ok(roots) if roots.open.is_none() => {
                 let given = roots.inside.iter().flat_map(|r| r.given.clone());
                 out.assumptions.extend(given);
                 out.discarded = roots.discarded;
-                Ok(roots.inside.into_iter().map(|r| r.value).collect())
+                Ok(roots.inside)
             }
             Ok(_) | Err(Unsolved::Inside) => Err(self.refused(format!(
                 "where the derivative with respect to {} vanishes has no closed form here",
@@ -307,6 +319,61 @@ impl Search<'_> {
             Err(Unsolved::Absent) => Ok(Vec::new()),
             Err(Unsolved::Limit(what)) => Err(self.refused(what)),
         }
+    }
+
+    /// The only place where the derivative vanishes, and where it falls, may lie beyond one end of the range: then the value is
+    /// largest at that end. Gives the end where the values of the scene say so; says so of all others otherwise.
+    fn beyond(
+        &self,
+        root: &Root,
+        scene: &Scene,
+        out: &mut Answer,
+    ) -> Result<Option<Expr>, Refused> {
+        let [(need, closed)] = root.needs.as_slice() else {
+            return Ok(None);
+        };
+        let there = self.domains.given(&-need, !closed);
+        let passes = |upper: bool| -> Result<Option<Expr>, Refused> {
+            let Some((end, false)) = self.end(upper)? else {
+                return Ok(None);
+            };
+            let gap = if upper {
+                &root.value - &end
+            } else {
+                &end - &root.value
+            };
+            let passes = matches!(sign(&gap, &there), Seen::Proved(s) if s.is_not_negative());
+            Ok(passes.then_some(end))
+        };
+        let end = match passes(true)? {
+            Some(end) => Some(end),
+            None => passes(false)?,
+        };
+        let Some(end) = end else {
+            return Ok(None);
+        };
+        let needed = match closed {
+            true => Sentence::positive(&-need),
+            false => Sentence::not_negative(&-need),
+        };
+        if constant(&need.substitute(&scene.values())) == Some(Sign::Negative) {
+            let so_that = sentence!("{} = {} is not in the range", self.p, &root.value);
+            out.assumptions.retain(|told| !root.given.contains(told));
+            out.assumptions
+                .push(sentence!("{}, so that {}", needed, so_that));
+            out.needs.push((end.clone(), -need, !closed));
+            return Ok(Some(end));
+        }
+        let value = self.at(&end, self.f)?;
+        let largest = sentence!(
+            "the largest value is {}, at the bound {} = {}",
+            &value,
+            self.p,
+            &end
+        );
+        out.text
+            .push(sentence!("where {} instead, {}", needed, largest));
+        Ok(None)
     }
 
     /// The end towards which the value grows all the way; `None` where the interval does not end there.

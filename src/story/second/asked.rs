@@ -349,6 +349,11 @@ impl Asked<'_> {
         answer: &Answer,
     ) -> Option<Held> {
         let told = answer.formula()?;
+        let fails =
+            |(_, e, _): &(Expr, Expr, bool)| e.evaluate(&seen.point).is_none_or(|v| v < 0.0);
+        if answer.needs.iter().any(fails) {
+            return Some(Held::Unseen);
+        }
         let same = |a: &&Answer| a.question == answer.question && a.worlds == answer.worlds;
         let place = self
             .answers
