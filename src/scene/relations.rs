@@ -95,6 +95,29 @@ pub(super) fn add(
     if let Some(fault) = broken(scene, span) {
         scene.domains.relations.pop();
         faults.push(fault);
+        return;
+    }
+    opened(scene);
+}
+
+/// Opens the ends of domains at which the last relation cannot hold.
+fn opened(scene: &mut Scene) {
+    let Some(Relation { excess, closed, .. }) = scene.domains.relations.last().cloned() else {
+        return;
+    };
+    for symbol in excess.symbols() {
+        let Some(mut domain) = scene.domains.symbols.get(&symbol).cloned() else {
+            continue;
+        };
+        for end in [&mut domain.low, &mut domain.high].into_iter().flatten() {
+            let there = excess.put(&symbol, &end.expr());
+            end.open |= match sign(&there, &scene.domains) {
+                Some(Sign::Negative) => true,
+                Some(Sign::NotPositive | Sign::Zero) => !closed,
+                _ => false,
+            };
+        }
+        scene.domains.symbols.insert(symbol, domain);
     }
 }
 
