@@ -258,14 +258,15 @@ impl Forms {
 
     /// The directions of friction that the domain allows.
     fn directions(&mut self, side: &Side) -> Result<Vec<i64>, Stop> {
-        let mut sign = self.sign(&side.of)?;
-        if sign == Some(Sign::Zero) {
-            sign = self.sign(&side.tie)?;
-        }
-        Ok(match sign {
-            // With neither slip nor a drive along the tangent either direction gives no friction.
-            Some(Sign::Positive | Sign::Zero) => vec![1],
+        Ok(match self.sign(&side.of)? {
+            Some(Sign::Positive) => vec![1],
             Some(Sign::Negative) => vec![-1],
+            // With neither slip nor a drive along the tangent either direction gives no friction.
+            Some(Sign::Zero) => match self.sign(&side.tie)? {
+                Some(sign) if sign.is_not_negative() => vec![1],
+                Some(Sign::Negative | Sign::NotPositive) => vec![-1],
+                _ => vec![1, -1],
+            },
             _ => vec![1, -1],
         })
     }

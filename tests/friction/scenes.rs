@@ -390,3 +390,15 @@ fn a_ball_that_is_supposed_to_stick_is_one_case_whenever_its_slip_ends() {
     let turns = answers(&one).remove("omega").expect("its spin");
     assert_eq!(carom::formula::write_plain(&turns), "5*u/(7*r)");
 }
+
+#[test]
+fn where_nothing_slips_before_and_one_way_only_is_driven_there_is_one_direction() {
+    let text = r#"{"title": "rod", "parameters": {"m": {"unit": "kg"}, "l": {"unit": "m"}, "v": {"unit": "m/s"}, "e": {"unit": "1"}, "theta": {"unit": "rad", "domain": {"min": 0, "max": "pi/2"}}},
+        "bodies": {"floor": {"shape": "fixed"}, "rod": {"shape": "rod", "mass": "m", "length": "l", "angle": "theta", "center": ["l/2*cos(theta)", "l/2*sin(theta)"], "velocity": [0, "-v"]}},
+        "contacts": {"C": {"bodies": ["floor", "rod"], "at": [0, 0], "normal": "y", "law": "friction", "mu": "1/3", "restitution": "e"}},
+        "questions": {"omega": {"spin": "rod"}}}"#;
+    let scene = scene::read(text).unwrap_or_else(|f| panic!("{}", f.render("rod", text)));
+    let (table, _) = judged(&scene);
+    let cases: Vec<Mode> = table.cases.iter().map(|case| table.called(case)).collect();
+    assert_eq!(cases, [Mode::Sticks, Mode::Slides], "{cases:?}");
+}
