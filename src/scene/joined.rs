@@ -8,6 +8,9 @@ use super::{Contact, ContactLaw, Scene, Stage, StageKind};
 /// What holds a hinge.
 pub const HINGED: &str = "is hinged to";
 
+/// The name of the contact that keeps what turned with a body.
+const FIXED: &str = "K";
+
 /// Two bodies that are joined, how, and since which stage.
 pub struct Joint<'a> {
     /// Indices of the bodies.
@@ -25,6 +28,7 @@ pub struct Joint<'a> {
 pub fn joints<'a>(stages: &'a [Stage], stage: &Stage) -> Vec<Joint<'a>> {
     let (mut out, mut later): (Vec<Joint>, Vec<[usize; 2]>) = (Vec::new(), Vec::new());
     let mut freed = Vec::new();
+    let mut moved = Vec::new();
     let mut from = stage.from;
     while let Some(before) = from.map(|j| &stages[j]) {
         let contacts = before.scene.contacts.iter();
@@ -47,6 +51,19 @@ pub fn joints<'a>(stages: &'a [Stage], stage: &Stage) -> Vec<Joint<'a>> {
             name,
             since,
         }));
+        // What turned as one in the last motion of both is one in an impact, as far as no impact since has acted on it.
+        if let (StageKind::Impact { .. }, StageKind::Turn(turn)) = (&stage.kind, &before.kind) {
+            let pairs = turn.with.iter().map(|b| [turn.body, *b]);
+            let pairs =
+                pairs.filter(|pair| is_open(pair) && !pair.iter().any(|b| moved.contains(b)));
+            out.extend(pairs.map(|bodies| Joint {
+                bodies,
+                how: "is fixed to",
+                name: FIXED,
+                since,
+            }));
+        }
+        moved.extend(before.kind.moved());
         later.extend(acting(before));
         if let StageKind::Fall(_) | StageKind::Slide(_) | StageKind::Wind(_) = before.kind {
             freed.extend(before.kind.moved());

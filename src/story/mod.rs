@@ -139,7 +139,10 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
             }
             let begins = several.then(|| before.clone());
             let told = one(scene, &stages, &placed, (before, &given))
-                .map(|told| motion::stays_in_front(&placed, &stages, branch, told));
+                .map(|told| motion::stays_in_front(&placed, &stages, branch, told))
+                .and_then(|told| motion::riders_stay(&placed, &stages, branch, told))
+                .and_then(|told| impact::stays_held(&placed, &stages, branch, told))
+                .map(|told| motion::meets_again(scene, &placed, &stages, branch, told));
             let mut told = match (told, begins) {
                 (Ok(told), _) => told,
                 (Err(why), _) if why.contradicts => {

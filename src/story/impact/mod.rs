@@ -4,9 +4,11 @@
 //! negative; those left out are gone, and the bodies must not move against them. What holds on the whole domain is told
 //! alone, what holds on a part of it with its condition.
 
+mod held;
 mod incoming;
 mod outcome;
 
+pub(super) use held::stays_held;
 pub(super) use outcome::acting;
 
 use incoming::{approach, hand_on, hinges_fit, touches};

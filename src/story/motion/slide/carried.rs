@@ -159,7 +159,9 @@ impl<'a> Pair<'a> {
         };
         let zero = Expr::zero();
         let g = slide.gravity.as_ref().unwrap_or(&zero);
-        let right = Expr::from(directed(stage, slide)?);
+        // Without weight nothing presses, whichever side the surface is on.
+        let right = slide.gravity.as_ref().map(|_| directed(stage, slide));
+        let right = Expr::from(right.transpose()?.unwrap_or(1));
         let across = &right * &slide.along[0];
         let press = [&masses[0] * g, &(&masses[0] + &masses[1]) * g].map(|w| &w * &across);
         let pull = |i: usize, force: &Option<Expr>| {

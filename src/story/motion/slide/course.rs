@@ -280,12 +280,22 @@ impl Line<'_> {
         let gain = &self.acceleration + &(&round.arm * &self.angular);
         let raw = -(&round.slip / &gain);
         let time = self.tidied(&raw)?;
-        supposed.not_negative(&time, format!("`{}` comes to roll", self.name()), || {
+        let rolls = format!("`{}` comes to roll", self.name());
+        let never = || {
             self.refused(
                 "its slip grows, so that it never rolls",
                 "the surface is too steep or too smooth",
             )
-        })?;
+        };
+        let slips = matches!(
+            sign(&round.slip, self.domains()),
+            Seen::Proved(Sign::Positive | Sign::Negative)
+        );
+        // Slip that stays as it is lasts for ever.
+        match slips {
+            true => supposed.positive(&self.tidied(&-(&round.slip * &gain))?, rolls, never)?,
+            false => supposed.not_negative(&time, rolls, never)?,
+        }
         let why = "the time until its lowest point no longer slips";
         steps.push(Step::new("t", &raw, &time, why));
         Ok(time)
