@@ -42,6 +42,8 @@ pub(super) struct Second<'a> {
     points: Vec<Seen>,
     /// Why points were given up.
     lost: Vec<Lost>,
+    /// What happens at the values of the scene, where it gives them all.
+    given: Option<Followed>,
 }
 
 /// Outcomes of stages told, both by index.
@@ -71,6 +73,7 @@ pub(super) fn look<'a>(scene: &'a Scene, worlds: &[World], stages: &[StageTold])
         scene,
         points: Vec::new(),
         lost: Vec::new(),
+        given: None,
     };
     let outcomes = stages.iter().enumerate();
     let outcomes = outcomes.flat_map(|(i, told)| (0..told.cases.len().max(1)).map(move |k| (i, k)));
@@ -80,6 +83,11 @@ pub(super) fn look<'a>(scene: &'a Scene, worlds: &[World], stages: &[StageTold])
     // The values of the scene show a case that few points of its domain have.
     let own = scene.given();
     let is_whole = names.iter().all(|name| own.values.contains_key(name));
+    // What plays no part needs no value.
+    let is_given = follow::symbols(scene)
+        .iter()
+        .all(|name| own.values.contains_key(name));
+    out.given = is_given.then(|| follow::follow(scene, &own).ok()).flatten();
     let own = is_whole.then_some(own);
     let random = points_of(names, &scene.domains, PROMISING[0]);
     let mut promising = 0;
@@ -300,8 +308,33 @@ impl Second<'_> {
         }
     }
 
-    /// Bodies that pass through each other in a stage: a failed check where they do at every point looked at.
-    pub fn passage(&self, index: usize, told: &StageTold) -> Option<Check> {
+    /// That a stage never gets to its end at the values of the scene: a failed check.
+    pub fn never_ends(&self, told: &StageTold) -> Option<Check> {
+        let lost = self
+            .given
+            .as_ref()?
+            .stages
+            .iter()
+            .filter_map(|s| s.as_ref().err());
+        let mut lost = lost.filter(|lost| lost.stage == told.placed.name);
+        let why = lost.find(|lost| matches!(lost.why, Loss::NeverEnds(_)))?;
+        let words = format!("at the given values {why}");
+        Some(Check::new(POSSIBLE, words, Some(false)))
+    }
+
+    /// Bodies that pass through each other in a stage, by index: a failed check where they do at every point looked at, or at the
+    /// values of the scene.
+    pub fn passage(&self, index: usize, told: &StageTold) -> Option<([usize; 2], Check)> {
+        let between = |[a, b]: [usize; 2]| {
+            let [a, b] = [a, b].map(|b| &self.scene.bodies[b].name);
+            format!("`{a}` and `{b}` pass through each other on the way")
+        };
+        let given = self.given.as_ref();
+        let given = given.and_then(|given| passed(self.scene, given, told));
+        if let Some(&pair) = given.and_then(|given| given.passing.first()) {
+            let words = between(pair) + " at the given values";
+            return Some((pair, Check::new(POSSIBLE, words, Some(false))));
+        }
         let here = |seen: &&Seen| seen.way.contains_key(&index);
         let seen = self.points.iter().filter(here);
         let seen = seen.filter_map(|seen| passed(self.scene, &seen.followed, told));
@@ -321,16 +354,11 @@ impl Second<'_> {
                 }
             }
         }
-        let [a, b] = pair.map(|b| &self.scene.bodies[b].name);
         let (words, holds) = match is_everywhere(&all) {
             true => ("", Some(false)),
             false => (" at some of the points looked at", None),
         };
-        Some(Check::new(
-            POSSIBLE,
-            format!("`{a}` and `{b}` pass through each other on the way{words}"),
-            holds,
-        ))
+        Some((pair, Check::new(POSSIBLE, between(pair) + words, holds)))
     }
 
     /// Holds places, angles, velocities, spins and times of a stage against what was followed.

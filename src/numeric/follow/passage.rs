@@ -239,7 +239,8 @@ fn pass(course: &[[Vec<Placed<'_>>; 2]]) -> bool {
     let ways: Vec<Vec<f64>> = each
         .map(|(i, j)| {
             let all = course.iter();
-            all.map(|[a, b]| gap(&a[i], &b[j])).collect()
+            let gaps = all.map(|[a, b]| gap(&a[i], &b[j]));
+            gaps.chain(closest(course, i, j)).collect()
         })
         .collect();
     let sizes = course.iter().flatten().flatten();
@@ -255,10 +256,28 @@ fn pass(course: &[[Vec<Placed<'_>>; 2]]) -> bool {
     ways.iter().any(enters) || crosses(course, tolerance)
 }
 
+/// How far two round pieces are apart where they come closest between the places looked at.
+fn closest(course: &[[Vec<Placed<'_>>; 2]], i: usize, j: usize) -> impl Iterator<Item = f64> {
+    let between = move |[a, b]: &[Vec<Placed<'_>>; 2]| {
+        let (a, b) = (&a[i], &b[j]);
+        let is_round = a.piece.half == [0.0; 2] && b.piece.half == [0.0; 2];
+        let radii = a.piece.radius + b.piece.radius;
+        is_round.then(|| ([b.at[0] - a.at[0], b.at[1] - a.at[1]], radii))
+    };
+    course.windows(2).filter_map(move |pair| {
+        let ((from, radii), (to, _)) = (between(&pair[0])?, between(&pair[1])?);
+        let way = [to[0] - from[0], to[1] - from[1]];
+        let share = (-dot(&from, &way) / dot(&way, &way)).clamp(0.0, 1.0);
+        let there = [0, 1].map(|k| from[k] + share * way[k]);
+        (radii > 0.0 && share.is_finite()).then(|| there[0].hypot(there[1]) - radii)
+    })
+}
+
 /// Whether a particle gets from one side of a thin rod, or of another particle, to the other.
 fn crosses(course: &[[Vec<Placed<'_>>; 2]], tolerance: f64) -> bool {
-    let is_thin = |p: &Placed<'_>| p.piece.half[1] + p.piece.radius == 0.0;
-    let is_particle = |p: &Placed<'_>| is_thin(p) && p.piece.half[0] == 0.0;
+    // What is too small to be seen in something is seen to pass it.
+    let is_thin = |p: &Placed<'_>| p.piece.half[1] + p.piece.radius <= tolerance;
+    let is_particle = |p: &Placed<'_>| is_thin(p) && p.piece.half[0] <= tolerance;
     [(0, 1), (1, 0)].into_iter().any(|(first, second)| {
         let thin = (0..course[0][first].len()).filter(|i| is_thin(&course[0][first][*i]));
         let each = thin.flat_map(|i| (0..course[0][second].len()).map(move |j| (i, j)));

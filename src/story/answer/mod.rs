@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 use std::iter::successors;
 
 use super::worlds::World;
-use super::{Case, StageTold, State, Told, granted, second, spring, words, worlds};
+use super::{Case, StageTold, State, Told, granted, line, second, spring, words, worlds};
 use crate::answer::{self, Answer, Check, Form, Known, Refused};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol};
@@ -76,12 +76,25 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
     for (i, check) in second::answers(&second, (&worlds, &stages), &answers) {
         answers[i].checks.push(check);
     }
-    let each = stages.iter().enumerate();
-    let checks = each.map(|(i, told)| {
-        let passage = second.passage(i, told);
-        [second.stage(i, told)].into_iter().chain(passage)
-    });
-    let checks: Vec<Vec<Check>> = checks.map(Iterator::collect).collect();
+    let mut checks: Vec<Vec<Check>> = Vec::new();
+    for (i, told) in stages.iter().enumerate() {
+        let mut mine = vec![second.stage(i, told)];
+        mine.extend(second.never_ends(told));
+        if let Some((pair, check)) = second.passage(i, told) {
+            if check.holds.is_none() {
+                // Whether they meet depends on the data, and what comes of it is not told.
+                let [a, b] = pair.map(|b| &scene.bodies[b].name);
+                let words = "`{}` and `{}` do not pass through each other in `{}`";
+                let apart = Sentence::filled(words, [a, b, &told.name].map(Sentence::from));
+                let rests = |at| line(&stages, at).any(|(stage, _)| stage == i);
+                for answer in answers.iter_mut().filter(|a| a.told.is_none_or(rests)) {
+                    answer.assumptions.push(apart.clone());
+                }
+            }
+            mine.push(check);
+        }
+        checks.push(mine);
+    }
     for (told, checks) in stages.iter_mut().zip(checks) {
         told.checks.extend(checks);
     }
