@@ -3,6 +3,7 @@
 
 use std::fs;
 
+use carom::command::{self, Format, Numbers};
 use carom::expr::{Expr, Vector};
 use carom::scene::{self, Body, KnownQuantity, Scene, Shape};
 use carom::verify::possible::{Possible, Verdict, judge};
@@ -109,6 +110,7 @@ fn every_scene_of_the_table_is_judged_as_it_says() {
 #[test]
 fn stories_that_cannot_happen_are_told_as_such() {
     let text = fs::read_to_string("tests/possible/stories.tsv").expect("the table");
+    let mut in_numbers = 0;
     for line in text.lines().filter(|l| !l.starts_with('#')) {
         let cells: Vec<&str> = line.split('\t').collect();
         let [told, values, scene, reason] = cells[..] else {
@@ -127,7 +129,13 @@ fn stories_that_cannot_happen_are_told_as_such() {
         let said = found.refusals();
         let said = said.first().map_or("-", String::as_str);
         assert_eq!((said, found.holds()), (told, told == "-"), "{reason}");
+        // Numbers of what cannot happen are told as such, too.
+        if let Ok(solved) = command::solve(&scene, Numbers::Doubles, Format::Text) {
+            assert_eq!(solved.status == 0, told == "-", "{reason}: {}", solved.text);
+            in_numbers += 1;
+        }
     }
+    assert!(in_numbers >= 7, "{in_numbers} scenes have all values");
 }
 
 /// A motion of the plane that turns right angles into right angles, exact in formulas.
@@ -268,4 +276,6 @@ fn what_is_not_possible_is_told_first_and_with_status_1() {
     assert_eq!(data["admissible"]["verdict"], "nowhere");
     let (status, text) = run(&["solution"]);
     assert!(status == Some(1) && text.contains(refusal), "{text}");
+    let (status, text) = run(&["solve", "--set", "m=1", "--set", "v=2"]);
+    assert_eq!((status, text.lines().next()), (Some(1), Some(refusal)));
 }

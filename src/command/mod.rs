@@ -145,11 +145,25 @@ fn solve_impact(scene: &Scene, numbers: Numbers, format: Format) -> Result<Outpu
             render::double_numbers(numeric::doubles(scene).map_err(|why| why.to_string())?)
         }
     };
+    let refusals = refusals(&scene.staged(worked::IMPACT));
     let text = match format {
-        Format::Text => render::text::numbers(scene, &found),
-        Format::Json => pretty(&render::json::numbers(scene, &found)),
+        Format::Text => render::text::refused(&refusals) + &render::text::numbers(scene, &found),
+        Format::Json => pretty(&render::json::refused(
+            render::json::numbers(scene, &found),
+            &refusals,
+        )),
     };
-    Ok(Output::new(text, true))
+    Ok(Output::new(text, refusals.is_empty()))
+}
+
+/// Why what the numbers tell cannot happen, as far as the stages themselves say so.
+fn refusals(scene: &Scene) -> Vec<String> {
+    let told = worked::to_draw(scene, None);
+    let all = told.map_or_else(|_| Vec::new(), |worked| worked.refusals());
+    let alone = format!("{}: ", worked::IMPACT);
+    let all = all.into_iter();
+    all.map(|why| why.strip_prefix(&alone).unwrap_or(&why).to_owned())
+        .collect()
 }
 
 /// The double nearest to each true value.
@@ -174,9 +188,19 @@ fn follow(scene: &Scene, format: Format) -> Result<Output, String> {
     let point = numeric::follow::values(scene)
         .map_err(|missing| numeric::NoPoint::Missing(missing).to_string())?;
     let followed = numeric::follow(scene, &point).map_err(|undefined| undefined.to_string())?;
+    let refusals = refusals(scene);
     let text = match format {
-        Format::Text => render::stages::text(scene, &followed, &point),
-        Format::Json => pretty(&render::stages::json(scene, &followed, &point)),
+        Format::Text => {
+            let numbers = render::stages::text(scene, &followed, &point);
+            render::text::refused(&refusals) + &numbers
+        }
+        Format::Json => {
+            let numbers = render::stages::json(scene, &followed, &point);
+            pretty(&render::json::refused(numbers, &refusals))
+        }
     };
-    Ok(Output::new(text, followed.stages.iter().all(Result::is_ok)))
+    let is_possible = |passed: &numeric::follow::Passed| passed.is_possible();
+    let mut stages = followed.stages.iter();
+    let holds = stages.all(|s| s.as_ref().is_ok_and(is_possible));
+    Ok(Output::new(text, holds && refusals.is_empty()))
 }

@@ -154,6 +154,12 @@ pub fn numbers(scene: &Scene, numbers: &[super::Number]) -> Value {
     json!({"title": scene.title, "source": scene.source, "answers": answers})
 }
 
+/// Numbers, with why what they tell cannot happen; empty where it can.
+pub fn refused(mut numbers: Value, refusals: &[String]) -> Value {
+    numbers["not_possible"] = json!(refusals);
+    numbers
+}
+
 /// A matrix with its unknowns and right sides.
 pub fn matrix(m: &Matrix) -> Value {
     json!({

@@ -31,6 +31,7 @@ use std::collections::BTreeMap;
 
 use crate::answer::Matrix;
 use crate::derive::{Derivation, Equation};
+use crate::dimension::Dimension;
 use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::formula::{Symbols, is_hidden, trimmed, visible};
 use crate::numeric::{self, Answered};
@@ -310,6 +311,12 @@ fn latex_system(m: &Matrix, write: impl Fn(&Expr) -> String, gap: &str) -> Strin
         column(rhs),
     ]
     .join(gap)
+}
+
+/// A value in SI units as the number and the unit that people who gave the scene's data read.
+pub fn in_units_of_data(scene: &Scene, dimension: &Dimension, value: f64) -> (f64, String) {
+    let system = scene.system();
+    (value / system.scale(dimension), system.unit(dimension))
 }
 
 /// The SI unit of what a question asks for.

@@ -41,9 +41,12 @@ pub fn text(scene: &Scene, followed: &Followed, at: &Point<f64>) -> String {
             Err(lost) => writeln!(out, "{} ({kind})\n  {lost}\n", stage.name),
         };
     }
-    for (name, unit, value) in answers(scene, followed, at) {
+    for (name, kind, value) in answers(scene, followed, at) {
         let _ = match value {
-            Ok(value) => writeln!(out, "{name} = {} {unit}", super::double(value)),
+            Ok(value) => {
+                let (value, unit) = super::in_units_of_data(scene, &kind, value);
+                writeln!(out, "{name} = {} {unit}", super::double(value))
+            }
             Err(reason) => writeln!(out, "{name}: {reason}"),
         };
     }
@@ -120,6 +123,13 @@ fn stage_text(followed: &Followed, passed: &Passed) -> String {
             }
         }
     }
+    for pair in &passed.passing {
+        let [a, b] = pair.map(|b| &followed.solids[b].name);
+        let _ = writeln!(
+            out,
+            "  not possible: {a} and {b} pass through each other on the way"
+        );
+    }
     let all = [&passed.energy[0], &passed.energy[1]];
     let [before, after] = all.map(|c| number(c, largest(&all)));
     let _ = writeln!(out, "  kinetic energy: {before} J before, {after} J after");
@@ -181,12 +191,12 @@ fn breach_words(breach: &Breach) -> String {
     }
 }
 
-/// Name, unit and value of every answer that is a number.
+/// Name, dimension and value of every answer that is a number.
 fn answers(
     scene: &Scene,
     followed: &Followed,
     at: &Point<f64>,
-) -> Vec<(String, String, Result<f64, String>)> {
+) -> Vec<(String, Dimension, Result<f64, String>)> {
     let mut out = Vec::new();
     for question in &scene.questions {
         let name = &question.name;
@@ -195,17 +205,14 @@ fn answers(
             Ask::Turn { of, .. } => dimension::of(&of[0], &|name| kind_of(scene, name)),
             ask => Ok(Some(ask.dimension())),
         };
-        let unit = kind
-            .ok()
-            .flatten()
-            .map_or_else(String::new, |kind| kind.spoken());
+        let kind = kind.ok().flatten().unwrap_or_else(Dimension::none);
         match found {
             Ok(found) => {
                 let parts = found.components().into_iter();
-                out.extend(parts.map(|(part, v)| (format!("{name}{part}"), unit.clone(), Ok(v))));
+                out.extend(parts.map(|(part, v)| (format!("{name}{part}"), kind.clone(), Ok(v))));
             }
             Err(Unanswered::NotANumber) => {}
-            Err(reason) => out.push((name.clone(), unit, Err(reason.to_string()))),
+            Err(reason) => out.push((name.clone(), kind, Err(reason.to_string()))),
         }
     }
     out
@@ -238,9 +245,14 @@ pub fn json(scene: &Scene, followed: &Followed, at: &Point<f64>) -> Value {
         })
         .collect();
     let answers = answers(scene, followed, at);
-    let answers = answers.into_iter().map(|(name, unit, value)| match value {
-        Ok(value) => json!({"name": name, "value": value, "unit": unit}),
-        Err(reason) => json!({"name": name, "value": Value::Null, "unit": unit, "reason": reason}),
+    let answers = answers.into_iter().map(|(name, kind, value)| {
+        let unit = kind.spoken();
+        match value {
+            Ok(value) => json!({"name": name, "value": value, "unit": unit}),
+            Err(reason) => {
+                json!({"name": name, "value": Value::Null, "unit": unit, "reason": reason})
+            }
+        }
     });
     json!({
         "title": scene.title,
@@ -275,6 +287,9 @@ fn stage_json(followed: &Followed, passed: &Passed, out: &mut Map<String, Value>
     let [before, after] = &passed.energy;
     let energy = json!({"before": component(before), "after": component(after)});
     out.insert("kinetic_energy".into(), energy);
+    let passing = passed.passing.iter();
+    let passing = passing.map(|pair| json!(pair.map(|b| &followed.solids[b].name)));
+    out.insert("pass_through_each_other".into(), passing.collect());
     match &passed.what {
         What::Impact(impact) => impact_json(followed, impact, out),
         What::Motion(moved) => motion_json(followed, moved, out),

@@ -6,6 +6,7 @@ use std::fmt::Write;
 use super::unicode;
 use crate::answer::{Answer, Check, Form, Matrix, given_alike};
 use crate::derive::Derivation;
+use crate::dimension::{Dimension, System};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Relation, Sentence};
 use crate::laws;
@@ -281,16 +282,27 @@ fn left_out(out: &mut String, d: &Derivation) {
     }
 }
 
+/// Why what follows cannot happen, one reason a line.
+pub fn refused(refusals: &[String]) -> String {
+    refusals.iter().map(|why| format!("{why}\n")).collect()
+}
+
 /// Numbers, one a line.
 pub fn numbers(scene: &Scene, numbers: &[super::Number]) -> String {
     let mut out = String::new();
     for number in numbers {
-        let unit = super::unit_of(scene, &number.question);
+        let asked = scene.question(&number.question);
+        let dimension = asked.map_or_else(Dimension::none, |q| q.ask.dimension());
         let text = match &number.value {
-            Ok(value) => match &value.exact {
-                Some(exact) => format!("{exact} {unit} ≈ {}", super::digits(value.approximate)),
-                None => format!("{} {unit}", super::double(value.approximate)),
-            },
+            Ok(value) => {
+                let (told, unit) = super::in_units_of_data(scene, &dimension, value.approximate);
+                match &value.exact {
+                    Some(exact) if scene.system() == System::Si => {
+                        format!("{exact} {unit} ≈ {}", super::digits(told))
+                    }
+                    _ => format!("{} {unit}", super::double(told)),
+                }
+            }
             Err(reason) => reason.clone(),
         };
         let _ = writeln!(out, "{} = {text}", number.name);

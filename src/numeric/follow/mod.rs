@@ -75,6 +75,17 @@ pub struct Passed {
     pub what: What,
 }
 
+impl Passed {
+    /// Whether bodies touch, push and keep out of each other.
+    pub fn is_possible(&self) -> bool {
+        let breaches = match &self.what {
+            What::Impact(impact) => impact.breaches.as_slice(),
+            What::Motion(_) => &[],
+        };
+        self.passing.is_empty() && breaches.is_empty()
+    }
+}
+
 /// What happened in a stage.
 #[derive(Clone, Debug)]
 pub enum What {
