@@ -543,7 +543,9 @@ impl<'a> Pair<'a> {
     /// Whether neither weight nor another force drives one of them along the line.
     fn is_undriven(&self) -> bool {
         let forces = self.slide.force.is_some() || self.below.force.is_some();
-        !forces && is_zero(&self.slide.along[1], &self.stage.scene.domains) == Some(true)
+        let domains = &self.stage.scene.domains;
+        let is_level = || is_zero(&self.slide.along[1], domains) == Some(true);
+        !forces && (self.slide.gravity.is_none() || is_level())
     }
 }
 
