@@ -365,14 +365,9 @@ impl Search<'_> {
             return Ok(Some(end));
         }
         let value = self.at(&end, self.f)?;
-        let largest = sentence!(
-            "the largest value is {}, at the bound {} = {}",
-            &value,
-            self.p,
-            &end
-        );
-        out.text
-            .push(sentence!("where {} instead, {}", needed, largest));
+        let words = "where {} instead, the largest value is {}, at the end {} of the range of {}";
+        let parts = [needed, (&value).into(), (&end).into(), self.p.into()];
+        out.text.push(Sentence::filled(words, parts));
         Ok(None)
     }
 

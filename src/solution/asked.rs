@@ -205,7 +205,11 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     }
     // Of a parameter that is solved for, the number is its own.
     let of = match answer.range.as_slice() {
-        [(solved, Relation::Equal, _)] if solved.as_symbol().is_some() => solved.clone(),
+        [(solved, Relation::Equal, _)]
+            if solved.as_symbol().is_some() && !is_largest(ask, answer) =>
+        {
+            solved.clone()
+        }
         _ => symbol,
     };
     let stands = stands_for(ask, answer).is_some();
