@@ -5,10 +5,10 @@
 //! something positive are written with the exponential function, whose laws the normal form knows. Logarithms: where they all
 //! have values, k ln u + l ln v is zero if and only if uᵏ vˡ is one.
 
-use super::Ground;
 use super::proof::{Proof, compare};
+use super::{Assumption, Ground};
 use crate::algebra::{Sign, sign};
-use crate::domain::Domains;
+use crate::domain::{Domains, Sample, roles, samples};
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Function, Node, Point, Rational};
 use crate::interval::{Interval, Outcome, evaluate};
@@ -17,7 +17,8 @@ use crate::interval::{Interval, Outcome, evaluate};
 pub(super) fn prove(a: &Expr, b: &Expr, domains: &Domains) -> Option<Proof> {
     let difference = a - b;
     if has_arc(&difference) {
-        return whole_turns(&without_shared(&difference), domains);
+        return whole_turns(&without_shared(&difference), domains)
+            .or_else(|| with_like_arcs(a, b, domains));
     }
     if let Some(proof) = one_logarithm(&without_shared(&difference), domains) {
         return Some(proof);
@@ -29,6 +30,8 @@ pub(super) fn prove(a: &Expr, b: &Expr, domains: &Domains) -> Option<Proof> {
     Some(compare(&x, &y, domains)).filter(|proof| matches!(proof, Proof::Equal(..)))
 }
 
+/// Most arcs that are held against each other.
+const MOST_ARCS: usize = 4;
 /// Highest power of what stands under a logarithm.
 const HIGHEST: i64 = 12;
 
@@ -98,10 +101,73 @@ fn without_shared(e: &Expr) -> Expr {
     Expr::sum(terms.into_iter().flat_map(rest).collect::<Vec<_>>())
 }
 
-fn has_arc(e: &Expr) -> bool {
+fn is_arc(e: &Expr) -> bool {
     use Function::{Acos, Asin, Atan};
-    e.parts()
-        .any(|part| matches!(part.node(), Node::Call(Asin | Acos | Atan, _)))
+    matches!(e.node(), Node::Call(Asin | Acos | Atan, _))
+}
+
+fn has_arc(e: &Expr) -> bool {
+    e.parts().any(is_arc)
+}
+
+/// Whether formulas are the same with one arc for those that are alike: atan(1/a) is π/2 − atan a.
+fn with_like_arcs(a: &Expr, b: &Expr, domains: &Domains) -> Option<Proof> {
+    let mut arcs: Vec<&Expr> = Vec::new();
+    for part in a.parts().chain(b.parts()).filter(|part| is_arc(part)) {
+        if !arcs.contains(&part) {
+            arcs.push(part);
+        }
+    }
+    if arcs.len() > MOST_ARCS {
+        return None;
+    }
+    let at = samples(&roles(&[a, b]), domains, 2).pop()?;
+    let (mut same, mut assumed) = (Vec::new(), Vec::new());
+    for (i, arc) in arcs.iter().enumerate() {
+        let mut known = arcs[..i].iter();
+        if let Some((other, more)) = known.find_map(|known| alike(arc, known, domains, &at)) {
+            same.push((*arc, other));
+            assumed.extend(more);
+        }
+    }
+    if same.is_empty() {
+        return None;
+    }
+    let put = |e: &Expr| {
+        let same = same.iter();
+        same.fold(e.clone(), |e, (arc, other)| e.replace(arc, other))
+    };
+    match compare(&put(a), &put(b), domains) {
+        Proof::Equal(more, _) => Some(Proof::Equal([assumed, more].concat(), Ground::Turns)),
+        _ => None,
+    }
+}
+
+/// An arc by another one, of either sign and with as many quarters of a turn as they differ by at a point; and what was taken
+/// for granted.
+fn alike(
+    arc: &Expr,
+    known: &Expr,
+    domains: &Domains,
+    at: &Sample,
+) -> Option<(Expr, Vec<Assumption>)> {
+    let value = |e: &Expr| match evaluate::<Interval>(e, &at.point(true)) {
+        Outcome::Value(value) => Some((value.low + value.high) / 2.0),
+        _ => None,
+    };
+    let quarter = std::f64::consts::FRAC_PI_2;
+    [1, -1].into_iter().find_map(|sign| {
+        let other = Expr::from(sign) * known;
+        let quarters = (value(arc)? - value(&other)?) / quarter;
+        let whole = [-2, -1, 0, 1, 2]
+            .into_iter()
+            .find(|k| (quarters - f64::from(*k)).abs() < 1e-9)?;
+        let turn = Expr::symbol("pi") * Expr::ratio(whole.into(), 2);
+        match whole_turns(&Expr::sum([arc.clone(), -&other, -&turn]), domains)? {
+            Proof::Equal(assumed, _) => Some((other + turn, assumed)),
+            _ => None,
+        }
+    })
 }
 
 /// Whether a difference is zero because it is a whole number of turns and less than one.

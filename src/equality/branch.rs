@@ -144,7 +144,7 @@ fn folded(e: &Expr) -> Option<&Expr> {
 }
 
 /// Replaces |f| by `branch`, and (f^2n)^(k/2) by branch^(n k), for this one f.
-fn unfold(e: &Expr, f: &Expr, branch: &Expr) -> Expr {
+pub(super) fn unfold(e: &Expr, f: &Expr, branch: &Expr) -> Expr {
     if folded(e) == Some(f) {
         return match e.node() {
             Node::Power(base, exponent) => match base.node() {

@@ -459,7 +459,41 @@ impl Search<'_> {
         let arcs = (!settled).then(|| arcs::prove(a, b, domains)).flatten();
         arcs.or_else(|| constants::prove(a, b, domains))
             .or_else(|| self.other_proofs().next())
+            .or_else(|| self.on_halves(&open))
             .unwrap_or(open)
+    }
+
+    /// A proof for what is above zero and one for what is below, where the absolute value of a symbol stands in the way: cos|x|
+    /// is cos x in both.
+    fn on_halves(&self, open: &Proof) -> Option<Proof> {
+        let Proof::Unequal { folded, .. } = open else {
+            return None;
+        };
+        let name = folded.iter().find_map(Expr::as_symbol)?;
+        let domain = self.domains.symbols.get(name)?;
+        if !domain.changes_sign() || self.domains.is_component(name) {
+            return None;
+        }
+        let x = Expr::symbol(name);
+        let mut grounds = [true, false].map(|positive| {
+            let mut half = self.domains.clone();
+            half.symbols.insert(name.clone(), domain.half(positive));
+            let value = if positive { x.clone() } else { -&x };
+            let [a, b] = [self.a, self.b].map(|e| branch::unfold(e, &x, &value));
+            let proof = match proof::compare(&a, &b, &half) {
+                known @ Proof::Equal(..) => known,
+                _ => arcs::prove(&a, &b, &half)?,
+            };
+            match proof {
+                Proof::Equal(assumed, ground) if assumed.is_empty() => Some(ground),
+                _ => None,
+            }
+        });
+        let ground = grounds[0].take();
+        Some(Proof::Equal(
+            Vec::new(),
+            ground.filter(|_| grounds[1].is_some())?,
+        ))
     }
 
     /// What must not be negative where both have values.
