@@ -3,6 +3,7 @@
 //! In brackets stands no factor then, and nothing that is added: both are read, and a relation says that they are the same.
 
 use super::content::{Content, Relation};
+use super::fault::{Fault, Faulty};
 use super::written::{Literal, Shape};
 use super::{Reading, Symbols, read};
 use crate::dimension::Dimension;
@@ -38,6 +39,32 @@ pub(super) fn said_again(text: &str, symbols: &Symbols) -> Option<Reading> {
     first.content = Content::Relations(sides, signs);
     first.written.extend(again.written);
     Some(first)
+}
+
+/// The value alone that a text says again in brackets; a fault where these say another one.
+pub(crate) fn said_once<'t>(text: &'t str, symbols: &Symbols) -> Option<Faulty<&'t str>> {
+    let reading = said_again(text, symbols)?;
+    let (open, close) = last_brackets(text)?;
+    let Content::Relations(sides, signs) = &reading.content else {
+        return None;
+    };
+    let value = |side: &Content| match side {
+        Content::Quantity(q) => q.value.evaluate(&Point::<f64>::default()),
+        side => side.expr()?.evaluate(&Point::<f64>::default()),
+    };
+    let ([.., first, again], Some(sign)) = (sides.as_slice(), signs.last()) else {
+        return None;
+    };
+    let (first, again) = (value(first)?, value(again)?);
+    let same = (first - again).abs() <= 1e-12 * first.abs();
+    Some(match same || *sign == Relation::Approximately {
+        true => Ok(&text[..open]),
+        false => Err(Fault::new(
+            "brackets behind a value say another one",
+            open,
+            close,
+        )),
+    })
 }
 
 /// Where the brackets open and close that end a text behind a space.

@@ -42,6 +42,7 @@ use std::collections::BTreeSet;
 
 use crate::dimension::{self, Unit};
 use crate::expr::{Expr, Symbol};
+pub(crate) use again::said_once;
 pub use component::with_subscript;
 pub use content::{Content, Join, Quantity, Relation};
 use convert::Value;
@@ -131,6 +132,11 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
         && let Some(reading) = read_full_width(text, symbols)
     {
         return reading;
+    }
+    if (held.all("integ") || held.any("\\\u{2124}"))
+        && let Some(end) = prose::without_count(text)
+    {
+        return read(&text[..end], symbols);
     }
     if held.any(")]")
         && let Some(reading) = again::said_again(text, symbols)

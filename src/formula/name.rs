@@ -55,7 +55,7 @@ fn index_text(written: &str) -> Option<String> {
                     "prime" => out.push('\''),
                     "ell" => out.push('l'),
                     "" if rest.starts_with([',', ' ', ';', '!']) => rest = &rest[1..],
-                    "" if rest.starts_with('/') => {}
+                    "" if rest.starts_with(['/', '_']) => {}
                     word if is_greek(word) || word == "pi" => out.push_str(word),
                     _ => return None,
                 }
@@ -409,6 +409,11 @@ pub(crate) fn find<'s>(
 pub(crate) fn key_of_latex(latex: &str) -> Option<String> {
     let open = Symbols::open();
     let text = latex.trim();
+    // `\\Delta T` is one name of two letters.
+    let read = || {
+        let reading = super::read(text, &open).ok()?;
+        Some(super::symbols::parts_of(reading.content.expr()?.as_symbol()?).key())
+    };
     let (mut parts, mut end, _) = whole(text, 0, &open)?;
     if let Some((word, stop)) = text[end..]
         .strip_prefix('^')
@@ -419,7 +424,10 @@ pub(crate) fn key_of_latex(latex: &str) -> Option<String> {
         parts.marks.push_str(&index_text(word)?);
         end = tail(text, stop, &mut parts, &open, false, &mut false);
     }
-    (end == text.len()).then(|| parts.key())
+    match end == text.len() {
+        true => Some(parts.key()),
+        false => read(),
+    }
 }
 
 /// Reads a name that starts at byte `at` with a macro, a Greek letter, a letter or a brace, undeclared or not.

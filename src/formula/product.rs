@@ -60,7 +60,7 @@ impl Parser<'_> {
                 end = rest.end;
                 factors.push((Link::Beside, rest));
             } else {
-                factors = marked_behind(factors);
+                factors = self.marked_behind(factors);
             }
         }
         match first {
@@ -201,6 +201,44 @@ impl Parser<'_> {
         Ok(Written::new(Shape::Product(factors), start, end))
     }
 
+    /// `45/2°` and `100/4 %`: behind a quotient of numbers the mark of its last one is that of all of it, as a unit would be; `100/5%`
+    /// may as well be a quotient by 5%.
+    fn marked_behind(&mut self, factors: Vec<(Link, Written)>) -> Vec<(Link, Written)> {
+        let bare = |last: &Written| match &last.shape {
+            Shape::Degrees(inner) => Some((**inner).clone()),
+            Shape::Fraction(inner, _) if last.is_percentage() => Some((**inner).clone()),
+            _ => None,
+        };
+        let Some(((Link::Over, last), before)) = factors.split_last() else {
+            return factors;
+        };
+        let Some(inner) = bare(last).filter(|inner| inner.is_bare_number()) else {
+            return factors;
+        };
+        if !before.iter().all(|(_, factor)| factor.is_bare_number()) {
+            return factors;
+        }
+        let mark = last.clone();
+        let (start, end) = (before[0].1.start, mark.end);
+        let tight = matches!(mark.shape, Shape::Fraction(..)) && mark.end == inner.end + 1;
+        if tight {
+            let (from, middle) = (before[before.len() - 1].1.start, inner.end);
+            let usual = self.lexer.usual_slash(self.arguments > 0, false);
+            self.lexer
+                .note(Remark::Slash { tight: false }, from, middle, end);
+            if !usual {
+                return factors;
+            }
+        }
+        let divided = before.iter().cloned().chain([(Link::Over, inner)]);
+        let quotient = Written::new(Shape::Product(divided.collect()), start, end);
+        let whole = match mark.shape {
+            Shape::Fraction(_, hundred) => quotient.over(hundred.at(start, end)),
+            _ => quotient.inside(Shape::Degrees),
+        };
+        vec![(Link::Times, whole)]
+    }
+
     pub(super) fn starts_factor(&mut self) -> Faulty<bool> {
         let bars = self.bars;
         let token = self.peek()?;
@@ -256,33 +294,6 @@ fn beside(before: &Written, factor: &Written) -> Faulty<()> {
         }
         _ => Ok(()),
     }
-}
-
-/// `45/2°` and `100/4 %`: behind a quotient of numbers the mark of its last one is that of all of it, as a unit would be.
-fn marked_behind(factors: Vec<(Link, Written)>) -> Vec<(Link, Written)> {
-    let bare = |last: &Written| match &last.shape {
-        Shape::Degrees(inner) => Some((**inner).clone()),
-        Shape::Fraction(inner, _) if last.is_percentage() => Some((**inner).clone()),
-        _ => None,
-    };
-    let Some(((Link::Over, last), before)) = factors.split_last() else {
-        return factors;
-    };
-    let Some(inner) = bare(last).filter(|inner| inner.is_bare_number()) else {
-        return factors;
-    };
-    if !before.iter().all(|(_, factor)| factor.is_bare_number()) {
-        return factors;
-    }
-    let mark = last.clone();
-    let (start, end) = (before[0].1.start, mark.end);
-    let divided = before.iter().cloned().chain([(Link::Over, inner)]);
-    let quotient = Written::new(Shape::Product(divided.collect()), start, end);
-    let whole = match mark.shape {
-        Shape::Fraction(_, hundred) => quotient.over(hundred.at(start, end)),
-        _ => quotient.inside(Shape::Degrees),
-    };
-    vec![(Link::Times, whole)]
 }
 
 /// A unit vector never stands below: 3v/2ℓ k̂.

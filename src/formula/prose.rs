@@ -96,7 +96,7 @@ fn lead_to_it(before: &str, formula: &str, behind: &str) -> bool {
 /// Where the formula starts behind words that say what it is: `the speed of the boy u = 2 g t`, `its speed is 3 m/s`. Nothing
 /// where a word could change the value, or where none of them is surely a word: `known` names are none.
 pub(super) fn behind_words(text: &str, known: &dyn Fn(&str) -> bool) -> Option<usize> {
-    const VERBS: [&str; 4] = ["is", "are", "equals", "becomes"];
+    const VERBS: [&str; 5] = ["is", "are", "be", "equals", "becomes"];
     let (mut at, mut words) = (0, Vec::new());
     for piece in text.split_inclusive(' ') {
         let word = piece.trim_end_matches([' ', ',']);
@@ -196,6 +196,45 @@ pub(super) fn value(text: &str) -> Option<&str> {
         (said.eq_ignore_ascii_case(word) && number).then_some(behind)
     };
     WORDS.into_iter().find_map(said)
+}
+
+/// Where the words begin behind a formula that let a letter of it be any whole number: `with n an integer`, `, n ∈ ℤ`.
+pub(super) fn without_count(text: &str) -> Option<usize> {
+    const SETS: [&str; 5] = ["\\in\\mathbb{Z}", "\\in\\mathbbZ", "\\in\\Z", "∈ℤ", "∈Z"];
+    const WORDS: &str = "a all an any arbitrary every for integer integers is where with";
+    let is_said = ["integer", "Z", "ℤ"].iter().any(|set| text.contains(set));
+    let end = text.trim_end_matches([' ', '.', ')', '$']).len();
+    let plain = |c: char| c.is_ascii_alphabetic() || " ,$\\{}∈ℤ(".contains(c);
+    let from = text[..end].rfind([',', ';', '(']).filter(|_| is_said);
+    let from = from.or_else(|| {
+        let said = [" with ", " for ", " where "].into_iter();
+        said.filter(|_| is_said)
+            .filter_map(|word| text.rfind(word))
+            .max()
+    })?;
+    let clause = text[from..end].trim_start_matches([',', ';', '(', ' ']);
+    let clause = clause
+        .replace(['$'], "")
+        .replace("\\quad", " ")
+        .replace("\\text", " ");
+    let mut words: Vec<&str> = clause
+        .split([' ', '{', '}'])
+        .filter(|w| !w.is_empty())
+        .collect();
+    let joined = words.concat();
+    let in_set = SETS
+        .iter()
+        .find_map(|set| joined.strip_suffix(&set.replace(['{', '}'], "")));
+    let said = words.iter().any(|word| word.starts_with("integer"));
+    words.retain(|word| !WORDS.split(' ').any(|known| known == *word));
+    let count = match (in_set, words.as_slice()) {
+        (Some(count), _) => count,
+        (None, [count]) if said => count,
+        _ => return None,
+    };
+    let letter = count.len() == 1 && count.starts_with(|c: char| c.is_ascii_alphabetic());
+    let before = text[..from].trim_end();
+    (letter && clause.chars().all(plain) && before.contains(count)).then_some(before.len())
 }
 
 /// Where the last of several statements starts that follow from each other: `mgh = ½mv² ⟹ v = √(2gh)`; also behind a word

@@ -74,6 +74,10 @@ impl Lexer<'_> {
                 return named;
             }
         }
+        // No μ and no ν begin these.
+        if matches!(&rest[..run], "must" | "number") && self.symbols.find(&rest[..run]).is_none() {
+            self.note(Remark::Letters, start, start, start + run);
+        }
         if let Some(tok) = self.known_word(start, run)? {
             return Ok(tok);
         }

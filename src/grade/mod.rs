@@ -150,6 +150,9 @@ pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
         closed: true,
         ..question.clone()
     };
+    if let Some(once) = formula::said_once(expected, &strict()) {
+        return key(once.map_err(|fault| *fault)?, question);
+    }
     let reading = match read::expected(expected, &symbols) {
         Ok(reading) => reading,
         // `2.4 1/s` is no product of numbers and letters.
