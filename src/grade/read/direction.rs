@@ -44,9 +44,19 @@ const SENSES: [(&str, [i32; 3]); 35] = [
 /// A formula without the direction in words behind it, and that direction: `9.31 rad/s clockwise`, `5 N (to the left)`.
 pub(in crate::grade) fn sense(text: &str) -> Option<(&str, [i32; 3])> {
     let said = text.trim_end_matches([' ', '.', ')', '}']);
+    // `in the clockwise sense`
+    let kind = [" sense", " direction"].into_iter();
+    let said = kind
+        .filter_map(|kind| said.strip_suffix(kind))
+        .next()
+        .unwrap_or(said);
     SENSES.into_iter().find_map(|(word, sense)| {
         let at = said.len().checked_sub(word.len())?;
         let (before, end) = said.split_at_checked(at)?;
+        let before = ["in the ", "in a "]
+            .into_iter()
+            .find_map(|led| before.strip_suffix(led))
+            .unwrap_or(before);
         let apart =
             before.ends_with([' ', '(', '~', ',', '{']) || !word.starts_with(char::is_alphabetic);
         if !apart || !end.eq_ignore_ascii_case(word) {

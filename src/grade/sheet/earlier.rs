@@ -39,6 +39,13 @@ impl Sheet {
         }
         let content = read::answer(&key, answer).ok()?.content;
         let used = content.symbols();
+        // In a case in which nothing moves everything is nothing.
+        let none = |e: Option<&Expr>| e.is_some_and(Expr::is_zero);
+        let idle = none(entry.key.reading.content.answer().expr())
+            && used.iter().any(|name| none(values.get(name)));
+        if idle && !(self.given.is_empty() && self.otherwise.is_empty()) {
+            return None;
+        }
         let told = |(name, value): (&Symbol, &Expr)| {
             let value = crate::formula::write_plain(value);
             used.contains(name).then(|| format!("{name} = {value}"))

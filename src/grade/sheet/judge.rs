@@ -158,6 +158,11 @@ impl Sheet {
         if let Some(grade) = self.judge_worked(entry, answer, options) {
             return grade;
         }
+        let spins = matches!(entry.question.ask, Ask::Spin { .. });
+        // Turns in a second are no radians in it.
+        let counted = answer.trim_end().strip_suffix("Hz").filter(|_| spins);
+        let counted = counted.map(|number| format!("{number}rev/s"));
+        let answer = counted.as_deref().unwrap_or(answer);
         let sensed = in_words(&entry.question.ask, entry.component, answer);
         let answer = sensed.as_deref().unwrap_or(answer);
         // `-v/l k` with the letter k for the direction out of the page.
@@ -383,9 +388,13 @@ impl Sheet {
             let words = "letters behind the number are its unit, not symbols of the scene";
             grade.assumed.push(words.into());
         }
-        let value = reading.content.answer().expr().and_then(fraction)?;
-        let room = number::half_unit(&value, digits.min(12));
-        Some((grade, Some(crate::expr::number::to_f64(&room) * 1.000_001)))
+        // What has π in it has no last digit.
+        let value = reading.content.answer().expr().and_then(fraction);
+        let room = value.map(|value| {
+            let half = number::half_unit(&value, digits.min(12));
+            crate::expr::number::to_f64(&half) * 1.000_001
+        });
+        Some((grade, room))
     }
 }
 
