@@ -9,10 +9,11 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
+use carom::expr::Expr;
 use carom::grade::steps::{self, Status};
 use carom::solution::{Detail, Solution};
 use carom::worked::{self, Worked};
-use carom::{check, figure, grade, render, scene, solution};
+use carom::{check, figure, formula, grade, render, scene, solution};
 use rayon::prelude::*;
 
 /// A scene, worked out once for all tests.
@@ -1574,4 +1575,61 @@ fn a_solution_given_to_the_grader_has_no_wrong_line() {
         fresh.is_empty() && mended.is_empty(),
         "called wrong: {fresh:#?}\nno longer called wrong: {mended:#?}"
     );
+}
+
+/// Lone lines that give a printed name another value than it has, and that the grader lets pass.
+fn misjudged_names(case: &Case) -> Vec<String> {
+    let Ok((sheet, _)) = carom::command::sheet(case.scene.clone()) else {
+        return Vec::new();
+    };
+    let derivation = &sheet.derivation;
+    let given = &sheet.scene.parameters;
+    let answers = derivation.answers.iter().filter_map(|answer| {
+        let asked = given.iter().any(|p| *p.name == *answer.name);
+        let value = answer
+            .formula()
+            .filter(|_| !asked && answer.range.is_empty())?;
+        Some([&answer.name, &answer.latex].map(|name| (name.clone(), value.clone())))
+    });
+    let motion = derivation.motion_by_name();
+    let motion = motion.map(|(unknown, plain, value)| {
+        let names = [
+            plain.to_string(),
+            derivation.names.latex(unknown).to_string(),
+        ];
+        names.map(|name| (name, value.clone()))
+    });
+    let all: BTreeSet<(String, Expr)> = answers.chain(motion).flatten().collect();
+    let passed = all.into_iter().filter_map(|(name, value)| {
+        let other = match value.is_zero() {
+            true => given.first().map_or(Expr::one(), |p| Expr::symbol(&p.name)),
+            false => Expr::from(7) * &value,
+        };
+        let line = format!("{name} = {}", formula::write_plain(&other));
+        let told = steps::check(&sheet, &line, &grade::Options::default());
+        let status = &told.lines[0].status;
+        let passes = matches!(status, Status::Holds | Status::Defines);
+        passes.then(|| format!("{}: {line}: {status:?}", case.path.display()))
+    });
+    passed.collect()
+}
+
+#[test]
+fn what_a_page_prints_has_its_name_with_the_grader() {
+    // Those of the textbook and the one with a name of two letters; all others take minutes more.
+    let is_long = std::env::var_os("CAROM_CASES").is_some();
+    let folders = ["derivations/book", "derivations/more/rolling"];
+    let is_quick = |case: &Case| {
+        let path = case.path.to_string_lossy();
+        folders.iter().any(|folder| path.starts_with(folder))
+    };
+    let chosen: Vec<&Case> = match is_long {
+        true => all_cases().collect(),
+        false => cases().iter().filter(|case| is_quick(case)).collect(),
+    };
+    let passed = chosen
+        .par_iter()
+        .flat_map_iter(|case| misjudged_names(case));
+    let passed: Vec<String> = passed.collect();
+    assert!(passed.is_empty(), "{passed:#?}");
 }

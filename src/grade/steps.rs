@@ -259,6 +259,11 @@ fn check_with(
     let mut desk = Desk::new(sheet);
     desk.closed.extend(meant.value.clone());
     desk.know_accelerations(meant.value.as_ref());
+    let of_center = meant
+        .value
+        .as_ref()
+        .filter(|(name, _)| **name == *names::OF_CENTER);
+    desk.turning = of_center.and_then(|_| names::turning(sheet, &text::joined(text)));
     let read = text::joined(&arrows::spelled(text, &sheet.scene));
     let read = desk.in_names(&read);
     desk.primed = arrows::primed(&read);
@@ -369,7 +374,9 @@ impl Desk<'_> {
             if self.is_supposed(text, equation) {
                 continue;
             }
-            let turned = self.with_sense(equation);
+            let sensed = text::in_brackets_behind(text, equation);
+            let sensed = sensed.and_then(|equation| self.with_sense(&equation));
+            let turned = sensed.or_else(|| self.with_sense(equation));
             let equation = turned.as_deref().unwrap_or(equation);
             let (status, diagnosis) = self.equation(number, equation, options);
             self.note_clear(equation, &status);
@@ -578,6 +585,9 @@ impl Desk<'_> {
                 };
                 return (self.note(number, &other, &links, &again), found);
             }
+        }
+        if let Weighed::Slip(_) = weighed {
+            self.note_coarse(number, text);
         }
         let status = self.note(number, reading, &links, &weighed);
         let found = match weighed {

@@ -71,6 +71,23 @@ impl<'s> Around<'s> {
         }
     }
 
+    /// What moves along an axis, after and before: the mass of a body, and of all that move alike, by the first of them.
+    fn carried(&self, axis: usize) -> Vec<(Expr, usize, bool)> {
+        let times = self.moving().flat_map(|b| [(b, true), (b, false)]);
+        let each = times.flat_map(|(b, after)| {
+            let value = self.value(b, axis, after).filter(|value| !value.is_zero());
+            let alike = |other: &usize| self.value(*other, axis, after) == value;
+            let all: Vec<usize> = self.moving().filter(alike).collect();
+            let mass = |b: &usize| self.scene.bodies[*b].mass.clone();
+            let first = value.is_some() && all.len() > 1 && all[0] == b;
+            let together = first.then(|| Expr::sum(all.iter().map(mass)));
+            let alone = value.map(|_| mass(&b));
+            let both = alone.into_iter().chain(together);
+            both.map(move |mass| (mass, b, after)).collect::<Vec<_>>()
+        });
+        each.collect()
+    }
+
     /// The bodies that can move.
     fn moving(&self) -> impl Iterator<Item = usize> {
         let bodies = self.scene.bodies.iter().enumerate();
@@ -379,18 +396,11 @@ impl Desk<'_> {
         }
         let mut ways = Vec::new();
         for (around, axis) in all.iter().flat_map(|around| [(around, 0), (around, 1)]) {
+            let carried = around.carried(axis);
             let each = factors.iter().map(|factor| {
-                let of = |b: &usize| {
-                    let mass = &around.scene.bodies[*b].mass;
-                    zero(factor - mass) || zero(factor + mass)
-                };
-                let bodies = around.moving().filter(of);
-                let times = bodies.flat_map(|b| [(b, true), (b, false)]);
-                let moves = times.filter(|(b, after)| {
-                    let value = around.value(*b, axis, *after);
-                    value.is_some_and(|value| !value.is_zero())
-                });
-                moves.collect::<Vec<_>>()
+                let of = |mass: &Expr| zero(factor - mass) || zero(factor + mass);
+                let fits = carried.iter().filter(|(mass, ..)| of(mass));
+                fits.map(|(_, b, after)| (*b, *after)).collect()
             });
             let each: Vec<Vec<(usize, bool)>> = each.collect();
             let mut chosen: Vec<Vec<(usize, bool)>> = vec![Vec::new()];

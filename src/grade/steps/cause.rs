@@ -11,7 +11,7 @@ use super::names::angle_in;
 use super::{Desk, MOST_CAUSES, MOST_STATED};
 use crate::algebra::tidy;
 use crate::dimension::Dimension;
-use crate::domain::Domains;
+use crate::domain::{Domain, Domains};
 use crate::equality::{self};
 use crate::expr::{Expr, Node, Symbol, effort};
 use crate::formula::{self, Content, Reading};
@@ -44,8 +44,9 @@ impl Desk<'_> {
         }
         // The latest first.
         let mut implied = self.believed.iter().rev();
-        let found = implied.find(|(_, values)| {
-            self.all_zero(differences, values) == Some(true) || self.is_rounded(text, link, values)
+        let found = implied.find(|(cause, values)| {
+            self.all_zero(differences, values) == Some(true)
+                || self.is_rounded_after(text, link, (*cause, values))
         });
         let found = found.map(|(cause, _)| *cause);
         found.or_else(|| {
@@ -56,7 +57,11 @@ impl Desk<'_> {
             if let Some(cause) = effort::within(MOST_STEPS, || self.supposed_with(&one)) {
                 return Some(cause);
             }
-            let domains = &self.sheet.scene.domains;
+            // What is found may have either sign: ω = −2 and v = −9 are not the same for having no positive solution both.
+            let mut domains = self.sheet.scene.domains.clone();
+            for name in one.symbols().into_iter().filter(|n| self.is_found(n)) {
+                domains.symbols.entry(name).or_insert_with(Domain::real);
+            }
             let moves = |e: &Expr| e.symbols().iter().any(|n| self.is_found(n));
             let said = self.wrong.iter().rev().take(8);
             // What is said of given quantities alone follows from nothing but itself.
@@ -64,7 +69,7 @@ impl Desk<'_> {
                 let mut said = said.filter(|(_, f)| *f == one || *f == -&one);
                 return said.next().map(|(cause, _)| *cause);
             }
-            said.filter(|(_, f)| moves(f) && follows(f, &one, domains))
+            said.filter(|(_, f)| moves(f) && follows(f, &one, &domains))
                 .map(|(cause, _)| *cause)
                 .next()
                 .or_else(|| effort::within(MOST_STEPS, || self.eliminated(&one)))

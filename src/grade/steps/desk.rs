@@ -5,14 +5,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::sheet::Sheet;
 use super::impact::Stand;
-use super::names::MARKS;
+use super::names::{MARKS, OF_CENTER};
 use super::sought::{self, Sought};
 use super::vectors::{in_products, is_marked, marked_after};
 use super::{Final, text};
 use crate::answer::Form;
 use crate::derive::{Moment, Names};
 use crate::equality::{self, Equality};
-use crate::expr::{Expr, Function, Node, Symbol};
+use crate::expr::{Expr, Function, Node, Rational, Symbol};
 use crate::formula::{self, Content, Reading, Symbols};
 use crate::laws::Unknown;
 use crate::scene::{Ask, ContactLaw, Question, Scene};
@@ -40,6 +40,8 @@ pub(super) struct Desk<'a> {
     pub counted: BTreeMap<String, usize>,
     /// What wrong lines imply: for each the value of one name, under all that came before.
     pub believed: Vec<(usize, BTreeMap<Symbol, Expr>)>,
+    /// How far the numbers of wrong lines may be off, as shares.
+    pub coarse: BTreeMap<usize, Rational>,
     /// The wrong lines themselves, left minus right, with the student's own names put in.
     pub wrong: Vec<(usize, Expr)>,
     /// Every equation so far that was decided, as left minus right with the student's own names put in, and the wrong line
@@ -65,6 +67,8 @@ pub(super) struct Desk<'a> {
     pub unclear: BTreeSet<Symbol>,
     /// How answers are typeset whose names read otherwise: `u_x` for a component of `u_velocity`.
     pub typeset: Vec<(Symbol, String)>,
+    /// An angular acceleration that is asked for by the letter with which the solution means that of a center.
+    pub turning: Option<&'a str>,
     /// Names the student introduced.
     pub own: BTreeMap<Symbol, Expr>,
     /// Names that were defined with a slip, or may have been: the line that shows it, the name, and its value without the slip.
@@ -127,6 +131,7 @@ impl<'a> Desk<'a> {
             counted: BTreeMap::new(),
             primed: BTreeSet::new(),
             believed: Vec::new(),
+            coarse: BTreeMap::new(),
             wrong: Vec::new(),
             stated: Vec::new(),
             moving: if one_freedom(&sheet.scene) {
@@ -142,6 +147,7 @@ impl<'a> Desk<'a> {
             needed: Vec::new(),
             unclear: BTreeSet::new(),
             typeset: Vec::new(),
+            turning: None,
             own: BTreeMap::new(),
             slipped: Vec::new(),
             ahead: Vec::new(),
@@ -160,12 +166,16 @@ impl<'a> Desk<'a> {
             said: BTreeMap::new(),
         };
         let symbols = desk.symbols("");
-        let answers = sheet.derivation.answers.iter();
-        let unread = answers.filter(|a| {
-            let known = desk.closed.contains_key(a.name.as_str());
-            known && formula::read(&a.latex, &symbols).is_err()
+        let derivation = &sheet.derivation;
+        let answers = derivation.answers.iter();
+        let answers = answers.map(|a| (Symbol::from(a.name.as_str()), a.latex.as_str()));
+        let motion = derivation.motion_by_name();
+        let motion = motion.map(|(unknown, name, _)| (name, derivation.names.latex(unknown)));
+        // Of a body that is called `bar` the name reads otherwise.
+        let unread = answers.chain(motion).filter(|(name, latex)| {
+            desk.closed.contains_key(name) && formula::read(latex, &symbols).is_err()
         });
-        let typeset = unread.map(|a| (Symbol::from(a.name.as_str()), a.latex.clone()));
+        let typeset = unread.map(|(name, latex)| (name, latex.to_string()));
         desk.typeset = typeset.collect();
         desk
     }
@@ -179,6 +189,10 @@ impl<'a> Desk<'a> {
         let is_vector =
             |name: &Symbol| crossed && self.spins.values().any(|(spin, _)| spin == name);
         self.sheet.scene.declare_parameters(&mut symbols);
+        let is_other = |name: &Symbol| self.turning == Some(&**name);
+        if let Some(letter) = self.turning {
+            symbols.declare_typeset(OF_CENTER, letter);
+        }
         // The speed v_D that is given goes before a vector that is asked for and typeset otherwise.
         let given = symbols.clone();
         let is_given = |name: &str| {
@@ -200,7 +214,12 @@ impl<'a> Desk<'a> {
             let spin = is_vector(&Symbol::from(q.name.as_str()));
             let mut vectors = asked.iter().filter(|(_, other)| other.name == q.name);
             let crossed = vectors.any(|(arrow, _)| in_product(arrow) || is_marked(&marked, arrow));
-            if !spin && (known || self.components(&q.name).is_some()) && !is_given(&q.name) {
+            let other = self.turning == Some(&*q.name);
+            if other && let Some(latex) = &q.latex {
+                symbols.declare_typeset(q.name.as_str(), latex);
+            }
+            let vector = self.components(&q.name).is_some();
+            if !spin && !other && (known || vector) && !is_given(&q.name) {
                 let latex = q
                     .latex
                     .as_deref()
@@ -213,7 +232,7 @@ impl<'a> Desk<'a> {
         let later: BTreeSet<&Symbol> = later.collect();
         (self.closed.keys().chain(self.own.keys()))
             .chain(later.iter().copied())
-            .filter(|name| !is_vector(name) && !is_given(name))
+            .filter(|name| !is_vector(name) && !is_given(name) && !is_other(name))
             .for_each(|name| symbols.declare(name));
         for (name, _) in self.sheet.scene.arms() {
             if let Some(arrow) = formula::with_arrow(&name) {
@@ -244,7 +263,7 @@ impl<'a> Desk<'a> {
             symbols.declare_typeset(name.clone(), latex);
         }
         // `ω⁺` and `ω'` are what is asked of the moment just after, and a vector may wear its arrow.
-        let now = |name: &&Symbol| !name.contains('^') && !is_vector(name);
+        let now = |name: &&Symbol| !name.contains('^') && !is_vector(name) && !is_other(name);
         for name in self.closed.keys().chain(later).filter(now) {
             let own = |mark: &&str| self.own_with_mark.contains(&(name.clone(), *mark));
             for mark in [""].into_iter().chain(MARKS).filter(|mark| !own(mark)) {

@@ -11,7 +11,7 @@ use super::sought::Sought;
 use super::{Desk, Final, Status};
 use crate::algebra::{self, Sign};
 use crate::answer::Answer;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{self, Content, Reading, Relation};
 use crate::scene::Ask;
 
@@ -340,6 +340,35 @@ impl Desk<'_> {
         in_given
     }
 
+    /// A line that says what the sine, cosine or tangent of an angle is that is asked for, solved for it where it has no other
+    /// values.
+    fn for_angle(&self, reading: &Reading) -> Option<Reading> {
+        let Content::Relations(sides, signs) = &reading.content else {
+            return None;
+        };
+        let Node::Call(function, angle) = sides.first()?.expr()?.node() else {
+            return None;
+        };
+        let inverse = match function {
+            Function::Sin => Function::Asin,
+            Function::Cos => Function::Acos,
+            Function::Tan => Function::Atan,
+            _ => return None,
+        };
+        let (name, value) = (angle.as_symbol()?, sides.last()?.expr()?);
+        let asked = self
+            .sheet
+            .derivation
+            .answers
+            .iter()
+            .any(|a| *a.name == **name);
+        let again = Expr::call(inverse, sides[0].expr()?.clone()) - angle;
+        let unique = asked && self.all_zero(&[again], &BTreeMap::new()) == Some(true);
+        let solved = [angle.clone(), Expr::call(inverse, value.clone())].map(Content::Scalar);
+        let sign = signs.last().copied()?;
+        unique.then(|| reading.with(Content::Relations(solved.into(), vec![sign])))
+    }
+
     /// Keeps what a line says of a quantity that is asked for, where it ends in what is given; `there` are the values of another
     /// moment or case of which it speaks.
     pub(super) fn note_final(
@@ -349,6 +378,9 @@ impl Desk<'_> {
         reading: &Reading,
         there: &BTreeMap<Symbol, Expr>,
     ) {
+        if let Some(angle) = self.for_angle(reading) {
+            return self.note_final(number, text, &angle, there);
+        }
         // What is a number in the unit that is asked for is one.
         let fits = |measured: &Reading| {
             let links = self.links(measured);

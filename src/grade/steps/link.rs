@@ -82,7 +82,11 @@ impl Desk<'_> {
         let asked = self.sheet.scene.questions.iter().filter(moving);
         let asked = asked.filter(|q| self.components(&q.name).is_some());
         let asked = asked.map(|q| Symbol::from(q.name.as_str()));
-        let no_axis = |name: &&Symbol| !name.trim_end_matches('\'').ends_with(['x', 'y']);
+        let no_axis = |name: &&Symbol| {
+            !name
+                .trim_end_matches(['\'', '^', '+'])
+                .ends_with(['x', 'y'])
+        };
         let all = asked.chain(self.learned.iter().filter(no_axis).cloned());
         let along = all.filter_map(|name| {
             let value = self.closed.get(&name)?;
@@ -276,8 +280,17 @@ impl Desk<'_> {
             let parameter = self.sheet.scene.parameter(name);
             parameter.is_some() && own.iter().any(|d| d.mentions(name))
         };
+        // In a case in which nothing moves everything is nothing.
+        let used: BTreeSet<Symbol> = all.iter().flat_map(Expr::symbols).collect();
+        let is_idle = |values: &BTreeMap<Symbol, Expr>| {
+            let found: Vec<&Expr> = used.iter().filter_map(|name| values.get(name)).collect();
+            found.len() > 1 && found.into_iter().all(Expr::is_zero)
+        };
         let fits = |values: &BTreeMap<Symbol, Expr>| {
-            !values.keys().any(is_open) && holds(values) && self.says_enough(links, values, false)
+            !values.keys().any(is_open)
+                && !is_idle(values)
+                && holds(values)
+                && self.says_enough(links, values, false)
         };
         let vectors = all
             .iter()

@@ -112,6 +112,9 @@ pub(super) const ACCELERATIONS: [&str; 9] = [
     "a", "a_G", "a_cm", "a_CM", "a_C", "a_c", "a_S", "a_x", "a_y",
 ];
 
+/// The acceleration of a center where its letter alone is asked for as that of a turn.
+pub(super) const OF_CENTER: &str = "a_G";
+
 /// The equations of a worked solution that can be read by themselves.
 pub(super) fn readings(scene: &Scene, text: &str) -> Vec<Reading> {
     let mut symbols = Symbols::open();
@@ -175,11 +178,15 @@ pub(super) fn accelerations(sheet: &Sheet, text: &str) -> Vec<Option<(Symbol, Ex
     let readings = readings(scene, text);
     let used: BTreeSet<Symbol> = readings.iter().flat_map(Reading::symbols).collect();
     let free = |name: &&&str| !taken.contains(**name) && used.contains(**name);
-    let Some(name) = ACCELERATIONS.iter().find(free) else {
+    let along = ACCELERATIONS.iter().find(free);
+    let turns = turning(sheet, text).filter(|_| along.is_none());
+    let Some((name, letter)) = along.map(|a| (*a, *a)).or(turns.map(|a| (OF_CENTER, a))) else {
         return vec![None];
     };
     let fits = readings.iter().all(|reading| match &reading.content {
-        Content::Relations(sides, _) if is_alone(&sides[0], name) => sides[1..].iter().all(is_rate),
+        Content::Relations(sides, _) if is_alone(&sides[0], letter) => {
+            sides[1..].iter().all(is_rate)
+        }
         _ => true,
     });
     if !fits {
@@ -194,11 +201,23 @@ pub(super) fn accelerations(sheet: &Sheet, text: &str) -> Vec<Option<(Symbol, Ex
     let all = scene.stages.iter().all(|stage| steady(&stage.kind));
     let each = sheet.accelerations.iter();
     let both = each.flat_map(|value| [value.clone(), -value]);
-    let named = both.map(|value| Some((Symbol::from(*name), value)));
-    named
-        .take(MOST_WAYS)
-        .chain((!all).then_some(None))
+    let named = both.map(|value| Some((Symbol::from(name), value)));
+    (turns.map(|_| None).into_iter())
+        .chain(named.take(MOST_WAYS))
+        .chain((!all && turns.is_none()).then_some(None))
         .collect()
+}
+
+/// An angular acceleration that is asked for by a letter with which a worked solution may mean that of a center.
+pub(super) fn turning<'s>(sheet: &'s Sheet, text: &str) -> Option<&'s str> {
+    let readings = readings(&sheet.scene, text);
+    let used: BTreeSet<Symbol> = readings.iter().flat_map(Reading::symbols).collect();
+    let mut asked = sheet.scene.questions.iter().filter(|q| {
+        let turns = matches!(q.ask, Ask::AngularAcceleration { .. });
+        turns && ACCELERATIONS.contains(&&*q.name) && used.contains(&*q.name)
+    });
+    let asked = asked.next()?;
+    (!used.contains(OF_CENTER)).then_some(&*asked.name)
 }
 
 /// Whether a letter behind a formula is a quantity first: a speed V rather than volts, also in `½ M V²`, a
@@ -675,6 +694,9 @@ impl Desk<'_> {
     /// An equation with one name that is new: it says what the name stands for.
     pub(super) fn new_name(&mut self, text: &str) -> Option<Status> {
         let mut open = Symbols::open();
+        if let Some(letter) = self.turning {
+            open.declare_typeset(OF_CENTER, letter);
+        }
         for p in &self.sheet.scene.parameters {
             open.declare_as(
                 p.name.clone(),
@@ -683,6 +705,7 @@ impl Desk<'_> {
             );
         }
         let known = self.closed.keys().chain(self.own.keys());
+        let known = known.filter(|name| self.turning != Some(&***name));
         known.for_each(|name| open.declare(name));
         let reading = formula::read(text, &open).ok()?;
         let product = |n: &formula::Note| {

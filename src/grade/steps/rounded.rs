@@ -9,7 +9,8 @@ use super::Desk;
 use super::link::Link;
 use crate::algebra::quotient;
 use crate::dimension;
-use crate::expr::{Expr, Rational, Symbol, ratio};
+use crate::expr::number::to_f64;
+use crate::expr::{Expr, Node, Point, Rational, Symbol, ratio};
 
 impl Desk<'_> {
     /// Whether a side in numbers is the value of the other, up to the rounding of the numbers in the line; the scene's
@@ -19,6 +20,17 @@ impl Desk<'_> {
         text: &str,
         link: &Link,
         instead: &BTreeMap<Symbol, Expr>,
+    ) -> bool {
+        self.is_rounded_from(text, link, instead, &ratio(0, 1))
+    }
+
+    /// The same of a line that goes on from numbers which may be off by a share `more`.
+    fn is_rounded_from(
+        &self,
+        text: &str,
+        link: &Link,
+        instead: &BTreeMap<Symbol, Expr>,
+        more: &Rational,
     ) -> bool {
         if instead.is_empty() && self.is_within_own(link) {
             return true;
@@ -36,13 +48,19 @@ impl Desk<'_> {
             },
         };
         // Without digits to round a number is meant as it stands.
-        let (share, decimal) = coarsest(text, &values).unwrap_or_default();
-        let room = Tolerance::Relative(share);
+        let (mut share, decimal) = coarsest(text, &values).unwrap_or_default();
+        share += more;
+        let room = Tolerance::Relative(share.clone());
         let all_given = values.len() == self.sheet.scene.parameters.len();
         sides.iter().all(|(a, b)| {
             if !(a.symbols().is_empty() || b.symbols().is_empty()) {
                 // `u = -v/8`: what is given is all put in.
                 if all_given && !self.mentions_given(a) && !self.mentions_given(b) {
+                    if decimal {
+                        return self
+                            .is_near_in_terms([a, b], instead, &share)
+                            .is_some_and(|is| is);
+                    }
                     let room = Tolerance::Relative(ratio(1, 1_000_000_000));
                     return number::within(&exact(b), &exact(a), &room) == Some(true);
                 }
@@ -61,6 +79,49 @@ impl Desk<'_> {
             let constant = a.symbols().is_empty() && b.symbols().is_empty();
             constant && number::within(&b, &a, &room) == Some(true)
         })
+    }
+
+    /// Whether a line is what a wrong one implies, as far as the digits of both tell.
+    pub(super) fn is_rounded_after(
+        &self,
+        text: &str,
+        link: &Link,
+        (cause, values): (usize, &BTreeMap<Symbol, Expr>),
+    ) -> bool {
+        let none = ratio(0, 1);
+        let more = self.coarse.get(&cause).unwrap_or(&none);
+        self.is_rounded_from(text, link, values, more)
+    }
+
+    /// Notes how far the numbers of a wrong line may be off.
+    pub(super) fn note_coarse(&mut self, number: usize, text: &str) {
+        let found = coarsest(text, &self.sheet.scene.values());
+        let decimal = found.filter(|(_, decimal)| *decimal);
+        self.coarse
+            .extend(decimal.map(|(share, _)| (number, share)));
+    }
+
+    /// Whether two sides differ by a share of their terms at most: where large ones cancel, what is left is off by more.
+    fn is_near_in_terms(
+        &self,
+        [a, b]: [&Expr; 2],
+        instead: &BTreeMap<Symbol, Expr>,
+        share: &Rational,
+    ) -> Option<bool> {
+        fn size(e: &Expr, value: &dyn Fn(&Expr) -> Option<f64>) -> Option<f64> {
+            match e.node() {
+                Node::Sum(terms) => terms.iter().map(|term| size(term, value)).sum(),
+                Node::Product(factors) => factors.iter().map(|f| size(f, value)).product(),
+                _ => Some(value(e)?.abs()),
+            }
+        }
+        let values = self.sheet.scene.values();
+        let value = |e: &Expr| {
+            let exact = self.put_in(e, instead).substitute(&values);
+            exact.evaluate(&Point::<f64>::default())
+        };
+        let room = to_f64(share) * size(a, &value)?.max(size(b, &value)?);
+        Some((value(a)? - value(b)?).abs() <= room)
     }
 
     fn mentions_given(&self, e: &Expr) -> bool {

@@ -659,6 +659,14 @@ pub(super) fn without_remark(text: &str) -> &str {
     }
 }
 
+/// An equation with the brackets that stand behind it in its line: `ω = 3v/(2l) (clockwise)`.
+pub(super) fn in_brackets_behind(line: &str, equation: &str) -> Option<String> {
+    let (_, behind) = line.split_once(equation)?;
+    let open = behind.trim_start_matches([' ', '$']).strip_prefix('(')?;
+    let (inside, _) = open.split_once(')')?;
+    Some(format!("{equation} ({inside})"))
+}
+
 /// Whether a refused name of several letters looks like a slip of the pen for a declared one, which begins alike and has an
 /// index as well.
 pub(super) fn near<'f>(fault: &'f Fault, text: &str) -> Option<&'f str> {

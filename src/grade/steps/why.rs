@@ -149,10 +149,16 @@ impl Desk<'_> {
             }
             let text = own.map_or(text.to_string(), |(_, own)| formula::write_plain(&own));
             let mut found = self.sheet.judge(&entry, &text, options).diagnosis;
-            // Behind a side that is right a slip of algebra follows, and no belief.
-            if at > 0 {
-                let belief = |code| code == "TWO_BELIEFS" || BELIEFS.iter().any(|b| b.code == code);
-                found.retain(|d| !belief(d.code));
+            let belief =
+                |d: &Diagnosis| d.code == "TWO_BELIEFS" || BELIEFS.iter().any(|b| b.code == d.code);
+            // Behind a side that is right a slip of algebra follows, and no belief; what a belief explains needs no other words.
+            match at {
+                0 if found.iter().any(belief) => found.retain(|d| {
+                    !d.code.starts_with("SYMBOLS_")
+                        && !["SPECIAL_CASE", "SMALL_ANGLE"].contains(&d.code)
+                }),
+                0 => {}
+                _ => found.retain(|d| !belief(d)),
             }
             // By way of other quantities a value may well be said in symbols that it does not depend on.
             if by_others {
