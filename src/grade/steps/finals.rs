@@ -60,6 +60,7 @@ impl Desk<'_> {
         }
         // `μ ≥ P_t/P_n = …` says what its first link says where the others hold.
         let first = told.or_else(|| self.first_link(reading));
+        let first = first.or_else(|| self.without_rounded_end(text, reading));
         let reading = first.as_ref().unwrap_or(reading);
         let Content::Relations(sides, _) = &reading.content else {
             return None;
@@ -244,6 +245,24 @@ impl Desk<'_> {
         let sides = vec![name.clone(), Content::Scalar(value)];
         let content = Content::Relations(sides, vec![*sign]);
         links.iter().all(hold).then(|| reading.with(content))
+    }
+
+    /// A chain without its last side, where that rounds the one before it: `v = √(8gl/3) ≈ 1.63 √(gl)`.
+    fn without_rounded_end(&self, text: &str, reading: &Reading) -> Option<Reading> {
+        let Content::Relations(sides, signs) = &reading.content else {
+            return None;
+        };
+        let ([before @ .., last], [others @ .., Relation::Approximately]) =
+            (&sides[..], &signs[..])
+        else {
+            return None;
+        };
+        let link = self
+            .link(before.last()?, last)
+            .filter(|_| before.len() > 1)?;
+        let rounds = self.is_rounded(text, &link, &BTreeMap::new());
+        let content = Content::Relations(before.to_vec(), others.to_vec());
+        rounds.then(|| reading.with(content))
     }
 
     /// A line about a parameter with the student's own names put in, where it has such.
