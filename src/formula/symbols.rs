@@ -128,6 +128,8 @@ impl Symbols {
             }
         }
         self.keys.insert(symbol.clone(), index);
+        // Declared itself, it is no longer a name with its index run into it.
+        self.joined.remove(name);
         if let [base, b'_', letter] = name.as_bytes()
             && base.is_ascii_alphabetic()
             && letter.is_ascii_alphabetic()
@@ -135,8 +137,8 @@ impl Symbols {
             let joined: String = [char::from(*base), char::from(*letter)].iter().collect();
             let function = super::words::function(&joined).is_some() || joined == "pi";
             let unit = crate::dimension::unit(&joined).is_ok();
-            if !function && !unit && !is_greek(&joined) {
-                self.keys.entry(joined.as_str().into()).or_insert(index);
+            if !function && !unit && !is_greek(&joined) && self.find(&joined).is_none() {
+                self.keys.insert(joined.as_str().into(), index);
                 self.add_base(&joined);
                 self.joined.insert(joined);
             }
