@@ -10,10 +10,7 @@ impl Table<'_> {
     /// The state after: what all sets that fit agree on.
     pub(super) fn after(&self, course: &Course<'_>, fitting: &[Tried], before: &State) -> State {
         let mut after = before.clone();
-        let speed = fitting
-            .iter()
-            .flat_map(Tried::speeds)
-            .fold(self.speed, f64::max);
+        let speed = self.fastest(fitting);
         let spin = if self.arm > 0.0 {
             speed / self.arm
         } else {
@@ -168,7 +165,8 @@ impl Table<'_> {
             openings: Vec::new(),
             breaches: Vec::new(),
         };
-        self.held_against(course, before, after, largest, &mut impact);
+        let sizes = [largest, self.fastest(fitting)];
+        self.held_against(course, before, after, sizes, &mut impact);
         impact
     }
 
@@ -199,13 +197,19 @@ impl Table<'_> {
         out.ok_or_else(|| course.open(Why::Laws))
     }
 
-    /// How fast bodies part, and what cannot be.
+    /// The size of speeds before and after.
+    fn fastest(&self, fitting: &[Tried]) -> f64 {
+        let speeds = fitting.iter().flat_map(Tried::speeds);
+        speeds.fold(self.speed, f64::max)
+    }
+
+    /// How fast bodies part, and what cannot be, beside the largest impulse and speed.
     fn held_against(
         &self,
         course: &Course<'_>,
         before: &State,
         after: &State,
-        largest: f64,
+        [largest, fastest]: [f64; 2],
         impact: &mut Impact,
     ) {
         let placed = self.given.contacts.iter().zip(&self.kept[0]);
@@ -240,7 +244,7 @@ impl Table<'_> {
             if closes && below(&push, ROUNDING * largest) {
                 impact.breaches.push(Breach::Pulls(name.clone()));
             }
-            if closes && below(&opening.after, SAME * self.speed) {
+            if closes && below(&opening.after, SAME * fastest) {
                 impact.breaches.push(Breach::Enters(name));
             }
             impact.openings.push(opening);
