@@ -1,9 +1,12 @@
 //! The lines between a relation and the value of the parameter it was solved for: roots and arcs undone, a power or a
 //! cosine of the parameter alone on one side.
 
+use std::collections::BTreeMap;
+use std::iter::successors;
+
 use super::neat::tidied;
 use crate::algebra::{Sign, sign};
-use crate::expr::{Expr, Function, Node, ratio};
+use crate::expr::{Expr, Function, Node, Symbol, ratio};
 use crate::formula::Relation;
 use crate::scene::Scene;
 
@@ -20,10 +23,29 @@ pub(super) fn on_the_way(scene: &Scene, stated: &Related, range: &Related) -> Ve
         .as_symbol()
         .map(|p| (p, (left - right).derivative(p)));
     let is_linear = slope.is_some_and(|(p, slope)| !slope.mentions(p));
+    let is_quadratic = |p: &Symbol| {
+        let derivatives = successors(Some(left - right), |e| Some(e.derivative(p)));
+        derivatives
+            .take(4)
+            .last()
+            .is_some_and(|e| tidied(scene, &e).is_zero())
+    };
+    let solves = |p: &Symbol, value: Expr| {
+        let put = (left - right).substitute(&BTreeMap::from([(p.clone(), value)]));
+        tidied(scene, &put).is_zero()
+    };
     let alone = match alone(scene, range) {
         _ if is_linear => Vec::new(),
         Some(line) => vec![line],
-        None => completed(scene, range),
+        None => match (range.0.as_symbol(), &range.1) {
+            // Where the other root is zero, the square says less than the product.
+            (Some(p), Relation::Equal) if solves(p, Expr::zero()) && is_quadratic(p) => {
+                let product = Expr::symbol(p) * (Expr::symbol(p) - &range.2);
+                vec![(product, Relation::Equal, Expr::zero())]
+            }
+            (Some(p), _) => completed(scene, range, |other| solves(p, other)),
+            _ => Vec::new(),
+        },
     };
     let lines = undone.into_iter().chain(alone);
     lines
@@ -70,8 +92,13 @@ fn alone(scene: &Scene, (p, relation, value): &Related) -> Option<Related> {
         .then(|| (square(scene, p), *relation, square(scene, value)))
 }
 
-/// The completed square of a parameter whose value is a root and something beside it, and its root where that has one sign.
-fn completed(scene: &Scene, (p, relation, value): &Related) -> Vec<Related> {
+/// The completed square of a parameter whose value is a root and something beside it, and its root where that has one sign;
+/// nothing where the value with the other sign of the root does not solve the relation, as one of both does its square.
+fn completed(
+    scene: &Scene,
+    (p, relation, value): &Related,
+    solves: impl Fn(Expr) -> bool,
+) -> Vec<Related> {
     let is_sum = |e: &&Expr| matches!(e.node(), Node::Sum(_));
     let terms = match value.node() {
         Node::Sum(terms) => terms.to_vec(),
@@ -91,7 +118,11 @@ fn completed(scene: &Scene, (p, relation, value): &Related) -> Vec<Related> {
     let [root] = roots.as_slice() else {
         return Vec::new();
     };
-    let beyond = p - &tidied(scene, &Expr::sum(rest));
+    let rest = tidied(scene, &Expr::sum(rest));
+    if !solves(&rest - root) {
+        return Vec::new();
+    }
+    let beyond = p - &rest;
     let has_sign = never_below_zero(scene, &beyond);
     if !never_below_zero(scene, root) || !has_sign && *relation != Relation::Equal {
         return Vec::new();
