@@ -7,7 +7,7 @@ use super::Check;
 pub use crate::algebra::tidy;
 use crate::algebra::{self, Field, Sign};
 use crate::domain::{Domains, roles, samples, samples_until};
-use crate::expr::{Expr, Node, Point};
+use crate::expr::{Expr, Function, Node, Point};
 use crate::formula::Sentence;
 use crate::interval::{Interval, Outcome, evaluate};
 
@@ -114,7 +114,33 @@ pub fn sign(e: &Expr, domains: &Domains) -> Seen {
             _ => {}
         }
     }
-    seen(e, domains)
+    match in_bars(e, |_| true) {
+        Some((bars, inside)) => {
+            // It has its sign where it has it with either sign of what stands in bars.
+            let [one, other] = [inside.clone(), -inside].map(|side| {
+                let open = e.replace(&bars, &side);
+                sign(&open, &domains.given(&side, true))
+            });
+            match (one, other) {
+                (Seen::Proved(a), Seen::Proved(b)) if a == b => one,
+                (Seen::Proved(a), Seen::Proved(b))
+                    if a.is_not_negative() && b.is_not_negative() =>
+                {
+                    Seen::Proved(Sign::NotNegative)
+                }
+                _ => seen(e, domains),
+            }
+        }
+        None => seen(e, domains),
+    }
+}
+
+/// The first magnitude in an expression, and what stands in its bars, where that is of a kind.
+pub(super) fn in_bars(e: &Expr, is_wanted: impl Fn(&Expr) -> bool) -> Option<(Expr, Expr)> {
+    e.parts().find_map(|part| match part.node() {
+        Node::Call(Function::Abs, x) if is_wanted(x) => Some((part.clone(), x.clone())),
+        _ => None,
+    })
 }
 
 /// Whether something is proved to be positive, or not negative where `closed`, on the whole domain, or nowhere.

@@ -8,14 +8,14 @@
 use num_traits::Signed;
 
 use super::Check;
-use super::calc::{Seen, is_zero, sign, tidy};
+use super::calc::{Seen, in_bars, is_zero, sign, tidy};
 use super::powers::{self, Found, Tends, by_powers, not_zero};
 use super::solve::{stated, within};
 use super::taylor::{Side, Taylor, rooted};
 use super::{Answer, Form, Near};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, roles, samples};
-use crate::expr::{Expr, Node, Symbol};
+use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{Sentence, sentence, write_plain};
 use crate::interval::rounding;
 
@@ -59,12 +59,81 @@ fn cannot_come(parameter: &Symbol, to: Option<&Expr>, domains: &Domains) -> Opti
 }
 
 fn found(of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) -> Option<Found> {
+    if let Some(open) = without_bars(of, parameter, to, domains) {
+        return found(&open, parameter, to, domains);
+    }
+    if let Some(arcs) = of_arcs(of, parameter, to, domains) {
+        return Some(arcs);
+    }
     match to {
         Some(to) => by_taylor(of, parameter, to, domains).or_else(|| {
             let at_root = to.is_zero() && side(parameter, to, domains) == Side::Above;
             at_root.then(|| by_powers(of, parameter, false, domains))?
         }),
         None => dying(of, parameter, domains).or_else(|| by_powers(of, parameter, true, domains)),
+    }
+}
+
+/// A formula without the first bars in it, where what stands in them has a sign in the end.
+fn without_bars(
+    of: &Expr,
+    parameter: &Symbol,
+    to: Option<&Expr>,
+    domains: &Domains,
+) -> Option<Expr> {
+    let (bars, inside) = in_bars(of, |x| x.mentions(parameter))?;
+    let is_above = match found(&inside, parameter, to, domains)?.tends {
+        Tends::To(value) => match sign(&value, domains) {
+            Seen::Proved(Sign::Positive) => true,
+            Seen::Proved(Sign::Negative) => false,
+            _ => return None,
+        },
+        Tends::Beyond(upwards) => upwards?,
+        Tends::Apart => return None,
+    };
+    Some(of.replace(&bars, &if is_above { inside } else { -inside }))
+}
+
+/// The limit of arcs, their multiples and sums: of each arc that of its argument, inside of which it is continuous.
+fn of_arcs(of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) -> Option<Found> {
+    let mut inner: Option<Found> = None;
+    let value = arcs_at(of, parameter, &mut |x| {
+        let found = found(x, parameter, to, domains)?;
+        let Tends::To(value) = &found.tends else {
+            return None;
+        };
+        let value = value.clone();
+        inner = Some(found);
+        Some(value)
+    })?;
+    let is_inside = |e: &Expr| match e.node() {
+        Node::Call(Function::Acos | Function::Asin, x) => {
+            let room = Expr::one() - x.powi(2);
+            matches!(sign(&room, domains), Seen::Proved(s) if s.is_not_negative())
+        }
+        _ => true,
+    };
+    let is_real = value.parts().all(is_inside);
+    is_real.then_some(())?;
+    let value = match value.is_constant() {
+        true => tidy(&value, domains).ok()?,
+        false => value,
+    };
+    Some(Found {
+        tends: Tends::To(value),
+        ..inner?
+    })
+}
+
+/// An expression of arcs with what their arguments tend to in their place.
+fn arcs_at(e: &Expr, p: &Symbol, tends: &mut impl FnMut(&Expr) -> Option<Expr>) -> Option<Expr> {
+    match e.node() {
+        _ if !e.mentions(p) => Some(e.clone()),
+        Node::Call(arc @ (Function::Acos | Function::Asin | Function::Atan), x) => {
+            Some(Expr::call(*arc, tends(x)?))
+        }
+        Node::Sum(_) | Node::Product(_) => e.try_map_parts(|part| arcs_at(part, p, tends)),
+        _ => None,
     }
 }
 

@@ -5,7 +5,7 @@
 
 use num_integer::Integer;
 
-use super::calc::{Seen, decisive, essential, is_zero, seen, sign, tidy};
+use super::calc::{Seen, decisive, essential, in_bars, is_zero, seen, sign, tidy};
 use crate::algebra::{self, Element, Field, Powers, Sign, Stop};
 use crate::domain::{Domain, Domains, Origin, Relation};
 use crate::expr::{Expr, Function, Node, Symbol};
@@ -102,8 +102,35 @@ impl From<Stop> for Unsolved {
     }
 }
 
-/// Solves e = 0 for a symbol, within its domain and the relations that bear upon it.
+/// Solves e = 0 for a symbol, within its domain and the relations that bear upon it. What stands in bars is taken with either
+/// sign, and of its roots those are kept at which it has that sign.
 pub fn solve(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unsolved> {
+    let Some((bars, x)) = in_bars(e, |x| x.mentions(symbol)) else {
+        return solve_without_bars(e, symbol, domains);
+    };
+    let mut out = Roots::default();
+    for side in [x.clone(), -x] {
+        let open = e.replace(&bars, &side);
+        let found = match solve(&open, symbol, &domains.given(&side, true)) {
+            // Every value on one side of the bars solves it.
+            Err(Unsolved::Absent) if is_zero(&open, domains) != Some(false) => {
+                return Err(Unsolved::Inside);
+            }
+            Err(Unsolved::Absent) => continue,
+            found => found?,
+        };
+        out.discarded.extend(found.discarded);
+        out.open = out.open.or(found.open);
+        for root in found.inside {
+            if out.inside.iter().all(|known| known.value != root.value) {
+                out.inside.push(root);
+            }
+        }
+    }
+    Ok(out)
+}
+
+fn solve_without_bars(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unsolved> {
     // That the scene gets there with some value of the symbol says nothing of the others.
     let mut apart = domains.clone();
     (apart.relations).retain(|r| r.origin == Origin::Stated || !r.excess.mentions(symbol));
