@@ -50,6 +50,11 @@ impl<T> Hypothesis<T> {
             Hypothesis::Brach { .. } => "Brach",
         }
     }
+
+    /// Whether it can gain kinetic energy at one contact; Poisson's, Stronge's, and Chatterjee and Ruina's never do.
+    pub fn may_gain(&self) -> bool {
+        matches!(self, Hypothesis::Newton | Hypothesis::Brach { .. })
+    }
 }
 
 impl<T> Friction<T> {
