@@ -8,8 +8,8 @@ use super::{Contact, ContactLaw, Scene, Stage, StageKind};
 /// What holds a hinge.
 pub const HINGED: &str = "is hinged to";
 
-/// The name of the contact that keeps what turned with a body.
-const FIXED: &str = "K";
+/// What holds a body that turns with another, and the name of the contact that keeps it there.
+const FIXED: [&str; 2] = ["is fixed to", "K"];
 
 /// Two bodies that are joined, how, and since which stage.
 pub struct Joint<'a> {
@@ -28,7 +28,7 @@ pub struct Joint<'a> {
 pub fn joints<'a>(stages: &'a [Stage], stage: &Stage) -> Vec<Joint<'a>> {
     let (mut out, mut later): (Vec<Joint>, Vec<[usize; 2]>) = (Vec::new(), Vec::new());
     let mut freed = Vec::new();
-    let mut moved = Vec::new();
+    let (mut fixed, mut moved): (Vec<Joint>, Vec<usize>) = (Vec::new(), Vec::new());
     let mut from = stage.from;
     while let Some(before) = from.map(|j| &stages[j]) {
         let contacts = before.scene.contacts.iter();
@@ -56,10 +56,10 @@ pub fn joints<'a>(stages: &'a [Stage], stage: &Stage) -> Vec<Joint<'a>> {
             let pairs = turn.with.iter().map(|b| [turn.body, *b]);
             let pairs =
                 pairs.filter(|pair| is_open(pair) && !pair.iter().any(|b| moved.contains(b)));
-            out.extend(pairs.map(|bodies| Joint {
+            fixed.extend(pairs.map(|bodies| Joint {
                 bodies,
-                how: "is fixed to",
-                name: FIXED,
+                how: FIXED[0],
+                name: FIXED[1],
                 since,
             }));
         }
@@ -70,6 +70,12 @@ pub fn joints<'a>(stages: &'a [Stage], stage: &Stage) -> Vec<Joint<'a>> {
         }
         from = before.from;
     }
+    // What has stuck in an impact is told by that.
+    fixed.retain(|f| {
+        !out.iter()
+            .any(|j| f.bodies.iter().all(|b| j.bodies.contains(b)))
+    });
+    out.extend(fixed);
     out
 }
 
@@ -107,14 +113,23 @@ pub(super) fn keep(scene: &mut Scene) {
     for i in 0..scene.stages.len() {
         // What is kept may strike, or take along, what sticks to it.
         while let Some((keep, bodies)) = kept(&scene.stages, &scene.stages[i]) {
+            let names = bodies.map(|b| scene.bodies[b].name.clone());
             match keep {
+                Keep::Fixed(contact) => {
+                    let [a, b] = names;
+                    let at = &contact.name;
+                    let reading =
+                        format!("`{b}`, which turns with `{a}`, stays fixed to it at `{at}`");
+                    told(scene, reading);
+                    scene.stages[i].scene.contacts.push(contact);
+                    continue;
+                }
                 Keep::Holding(contact) => scene.stages[i].scene.contacts.push(contact),
                 Keep::Moving { of, too } => match scene.stages[i].kind.company_of(of) {
                     Some(company) => company.push(too),
                     None => break,
                 },
             }
-            let names = bodies.map(|b| scene.bodies[b].name.clone());
             stays(scene, &names);
         }
     }
@@ -122,7 +137,13 @@ pub(super) fn keep(scene: &mut Scene) {
 
 /// The scene tells that what has stuck stays stuck.
 pub(super) fn stays(scene: &mut Scene, [a, b]: &[String; 2]) {
-    let reading = format!("once `{b}` has stuck to `{a}`, it stays stuck");
+    told(
+        scene,
+        format!("once `{b}` has stuck to `{a}`, it stays stuck"),
+    );
+}
+
+fn told(scene: &mut Scene, reading: String) {
     if !scene.readings.contains(&reading) {
         scene.readings.push(reading);
     }
@@ -159,6 +180,8 @@ pub(super) fn note(scene: &mut Scene) {
 enum Keep {
     /// An impact has this contact too.
     Holding(Contact),
+    /// The same of a particle that turned with a body.
+    Fixed(Contact),
     /// A motion takes a body along with another one of its own.
     Moving { of: usize, too: usize },
 }
@@ -177,15 +200,21 @@ fn kept(stages: &[Stage], stage: &Stage) -> Option<(Keep, [usize; 2])> {
         let mut both = joint.bodies.into_iter();
         let particle = both.find(|b| bodies[*b].is_particle());
         let keep = match particle {
-            Some(at) if is_impact => Keep::Holding(Contact {
-                name: free_name(stage, joint.name),
-                bodies: joint.bodies,
-                at: bodies[at].center.clone(),
-                normal: None,
-                law: ContactLaw::Sticking,
-                passes: false,
-                is_string: false,
-            }),
+            Some(at) if is_impact => {
+                let contact = Contact {
+                    name: free_name(stage, joint.name),
+                    bodies: joint.bodies,
+                    at: bodies[at].center.clone(),
+                    normal: None,
+                    law: ContactLaw::Sticking,
+                    passes: false,
+                    is_string: false,
+                };
+                match joint.how == FIXED[0] {
+                    true => Keep::Fixed(contact),
+                    false => Keep::Holding(contact),
+                }
+            }
             // What slides does not turn, and what sticks to it goes where it goes.
             _ if slides || particle.is_some() => {
                 let [of, too] = left_behind(stage, &joint)?;

@@ -1,11 +1,10 @@
 //! What has come to rest on a body that it slid on stays there by friction, as long as that suffices.
 
+use super::supposed::Supposed;
 use super::tidied;
-use crate::answer::calc::{Seen, sign};
+use crate::answer::calc::sign;
 use crate::scene::{Stage, StageKind};
 use crate::story::{Refused, StageTold, line};
-
-use super::supposed::Supposed;
 
 /// Adds to a slide what it needs so that a body which an earlier stage let slip on another moves along with it.
 pub(in crate::story) fn riders_stay(
@@ -39,8 +38,7 @@ pub(in crate::story) fn riders_stay(
             true => (acceleration.clone(), g.clone()),
             false => (acceleration + &(g * y), g * x),
         };
-        let side = |seen: Seen| seen.side();
-        let [pull, press] = [pull, press].map(|e| match side(sign(&e, &stage.scene.domains)) {
+        let [pull, press] = [pull, press].map(|e| match sign(&e, &stage.scene.domains).side() {
             Some(false) => -e,
             _ => e,
         });
