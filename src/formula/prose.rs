@@ -57,8 +57,8 @@ pub(super) fn changes(word: &str) -> bool {
 }
 
 /// Whether words before and behind a formula say no more than that it is what was asked: `Solving gives`, `is the answer`.
-/// Before it a verb or a colon leads to it, or all words are plain ones; behind it all are. What no list knows could change the
-/// value, but for that of an equation, which says itself what it is about.
+/// None changes a value; before it a verb, a colon or a plain word leads to it, behind it a plain word begins: what no list
+/// knows could change the value it stands next to, but for that of an equation, which says itself what it is about.
 fn lead_to_it(before: &str, formula: &str, behind: &str) -> bool {
     const LEADS: &str = "is are was be becomes became equals gives give gave get got gets obtain obtains obtained find finds found \
         yields yield have hence thus so then therefore finally namely follows answer solution result";
@@ -69,7 +69,8 @@ fn lead_to_it(before: &str, formula: &str, behind: &str) -> bool {
     const PLAIN: &str = "a after an and angular answer asked at ball before block bodies body both by center centre collision \
         correct desired disk energy final finally for here his hit i immediately impact impulse in is it its just kinetic loss \
         mass momentum my now of our qed required result rod sought solution speed spin stick that the their thus value \
-        velocities velocity wanted we which with";
+        velocities velocity wanted we which with afterward afterwards as because independent motion move moves moving since \
+        speeds together travel travels us where";
     let words = |text: &str| -> Vec<String> {
         let parts = text.split(|c: char| !c.is_alphabetic() && !"'’".contains(c));
         let parts = parts.filter(|word| !word.is_empty());
@@ -85,12 +86,15 @@ fn lead_to_it(before: &str, formula: &str, behind: &str) -> bool {
         [.., verb, to] if to == "to" => is_in(TO, verb),
         [.., given, by] if by == "by" => given == "given",
         [.., find, that] if that == "that" => is_in(THAT, find),
-        [.., last] => is_in(LEADS, last) || before.trim_end().ends_with(':'),
+        [.., speed, of] if of == "of" => is_in(PLAIN, speed),
+        [.., last] => is_in(LEADS, last) || is_in(PLAIN, last) || before.trim_end().ends_with(':'),
         [] => true,
     };
-    let plain = |word: &String| is_in(PLAIN, word);
-    let leads = || (led || said.iter().all(plain)) && more.iter().all(plain);
-    unchanged && (formula.contains('=') || leads())
+    let goes_on = || {
+        more.first()
+            .is_none_or(|word| is_in(PLAIN, word) && word != "of")
+    };
+    unchanged && (formula.contains('=') || led && goes_on())
 }
 
 /// Where the formula starts behind words that say what it is: `the speed of the boy u = 2 g t`, `its speed is 3 m/s`. Nothing
@@ -347,6 +351,12 @@ pub(super) fn formula_in_words(text: &str) -> Option<Faulty<(usize, usize)>> {
         })?;
     let (before, behind) = (&text[..from], &text[to..]);
     let foreign = |c: char| c.is_ascii_digit() || "$\\=+*/^_<>()[]{}|".contains(c);
+    // `(independent of the mass)` is said beside it.
+    let aside = behind.trim().trim_end_matches('.').strip_prefix('(');
+    let aside = aside.and_then(|words| words.strip_suffix(')'));
+    let behind = aside
+        .filter(|words| !words.contains(foreign))
+        .unwrap_or(behind);
     let words = |t: &str| {
         t.split(|c: char| !c.is_alphabetic())
             .any(|word| word.len() > 2)
