@@ -43,19 +43,23 @@ export function remember() {
   history.replaceState(null, "", `#${state}`);
 }
 
-// New values: the figure and the numbers follow, in the next frame at the latest.
-let waiting = false;
-export function valuesChanged() {
-  remember();
-  if (waiting) return;
-  waiting = true;
-  requestAnimationFrame(() => {
-    waiting = false;
-    // The figure is what the eye follows: the numbers come behind it.
-    redraw().then(renumber);
-    refilm();
-  });
+// New values: the figure follows at once, as fast as the server draws, and the numbers come behind it.
+let [drawing, moved] = [false, false];
+export async function valuesChanged() {
+  link();
+  moved = true;
+  if (drawing) return;
+  drawing = true;
+  while (moved) {
+    moved = false;
+    await redraw();
+    renumber();
+  }
+  drawing = false;
+  refilm();
 }
+// Browsers stop a page that writes its address too often.
+const link = quietly(remember, 200);
 const refilm = quietly(showFilm, 300);
 
 // Puts a scene on the bench, from its text where that was changed. A scene that cannot be read leaves the bench as it is.
