@@ -1,0 +1,203 @@
+//! What a parameter is, where the file does not say it: that of which it is the one number, such as the mass of a body.
+
+use super::stage::{FallEnd, SlideEnd, StageKind, Until};
+use super::{BlowImpulse, Body, ContactLaw, KnownQuantity, Scene, Shape};
+use crate::expr::{Expr, Node, Symbol, Vector};
+
+/// What a number is, with `{}` where a body stands, and of which body.
+type Use<'s> = (&'static str, Option<&'s str>, &'s Expr);
+
+/// Gives words to the parameters that have none and stand alone for a number of a body, a contact or a motion.
+pub(super) fn infer(scene: &mut Scene) {
+    let meanings: Vec<(usize, String)> = {
+        let uses = uses(scene);
+        let all = scene.parameters.iter().enumerate();
+        let unsaid = all.filter(|(_, p)| p.meaning.is_empty());
+        unsaid
+            .filter_map(|(i, p)| Some((i, words(&uses, &p.name)?)))
+            .collect()
+    };
+    for (i, meaning) in meanings {
+        for stage in &mut scene.stages {
+            let name = &scene.parameters[i].name;
+            let own = stage.scene.parameters.iter_mut();
+            let mut own = own.filter(|p| p.name == *name);
+            if let Some(own) = own.next() {
+                own.meaning.clone_from(&meaning);
+            }
+        }
+        scene.parameters[i].meaning = meaning;
+    }
+}
+
+/// What a parameter is, by its first use: `mass of the rod`, `mass of body a and of body b`.
+fn words(uses: &[Use<'_>], name: &Symbol) -> Option<String> {
+    let is_it = |e: &Expr| e.as_symbol() == Some(name) || (-e).as_symbol() == Some(name);
+    let mut mine = uses.iter().filter(|(.., e)| is_it(e));
+    let (what, first, _) = mine.next()?;
+    let mut bodies: Vec<String> = first.iter().map(|body| called(body)).collect();
+    for (_, body, _) in mine.filter(|(also, ..)| also == what) {
+        let body = body.map(called);
+        bodies.extend(body.filter(|body| !bodies.contains(body)));
+    }
+    Some(what.replace("{}", &bodies.join(" and of ")))
+}
+
+/// `the rod` and `body a`.
+fn called(body: &str) -> String {
+    match body.len() > 2 && body.chars().all(|c| c.is_ascii_lowercase() || c == '_') {
+        true => format!("the {}", body.replace('_', " ")),
+        false => format!("body {body}"),
+    }
+}
+
+/// Every number that the scene names alone.
+fn uses(scene: &Scene) -> Vec<Use<'_>> {
+    let mut out = Vec::new();
+    for body in &scene.bodies {
+        of_body(body, &mut out);
+    }
+    let stages = scene.stages.iter().map(|stage| &stage.scene);
+    for at in [scene].into_iter().chain(stages) {
+        of_impact(at, &mut out);
+    }
+    for stage in &scene.stages {
+        out.extend(
+            stage
+                .kind
+                .gravity()
+                .map(|g| ("acceleration of gravity", None, g)),
+        );
+        of_motion(scene, &stage.kind, &mut out);
+    }
+    out
+}
+
+fn of_body<'s>(body: &'s Body, out: &mut Vec<Use<'s>>) {
+    let mut push = |what, e| out.push((what, Some(body.name.as_str()), e));
+    if !matches!(body.shape, Shape::Fixed) {
+        push("mass of {}", &body.mass);
+    }
+    if body.inertia_given {
+        push("moment of inertia of {}", &body.inertia);
+    }
+    match &body.shape {
+        Shape::Rod { length } => push("length of {}", length),
+        Shape::Disk { radius } | Shape::Ring { radius } | Shape::Sphere { radius } => {
+            push("radius of {}", radius);
+        }
+        Shape::Rectangle { width, height } => {
+            push("width of {}", width);
+            push("height of {}", height);
+        }
+        _ => {}
+    }
+    if let Some((speed, angle)) = polar(&body.velocity) {
+        push("speed of {} at first", speed);
+        if let Some(angle) = angle {
+            push("angle between x and the first velocity of {}", angle);
+        }
+    }
+    push("angular velocity of {} at first", &body.spin);
+    push("angle between x and the axis of {}", &body.angle);
+    if let Shape::Composite { parts } = &body.shape {
+        parts.iter().for_each(|part| of_body(part, out));
+    }
+}
+
+/// The size of a vector along an axis, or at an angle to x.
+fn polar([x, y]: &Vector) -> Option<(&Expr, Option<&Expr>)> {
+    if x.is_zero() || y.is_zero() {
+        let along = if y.is_zero() { x } else { y };
+        return symbol_in(along).map(|size| (size, None));
+    }
+    let angle = x.factors().iter().find_map(|f| match f.node() {
+        Node::Call(_, angle) if angle.as_symbol().is_some() => Some(angle),
+        _ => None,
+    })?;
+    let shared = |e: &&Expr| e.as_symbol().is_some() && y.factors().contains(e);
+    Some((x.factors().iter().find(shared)?, Some(angle)))
+}
+
+/// The one name of `v` and of `−v`.
+fn symbol_in(e: &Expr) -> Option<&Expr> {
+    let factors = e.factors();
+    let is_alone = e.symbols().len() == 1 && factors.len() <= 2;
+    factors
+        .iter()
+        .find(|f| f.as_symbol().is_some())
+        .filter(|name| is_alone && (e == *name || *e == -*name))
+}
+
+fn of_impact<'s>(scene: &'s Scene, out: &mut Vec<Use<'s>>) {
+    for contact in &scene.contacts {
+        match &contact.law {
+            ContactLaw::Frictionless { restitution } => {
+                out.push(("coefficient of restitution", None, restitution));
+            }
+            ContactLaw::Friction(law) => {
+                out.push(("coefficient of restitution", None, &law.restitution));
+                out.push(("coefficient of friction", None, &law.mu));
+            }
+            _ => {}
+        }
+    }
+    for blow in &scene.blows {
+        if let BlowImpulse::Given(impulse) = &blow.impulse
+            && let Some((size, _)) = polar(impulse)
+        {
+            out.push(("impulse of the blow", None, size));
+        }
+    }
+    for known in &scene.after {
+        let what = match known.what {
+            KnownQuantity::Velocity { to: None, .. } => "velocity of {} just after",
+            KnownQuantity::Spin => "angular velocity of {} just after",
+            KnownQuantity::Velocity { .. } => continue,
+        };
+        let name = scene.bodies[known.body].name.as_str();
+        out.push((what, Some(name), &known.value));
+    }
+}
+
+fn of_motion<'s>(scene: &'s Scene, kind: &'s StageKind, out: &mut Vec<Use<'s>>) {
+    let name = |b: usize| Some(scene.bodies[b].name.as_str());
+    match kind {
+        StageKind::Turn(turn) => match &turn.until {
+            Until::By(angle) => out.push(("angle of the turn of {}", name(turn.body), angle)),
+            Until::For(time) => out.push(("time of the turn of {}", name(turn.body), time)),
+            _ => {}
+        },
+        StageKind::Slide(slide) => {
+            let friction = slide.friction.iter();
+            out.extend(friction.map(|mu| ("coefficient of sliding friction", None, mu)));
+            let spring = slide.spring.iter();
+            out.extend(spring.map(|spring| ("stiffness of the spring", None, &spring.stiffness)));
+            let force = slide.force.iter();
+            out.extend(force.map(|force| ("force along the line", None, force)));
+            match &slide.until {
+                SlideEnd::Distance(way) => out.push(("way of {}", name(slide.body), way)),
+                SlideEnd::Time(time) => {
+                    out.push(("time of the motion of {}", name(slide.body), time))
+                }
+                _ => {}
+            }
+        }
+        StageKind::Fall(fall) => match &fall.until {
+            FallEnd::Drop(height) => {
+                let what = if fall.rising {
+                    "height of the rise of {}"
+                } else {
+                    "height of the fall of {}"
+                };
+                out.push((what, name(fall.body), height));
+            }
+            FallEnd::Range(range) => {
+                out.push(("range of the flight of {}", name(fall.body), range))
+            }
+            FallEnd::Time(time) => out.push(("time of the flight of {}", name(fall.body), time)),
+            _ => {}
+        },
+        _ => {}
+    }
+}
