@@ -70,7 +70,7 @@ pub(super) fn write(e: &Expr, scene: &Scene, out: &mut Label, depth: usize) {
 }
 
 fn product(e: &Expr, scene: &Scene, out: &mut Label, depth: usize) {
-    let q = Quotient::of(e);
+    let q = Quotient::typeset(e);
     out.push(if q.negative { "−" } else { "" }, false, Level::Base);
     if q.above.is_empty() {
         out.push("1", false, Level::Base);

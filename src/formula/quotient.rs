@@ -25,6 +25,29 @@ impl Quotient {
         q
     }
 
+    /// The same for people: a sine over the cosine of the same angle is its tangent, and the other way round below the bar.
+    pub fn typeset(e: &Expr) -> Quotient {
+        let mut q = Quotient::of(e);
+        q.tangents();
+        std::mem::swap(&mut q.above, &mut q.below);
+        q.tangents();
+        std::mem::swap(&mut q.above, &mut q.below);
+        q
+    }
+
+    /// Tangents above the bar, for sines there and cosines below of the same angle and power.
+    fn tangents(&mut self) {
+        for factor in &mut self.above {
+            let Some((cosine, tangent)) = in_place_of_sine(factor) else {
+                continue;
+            };
+            if let Some(at) = self.below.iter().position(|below| *below == cosine) {
+                self.below.remove(at);
+                *factor = tangent;
+            }
+        }
+    }
+
     /// Sorts factors into above and below; a product below is opened, so that its factors stand beside the others.
     fn take(&mut self, factors: &[Expr]) {
         for factor in factors {
@@ -57,6 +80,18 @@ impl Quotient {
                 _ => self.above.push(factor.clone()),
             }
         }
+    }
+}
+
+/// The cosine of the same angle and power as a sine, and the tangent.
+fn in_place_of_sine(factor: &Expr) -> Option<(Expr, Expr)> {
+    match factor.node() {
+        Node::Call(Function::Sin, angle) => Some((angle.cos(), angle.tan())),
+        Node::Power(base, k) => {
+            let (cosine, tangent) = in_place_of_sine(base)?;
+            Some((cosine.power(k.clone()), tangent.power(k.clone())))
+        }
+        _ => None,
     }
 }
 

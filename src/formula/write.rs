@@ -55,7 +55,10 @@ fn write(e: &Expr, style: Style, names: Names) -> String {
 impl Writer<'_> {
     fn sum(&mut self, e: &Expr) {
         for (i, term) in e.terms().iter().enumerate() {
-            let q = Quotient::of(term);
+            let q = match self.style {
+                Style::Plain => Quotient::of(term),
+                _ => Quotient::typeset(term),
+            };
             match (i, q.negative) {
                 (0, true) => self.out.push_str(if self.style == Style::Unicode {
                     "−"

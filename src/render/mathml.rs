@@ -136,7 +136,7 @@ fn words(index: &str) -> String {
 pub fn expr(solution: &Solution, e: &Expr) -> String {
     let mut out = String::from("<mrow>");
     for (i, term) in e.terms().iter().enumerate() {
-        let q = Quotient::of(term);
+        let q = Quotient::typeset(term);
         match (i, q.negative) {
             (_, true) => out.push_str("<mo>−</mo>"),
             (0, false) => {}
