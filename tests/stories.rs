@@ -5,6 +5,7 @@ use crate::shared;
 use std::path::{Path, PathBuf};
 
 use carom::answer::{Answer, Form};
+use carom::command::{self, Format, Numbers};
 use carom::equality::{Equality, How, decide};
 use carom::formula::{Content, Symbols, read, write_plain};
 use carom::numeric::{self, Answer as Found, follow};
@@ -620,6 +621,37 @@ fn the_numbers_of_every_stage_are_printed() {
     );
     scene.parameters[0].value = None;
     assert!(follow::values(&scene).is_err_and(|missing| missing.len() == 1));
+}
+
+#[test]
+fn numbers_tell_formulas_of_answers_and_directions_in_degrees() {
+    let solved = |name: &str, values: &[(&str, &str)]| {
+        let mut scene = scene(name);
+        for (name, value) in values {
+            carom::scene::set(&mut scene, name, value).expect("a value");
+        }
+        let out = command::solve(&scene, Numbers::Doubles, Format::Text);
+        out.expect("numbers").text
+    };
+    let wall = [
+        ("m", "1"),
+        ("u", "2"),
+        ("w", "1"),
+        ("h", "5"),
+        ("g", "10"),
+        ("e", "1/2"),
+    ];
+    let text = solved("where-a-ball-goes-from-a-wall", &wall);
+    assert!(
+        text.contains("phi = 2.356194490192345 rad ≈ 135°"),
+        "{text}"
+    );
+    let drop = [("m", "1"), ("v", "3"), ("h", "5"), ("g", "10")];
+    let text = solved("answers-named-by-double-letters", &drop);
+    assert!(text.contains("twice = 5.99999999999999"), "{text}");
+    let balls = [("m", "2"), ("M", "1"), ("v", "3")];
+    let text = solved("ball-at-half-its-speed", &balls);
+    assert!(text.lines().any(|l| l == "d = 1 m/s"), "{text}");
 }
 
 #[test]

@@ -5,14 +5,20 @@
 
 use std::collections::BTreeSet;
 
-use super::calc::{beyond_zero, essential, is_zero, keeps_to, tidy};
+use num_traits::Signed;
+
+use super::calc::{
+    Seen, above_zero, beyond_zero, by_signs, essential, is_zero, keeps_to, sign, tidy,
+};
+use super::powers::not_zero;
 use super::{
     Answer, Check, Form, Known, Refused, inequality, limit, optimum, solve, threshold, zeros,
 };
+use crate::algebra::Sign;
 use crate::dimension::{self, Dimension};
 use crate::domain::{Domain, Domains};
 use crate::equality::{self, Equality, How};
-use crate::expr::{Expr, Node, Symbol};
+use crate::expr::{Expr, Function, Node, Symbol, Vector};
 use crate::formula::{Relation, write_plain};
 use crate::formula::{Sentence, sentence};
 use crate::scene::{Ask, Question, Scene};
@@ -210,7 +216,38 @@ pub(super) fn put(
     if e.size() > LONGEST {
         return Err(Refused::uncalculated(name, "too long"));
     }
-    tidy(&e, &scene.domains).map_err(|stop| Refused::uncalculated(name, stop))
+    let tidied =
+        |e: &Expr| tidy(e, &scene.domains).map_err(|stop| Refused::uncalculated(name, stop));
+    // An angle, or a multiple of one, stays the arc as which it is asked: acos(1 − x) is no π/2 + asin(x − 1).
+    let (fixed, rest): (Vec<Expr>, Vec<Expr>) =
+        e.factors().iter().cloned().partition(Expr::is_constant);
+    let arc = match rest.as_slice() {
+        [arc] => arc,
+        _ => return tidied(&e),
+    };
+    let Node::Call(function @ (Function::Acos | Function::Asin | Function::Atan), x) = arc.node()
+    else {
+        return tidied(&e);
+    };
+    let own = Expr::product(fixed) * Expr::call(*function, tidied(x)?);
+    let other = tidied(&own)?;
+    Ok(if other.size() < own.size() {
+        other
+    } else {
+        own
+    })
+}
+
+/// The angle of which a formula is the tangent, where it lies within a quarter turn of zero.
+fn angle_of(tangent: &Expr, domains: &Domains) -> Option<Expr> {
+    let angle = tangent.factors().iter().find_map(|f| match f.node() {
+        Node::Call(Function::Sin, angle) => Some(angle),
+        _ => None,
+    })?;
+    let quarter = Expr::pi() * Expr::ratio(1, 2);
+    let room = [&quarter - angle, &quarter + angle];
+    let is_within = |room: &Expr| sign(room, domains) == Seen::Proved(Sign::Positive);
+    (*tangent == angle.sin() / angle.cos() && room.iter().all(is_within)).then(|| angle.clone())
 }
 
 /// A question about formulas on its way to an answer.
@@ -234,7 +271,11 @@ impl Work<'_> {
                 formula,
                 with,
                 meaning,
-            } => self.value(of.unwrap_or(formula), with, meaning),
+                polar,
+            } => match polar {
+                Some(parts) => self.direction(formula, parts, meaning),
+                None => self.value(of.unwrap_or(formula), with, meaning),
+            },
             Ask::Condition {
                 parameter,
                 left,
@@ -299,12 +340,76 @@ impl Work<'_> {
             None if with.is_empty() => self.dimension_of(&value)?,
             None => Dimension::none(),
         };
+        out.assumptions.extend(self.divided_by(&value));
         let raw = self.raw(formula, with);
         let substituted = raw.substitute(self.known);
         out.checks.push(self.same(&substituted, &value));
         out.put_in.push((raw, value.clone(), SUBSTITUTED));
         out.form = Form::value(value);
         out.text.extend(with_words(with));
+        Ok(out)
+    }
+
+    /// What a value divides by and what is known, or was seen, to vanish somewhere on the domain.
+    fn divided_by(&self, value: &Expr) -> Vec<Sentence> {
+        let domains = &self.scene.domains;
+        let below = value.parts().filter_map(|part| match part.node() {
+            Node::Power(base, k) if k.as_number().is_some_and(Signed::is_negative) => Some(base),
+            _ => None,
+        });
+        let vanishes = below.filter(|base| match sign(base, domains) {
+            Seen::Proved(sign) => !matches!(sign, Sign::Positive | Sign::Negative),
+            Seen::Positive | Seen::Negative => false,
+            Seen::Mixed => true,
+        });
+        let mut out: Vec<Sentence> = Vec::new();
+        for condition in vanishes.filter_map(|base| not_zero(base, domains)) {
+            if !out.contains(&condition) {
+                out.push(condition);
+            }
+        }
+        out
+    }
+
+    /// The angle of a direction, as the proved signs of its components tell in which quarter it lies; where they tell nothing, by
+    /// that of its half.
+    fn direction(&self, half: &Expr, parts: &Vector, meaning: &str) -> Result<Answer, Refused> {
+        let mut out = self.blank(meaning);
+        let domains = &self.scene.domains;
+        let [x, y] = [self.put(&parts[0], &[])?, self.put(&parts[1], &[])?];
+        let (x_sign, y_sign) = (sign(&x, domains), sign(&y, domains));
+        use Sign::{Negative, Positive, Zero};
+        let quarter = || Expr::pi() * Expr::ratio(1, 2);
+        let tidied =
+            |e: &Expr| tidy(e, domains).map_err(|stop| Refused::uncalculated(self.name, stop));
+        let arc = |above: &Expr, below: &Expr| {
+            let tangent = tidied(&(above / below))?;
+            let is_along = tangent.is_zero().then(Expr::zero);
+            let angle = is_along.or_else(|| angle_of(&tangent, domains));
+            Ok(angle.unwrap_or_else(|| tangent.atan()))
+        };
+        let angle = match (x_sign, y_sign) {
+            (Seen::Proved(Zero), Seen::Proved(Zero)) => {
+                return Ok(out.leave_open(sentence!("what is at rest moves in no direction")));
+            }
+            (Seen::Proved(Positive), _) => arc(&y, &x)?,
+            (Seen::Proved(Negative), Seen::Proved(Negative)) => arc(&y, &x)? - Expr::pi(),
+            (Seen::Proved(Negative), _) => Expr::pi() - arc(&y, &-&x)?,
+            (_, Seen::Proved(Positive)) => quarter() - arc(&x, &y)?,
+            (_, Seen::Proved(Negative)) => -quarter() - arc(&x, &y)?,
+            (_, Seen::Proved(Zero)) => {
+                out.assumptions.push(above_zero(&x, domains));
+                Expr::zero()
+            }
+            _ => tidied(&half.substitute(self.known))?,
+        };
+        out.form = Form::value(angle);
+        let proved = x_sign.is_proved() || y_sign.is_proved();
+        out.checks.push(by_signs(
+            "identity",
+            "its tangent is the quotient of the components, whose signs ({how}) tell the quarter",
+            proved,
+        ));
         Ok(out)
     }
 

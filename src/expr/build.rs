@@ -157,6 +157,11 @@ impl Expr {
         Expr::call(Function::Tan, self.clone())
     }
 
+    /// Arc tangent, between −π/2 and π/2.
+    pub fn atan(&self) -> Expr {
+        Expr::call(Function::Atan, self.clone())
+    }
+
     /// Whether the expression has a value at every real point of its symbols: no quotient, root, logarithm and the like.
     fn is_total(&self) -> bool {
         use Function::{Acos, Asin, Ln, Tan};

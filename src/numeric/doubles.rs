@@ -14,8 +14,29 @@ use crate::expr::Rational;
 use crate::expr::number::to_f64;
 use crate::scene::Scene;
 
-/// A double for every question that asks for numbers.
+/// A double for every question that asks for numbers, and for formulas of such.
 pub fn doubles(scene: &Scene) -> Result<Answered<f64>, NoAnswer> {
+    let mut out = motion(scene)?;
+    let Ok(mut known) = values(scene) else {
+        return Ok(out);
+    };
+    for question in &scene.questions {
+        let name = &question.name;
+        let is_put_in = question.ask.with().is_empty();
+        if let Some(value) = question.ask.value(&known).filter(|_| is_put_in) {
+            out.push((name.clone(), Ok(Answer::Scalar(value))));
+        }
+        let found = out.iter().find(|(of, _)| of == name);
+        let parts = found.and_then(|(_, found)| Some(found.clone().ok()?.components()));
+        for (part, value) in parts.into_iter().flatten() {
+            let name = format!("{name}{part}").as_str().into();
+            known.values.insert(name, value);
+        }
+    }
+    Ok(out)
+}
+
+fn motion(scene: &Scene) -> Result<Answered<f64>, NoAnswer> {
     if scene.friction().is_some() {
         return with_friction(scene);
     }

@@ -35,7 +35,7 @@ use crate::dimension::Dimension;
 use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::formula::{Symbols, is_hidden, trimmed, visible};
 use crate::numeric::{self, Answered};
-use crate::scene::Scene;
+use crate::scene::{Ask, Scene};
 pub use crate::solution::assumptions;
 use crate::solution::{Solution, is_safe_latex};
 
@@ -319,8 +319,18 @@ pub fn in_units_of_data(scene: &Scene, dimension: &Dimension, value: f64) -> (f6
     (value / system.scale(dimension), system.unit(dimension))
 }
 
+/// The number that a question is answered with, in the units of the data; an angle in radians and in degrees.
+pub fn answered(scene: &Scene, ask: &Ask, value: f64) -> String {
+    if ask.is_angle() {
+        let degrees = digits(value.to_degrees());
+        return format!("{} rad ≈ {degrees}°", double(value));
+    }
+    let (value, unit) = in_units_of_data(scene, &scene.dimension_of(ask), value);
+    format!("{} {unit}", double(value)).trim_end().to_owned()
+}
+
 /// The SI unit of what a question asks for.
 pub fn unit_of(scene: &Scene, question: &str) -> String {
     let found = scene.question(question);
-    found.map_or_else(String::new, |q| q.ask.dimension().spoken())
+    found.map_or_else(String::new, |q| scene.dimension_of(&q.ask).spoken())
 }

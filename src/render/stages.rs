@@ -4,11 +4,10 @@ use std::fmt::Write;
 
 use serde_json::{Map, Value, json};
 
-use crate::dimension::{self, Dimension};
 use crate::expr::Point;
 use crate::numeric::follow::{
     BodyState, Breach, Component, Followed, Impact, Impulse, Loss, Lost, Moved, Passed, Unanswered,
-    What, answer,
+    What, answer, named,
 };
 use crate::numeric::given::Freedom;
 use crate::scene::{Ask, Scene};
@@ -41,12 +40,9 @@ pub fn text(scene: &Scene, followed: &Followed, at: &Point<f64>) -> String {
             Err(lost) => writeln!(out, "{} ({kind})\n  {lost}\n", stage.name),
         };
     }
-    for (name, kind, value) in answers(scene, followed, at) {
+    for (name, ask, value) in answers(scene, followed, at) {
         let _ = match value {
-            Ok(value) => {
-                let (value, unit) = super::in_units_of_data(scene, &kind, value);
-                writeln!(out, "{name} = {} {unit}", super::double(value))
-            }
+            Ok(value) => writeln!(out, "{name} = {}", super::answered(scene, ask, value)),
             Err(reason) => writeln!(out, "{name}: {reason}"),
         };
     }
@@ -192,38 +188,34 @@ fn breach_words(breach: &Breach) -> String {
 }
 
 /// Name, dimension and value of every answer that is a number.
-fn answers(
-    scene: &Scene,
+fn answers<'s>(
+    scene: &'s Scene,
     followed: &Followed,
     at: &Point<f64>,
-) -> Vec<(String, Dimension, Result<f64, String>)> {
+) -> Vec<(String, &'s Ask, Result<f64, String>)> {
     let mut out = Vec::new();
     for question in &scene.questions {
         let name = &question.name;
         let found = answer(scene, followed, question, at);
-        let kind = match &question.ask {
-            Ask::Turn { of, .. } => dimension::of(&of[0], &|name| kind_of(scene, name)),
-            ask => Ok(Some(ask.dimension())),
-        };
-        let kind = kind.ok().flatten().unwrap_or_else(Dimension::none);
+        let ask = &question.ask;
         match found {
             Ok(found) => {
                 let parts = found.components().into_iter();
-                out.extend(parts.map(|(part, v)| (format!("{name}{part}"), kind.clone(), Ok(v))));
+                out.extend(parts.map(|(part, v)| (format!("{name}{part}"), ask, Ok(v))));
             }
-            Err(Unanswered::NotANumber) => {}
-            Err(reason) => out.push((name.clone(), kind, Err(reason.to_string()))),
+            Err(Unanswered::NotANumber) => {
+                let value = match ask {
+                    Ask::Value { with, .. } if with.is_empty() => {
+                        named(scene, followed, &name.as_str().into(), at)
+                    }
+                    _ => None,
+                };
+                out.extend(value.map(|value| (name.clone(), ask, Ok(value))));
+            }
+            Err(reason) => out.push((name.clone(), ask, Err(reason.to_string()))),
         }
     }
     out
-}
-
-/// The dimension of a parameter, or of what a question about motion asks for.
-fn kind_of(scene: &Scene, name: &str) -> Option<Dimension> {
-    let given = scene.parameter(name);
-    let asked = || scene.answering(name).filter(|q| q.ask.is_motion());
-    let given = given.map(|p| p.dimension.clone());
-    given.or_else(|| Some(asked()?.ask.dimension()))
 }
 
 /// The same as data.
@@ -245,8 +237,8 @@ pub fn json(scene: &Scene, followed: &Followed, at: &Point<f64>) -> Value {
         })
         .collect();
     let answers = answers(scene, followed, at);
-    let answers = answers.into_iter().map(|(name, kind, value)| {
-        let unit = kind.spoken();
+    let answers = answers.into_iter().map(|(name, ask, value)| {
+        let unit = scene.dimension_of(ask).spoken();
         match value {
             Ok(value) => json!({"name": name, "value": value, "unit": unit}),
             Err(reason) => {

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use super::unicode;
 use crate::answer::{Answer, Check, Form, Matrix, given_alike};
 use crate::derive::Derivation;
-use crate::dimension::{Dimension, System};
+use crate::dimension::System;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Relation, Sentence};
 use crate::laws;
@@ -291,18 +291,17 @@ pub fn refused(refusals: &[String]) -> String {
 pub fn numbers(scene: &Scene, numbers: &[super::Number]) -> String {
     let mut out = String::new();
     for number in numbers {
-        let asked = scene.question(&number.question);
-        let dimension = asked.map_or_else(Dimension::none, |q| q.ask.dimension());
+        let Some(asked) = scene.question(&number.question) else {
+            continue;
+        };
         let text = match &number.value {
-            Ok(value) => {
-                let (told, unit) = super::in_units_of_data(scene, &dimension, value.approximate);
-                match &value.exact {
-                    Some(exact) if scene.system() == System::Si => {
-                        format!("{exact} {unit} ≈ {}", super::digits(told))
-                    }
-                    _ => format!("{} {unit}", super::double(told)),
+            Ok(value) => match &value.exact {
+                Some(exact) if scene.system() == System::Si => {
+                    let unit = scene.dimension_of(&asked.ask).spoken();
+                    format!("{exact} {unit} ≈ {}", super::digits(value.approximate))
                 }
-            }
+                _ => super::answered(scene, &asked.ask, value.approximate),
+            },
             Err(reason) => reason.clone(),
         };
         let _ = writeln!(out, "{} = {text}", number.name);

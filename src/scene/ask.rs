@@ -2,7 +2,7 @@
 
 use super::{FrictionEvent, Turns};
 use crate::dimension::Dimension;
-use crate::expr::{Expr, Symbol, Vector};
+use crate::expr::{Expr, Point, Symbol, Vector};
 use crate::formula::Relation;
 
 /// Something asked of the scene.
@@ -147,6 +147,8 @@ pub enum Ask {
         with: Vec<(Symbol, Expr)>,
         /// What it is, such as the speed of a body; empty for a formula that a scene writes itself.
         meaning: String,
+        /// Of the direction of a velocity, whose angle the formula is: the components, along x and y.
+        polar: Option<Vector>,
     },
     /// The coefficient of friction from which a contact sticks or jams, or up to which it slides.
     Friction {
@@ -305,6 +307,33 @@ impl Ask {
             Ask::Limit { of, to, .. } => std::iter::once(of).chain(to).collect(),
             Ask::Approximate { of, to, .. } => vec![of, to],
             _ => Vec::new(),
+        }
+    }
+
+    /// The number of a value where the names in it have these: of a direction whichever way its angle is written.
+    pub fn value(&self, names: &Point<f64>) -> Option<f64> {
+        match self {
+            Ask::Value {
+                polar: Some([x, y]),
+                ..
+            } => Some(y.evaluate(names)?.atan2(x.evaluate(names)?)),
+            Ask::Value { formula, .. } => formula.evaluate(names),
+            _ => None,
+        }
+    }
+
+    /// Whether it asks for an angle.
+    pub fn is_angle(&self) -> bool {
+        matches!(self, Ask::Angle { .. } | Ask::Value { polar: Some(_), .. })
+    }
+
+    /// Whether it counts a turn clockwise.
+    pub fn is_clockwise(&self) -> bool {
+        match self {
+            Ask::Spin { clockwise, .. }
+            | Ask::Angle { clockwise, .. }
+            | Ask::AngularAcceleration { clockwise, .. } => *clockwise,
+            _ => false,
         }
     }
 

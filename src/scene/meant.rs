@@ -27,7 +27,9 @@ pub(super) fn example(fields: &[&str]) -> Option<&'static str> {
         _ if fields.contains(&"threshold") => {
             Some("such as {\"velocity\": \"A\", \"along\": \"x\"}")
         }
-        _ if fields.starts_with(&["unit", "meaning"]) => Some("such as {\"unit\": \"kg\"}"),
+        _ if fields.starts_with(&["unit", "meaning"]) => {
+            Some("such as {\"unit\": \"kg\"}, or with its value {\"value\": \"3 kg\"}")
+        }
         _ if fields.starts_with(&["body", "with", "friction"]) => Some(
             "what is slid `on` moves too, such as {\"body\": \"plank\"}; fixed ground has no `on`",
         ),

@@ -18,6 +18,7 @@ mod friction;
 mod geometry;
 mod joined;
 mod json;
+mod meaning;
 mod meant;
 pub mod outline;
 mod parameters;
@@ -90,6 +91,10 @@ pub fn read(text: &str) -> Result<Scene, Faults> {
         let (mut scene, all) = resolve::resolve(whole, turns, std::mem::take(faults));
         *faults = all;
         questions::name_centers(&file, &mut scene);
+        // A statement says what its letters are.
+        if scene.statement.is_empty() {
+            meaning::infer(&mut scene);
+        }
         scene
     })
 }

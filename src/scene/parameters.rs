@@ -149,8 +149,8 @@ pub(super) fn value(formula: &Formula, unit: &Unit, faults: &mut Vec<Fault>) -> 
     let before = faults.len();
     let value = Symbols::new(BTreeMap::new()).measured(formula, unit, faults);
     for fault in &mut faults[before..] {
-        let hint = || "a value is a number, or a formula without symbols".to_owned();
-        fault.hint.get_or_insert_with(hint);
+        let hint = "a value is a number, or a formula without symbols; its unit stands behind the whole of it";
+        fault.hint.get_or_insert_with(|| hint.to_owned());
     }
     let value = value?;
     let number = value.evaluate::<f64>(&Point::default());

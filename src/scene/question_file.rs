@@ -39,7 +39,7 @@ record! {
         along: Option<DirectionFile>,
         /// Angular velocity just after of this body.
         spin: Option<Text>,
-        /// Counts a spin, an angle or an angular acceleration clockwise.
+        /// Counts a spin, a direction, an angle or an angular acceleration clockwise.
         clockwise: Option<bool>,
         /// Impulse at this contact, hinge or blow.
         impulse: Option<Text>,
@@ -59,11 +59,15 @@ record! {
         /// belongs to. Missing: the last stage; for an impulse the one impact that has its place.
         at: Option<Text>,
         /// Beginning or end of the stage, for a reaction or an angular momentum; in a scene without stages also just before or
-        /// just after the impact, for a velocity, a speed or a spin. Missing: the end, or just after.
+        /// just after the impact, for a velocity, a speed, a direction or a spin. Missing: the end, or just after.
         when: Option<EndName>,
         /// Speed just after of this body (its center of mass), or of this point of the body named in `of`; in a scene with stages
         /// its velocity is answered too, under the same name with `_velocity`.
         speed: Option<Text>,
+        /// Direction just after in which this body moves (its center of mass), or this point of the body named in `of`: the angle of
+        /// its velocity from the x axis, counterclockwise unless `clockwise`; in a scene with stages that velocity is answered too,
+        /// under the same name with `_velocity`. The direction of a component is given `along`.
+        direction: Option<Text>,
         /// Moment of inertia of this body about the point `about`.
         inertia: Option<Text>,
         /// The point of this body, or beside it, that is at rest just after: its coordinates, by `_x` and `_y`.

@@ -13,7 +13,7 @@ use super::words::{self, fill, say};
 use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Solution};
 use crate::algebra::{Sign, sign};
 use crate::answer::{Answer, Form};
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Point, Symbol};
 use crate::formula::Relation;
 use crate::formula::{Piece, Sentence};
 use crate::scene::{Ask, Scene};
@@ -216,9 +216,18 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     if let Some(value) = number(scene, answer).filter(|_| !stands) {
         let radians =
             |p: &crate::scene::Parameter| Some(&p.name) == of.as_symbol() && p.unit == "rad";
-        let unit = match scene.parameters.iter().any(radians) {
-            true => " rad",
-            false => "",
+        let in_degrees = answer.formula().filter(|_| ask.is_angle());
+        let in_degrees = in_degrees.and_then(|e| {
+            e.substitute(&scene.values())
+                .evaluate(&Point::<f64>::default())
+        });
+        let unit = match in_degrees {
+            Some(angle) => format!(
+                " rad, or {}°",
+                crate::formula::trimmed(&format!("{:.1}", angle.to_degrees()))
+            ),
+            None if scene.parameters.iter().any(radians) => String::from(" rad"),
+            None => String::new(),
         };
         let value = say(format!("{value}{unit}."));
         solution.text(vec![say(NUMBERS), words::formula(&of), value]);
@@ -417,9 +426,18 @@ fn found(
         };
         let mut whole = line(&left, op, formula, named_step);
         if let Ask::Value {
+            polar: Some([x, y]),
+            ..
+        } = ask
+            && !x.is_zero()
+        {
+            found.push(line(&symbol.tan(), "=", &tidied(scene, &(y / x)), &None));
+        }
+        if let Ask::Value {
             formula: asked,
             with,
             meaning,
+            polar: None,
         } = ask
             && with.is_empty()
             && (meaning.is_empty() || is_of_answers(asked))

@@ -222,7 +222,7 @@ impl Change<'_> {
         Some(match self.way(&(&after.powi(2) - &before.powi(2))) {
             Some(true) => format!("turns {sense}, faster than before"),
             Some(false) => format!("turns {sense}, more slowly than before"),
-            None => format!("turns {sense}, at another rate"),
+            None => format!("turns {sense}"),
         })
     }
 }

@@ -226,7 +226,10 @@ fn falling(told: &StageTold, fall: &Fall) -> Vec<Sentence> {
             sentence!("`{}` rises freely through {}", name, measured(&-h, "m"))
         }
         (FallEnd::Drop(h), Some(_)) if h.is_zero() => {
-            sentence!("`{}` flies freely until it is as high as at first", name)
+            sentence!(
+                "`{}` flies freely back to the height at which this flight begins",
+                name
+            )
         }
         (FallEnd::Drop(h), Some(_)) => match counted(h, [" lower", " higher"]) {
             (_, " lower") if falls => {
@@ -304,7 +307,7 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
         }
         (_, Some(_), true) if slide.is_smooth() => " slides on a smooth surface",
         (_, Some(_), false) if slide.is_smooth() => " slide together on a smooth surface",
-        (_, Some(_), true) if is_round => " slips on a rough surface, which turns it,",
+        (_, Some(_), true) if is_round => " slips on a rough surface, which changes its spin,",
         (_, Some(_), true) if slide.level => " slides on a rough level surface",
         (_, Some(_), false) if slide.level => " slide together on a rough level surface",
         (_, Some(_), true) => " slides on a rough surface",

@@ -86,6 +86,16 @@ impl Sheet {
                 return other;
             }
         }
+        let is_direction = matches!(entry.question.ask, Ask::Value { polar: Some(_), .. });
+        for turn in TURNS.iter().filter(|_| is_direction) {
+            let turned = format!("{answer}{turn}");
+            let mut other = self.judge_with_earlier(entry, &turned, options);
+            if other.verdict == Verdict::Equivalent {
+                let words = "a direction is the same after a full turn";
+                other.assumed.push(words.into());
+                return other;
+            }
+        }
         // `mu²` for m u², where μ is given and u was asked before.
         let mut names = entry.key.readable.clone();
         let before = self.scene.questions.iter().map(|q| q.name.as_str());
@@ -373,7 +383,9 @@ impl Sheet {
             None => Content::Scalar(exact.clone()),
         };
         let key = key_of(content, &question);
-        let digits = reading.literal.as_ref().map_or(40, |l| l.digits).min(40);
+        let in_degrees = || digits_in_degrees(&key, answer);
+        let digits = reading.literal.as_ref().map(|l| l.digits);
+        let digits = digits.or_else(in_degrees).unwrap_or(40).min(40);
         let rounded = Tolerance::Significant(digits.max(3));
         let within = Options {
             tolerance: options.tolerance.clone().or(Some(rounded)),
@@ -396,6 +408,20 @@ impl Sheet {
         });
         Some((grade, room))
     }
+}
+
+/// What makes a direction the same one.
+const TURNS: [&str; 2] = [" - 2*pi", " + 2*pi"];
+
+/// The digits of an angle in degrees, which is read as a multiple of π: `69.4°`, `69.4 deg`.
+fn digits_in_degrees(key: &Key, answer: &str) -> Option<u32> {
+    let signs = ["°", "^\\circ", "^{\\circ}", "degrees", "deg"];
+    let turned = TURNS.iter().find_map(|turn| answer.strip_suffix(turn));
+    let answer = turned.unwrap_or(answer).trim_end();
+    let number = signs.iter().find_map(|sign| answer.strip_suffix(sign))?;
+    let digits = read::answer(key, number).ok()?.literal?.digits;
+    // 429.4° less a turn is 69.4°: those of the turn are gone.
+    Some(digits - u32::from(turned.is_some() && digits > 3))
 }
 
 /// `0.31 m` where m is also a mass of the scene and a length is asked: a number with its unit, since only that fits.

@@ -62,6 +62,7 @@ fn speaks_of(words: &[String], question: &Question, names: &[String], lone: bool
             has("spin") || has("angular rotational rotation") && has("speed velocity rate"),
         ),
         Ask::Velocity { .. } => ("speed velocity", has("speed velocity")),
+        Ask::Value { polar: Some(_), .. } => ("direction angle", has("direction angle")),
         Ask::Value { meaning, .. } if meaning.contains("speed") => ("speed", has("speed")),
         Ask::Energy {
             when: EnergyWhen::Lost,

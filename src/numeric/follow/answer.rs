@@ -66,7 +66,7 @@ pub fn named(
                 values.values.insert(part, value);
             }
         }
-        return formula.evaluate(&values);
+        return question.ask.value(&values);
     }
     if question.stage? >= followed.stages.len() {
         return None;

@@ -73,6 +73,7 @@ static KINDS: &[Kind] = kinds! {
     }
     Told {
         speed(of when at),
+        direction(of clockwise when at),
         angular_momentum(about when at),
         inertia(about),
         instantaneous_center(at),
@@ -129,7 +130,7 @@ pub(super) fn dimension(q: &QuestionFile) -> Option<Dimension> {
         "acceleration" => [0, 1, -2],
         "angular_acceleration" => [0, 0, -2],
         "tension" => [1, 1, -2],
-        "angle" => [0, 0, 0],
+        "angle" | "direction" => [0, 0, 0],
         _ => return None,
     };
     Some(Dimension::new(mass, length, time))
@@ -235,7 +236,11 @@ pub(super) fn of_answers(r: &mut Resolver<'_>, scene: &mut Scene) {
         if let Some(at) = &q.at {
             let message = "`at` names a stage, and this scene has none";
             let fault = Fault::new(at.span, message);
-            let bodies = [("velocity", &q.velocity), ("speed", &q.speed)];
+            let bodies = [
+                ("velocity", &q.velocity),
+                ("speed", &q.speed),
+                ("direction", &q.direction),
+            ];
             let body = bodies
                 .iter()
                 .find_map(|(asked, body)| Some((asked, &body.as_ref()?.text)));
@@ -311,11 +316,16 @@ fn question(name: &Text, q: &QuestionFile, ask: Ask) -> Question {
 }
 
 /// The same file where in a scene with stages that from which something is put together stands before it, under names of its
-/// own: of a speed the velocity, of an instantaneous center the velocity, the spin and the place of the body.
+/// own: of a speed or a direction the velocity, of an instantaneous center the velocity, the spin and the place of the body.
 pub(super) fn with_parts(file: &SceneFile) -> Option<SceneFile> {
     let asked = entries(file.questions.as_ref());
     let names = |q: &QuestionFile| kinds(q).map(|kind| kind.name).collect::<Vec<_>>();
-    let parted = |q: &QuestionFile| matches!(names(q)[..], ["speed" | "instantaneous_center"]);
+    let parted = |q: &QuestionFile| {
+        matches!(
+            names(q)[..],
+            ["speed" | "direction" | "instantaneous_center"]
+        )
+    };
     if file.stages.is_none() || !asked.into_iter().any(|(_, q)| parted(q)) {
         return None;
     }
@@ -323,7 +333,7 @@ pub(super) fn with_parts(file: &SceneFile) -> Option<SceneFile> {
     let mut all: Vec<Entry> = Vec::new();
     for (name, entry) in file.questions.iter().flat_map(|m| &m.0) {
         match entry.as_ref().filter(|q| parted(q)) {
-            Some(q) if q.speed.is_some() => {
+            Some(q) if q.instantaneous_center.is_none() => {
                 all.push(velocity_of(name, q));
                 all.push((name.clone(), entry.clone()));
             }
@@ -347,7 +357,7 @@ fn own_name(name: &Text, suffix: &str) -> Text {
     }
 }
 
-/// The velocity of a speed.
+/// The velocity of a speed or a direction.
 fn velocity_of(name: &Text, q: &QuestionFile) -> Entry {
     let latex = match &q.latex {
         Some(latex) => latex.text.clone(),
@@ -358,8 +368,10 @@ fn velocity_of(name: &Text, q: &QuestionFile) -> Entry {
             span: name.span,
             text: format!("\\vec{{{latex}}}"),
         }),
-        velocity: q.speed.clone(),
+        velocity: q.speed.clone().or_else(|| q.direction.clone()),
         speed: None,
+        direction: None,
+        clockwise: None,
         ..q.clone()
     };
     (own_name(name, "_velocity"), Some(velocity))
@@ -464,7 +476,7 @@ fn name_is_free(r: &mut Resolver<'_>, name: &Text, q: &QuestionFile) {
     let mut others = answers::parameter_names(r.file).into_iter().chain(before);
     let is_same = |other: &&str| spelling(other) == spelling(&name.text);
     let Some(other) = others.find(|o| is_same(o) && !(is_own(name, q) && *o == name.text)) else {
-        return;
+        return parts_are_free(r, name, q);
     };
     let (name, span) = (&name.text, name.span);
     let message = match other == name {
@@ -473,6 +485,36 @@ fn name_is_free(r: &mut Resolver<'_>, name: &Text, q: &QuestionFile) {
     };
     let hint = "what is asked and what is given need different names; only a `solve` or `threshold` may bear the name of the parameter it seeks";
     r.report(span, message, hint);
+}
+
+/// The names that the components of an answer get, or the place of a largest value, are no names of parameters or of other
+/// answers.
+fn parts_are_free(r: &mut Resolver<'_>, name: &Text, q: &QuestionFile) {
+    let parts = |name: &Text, q: &QuestionFile| {
+        let suffixes: &[&str] = match kinds(q).next().map(|kind| kind.name) {
+            Some("velocity" | "impulse" | "position") if q.along.is_none() => &["_x", "_y"],
+            Some("instantaneous_center") => &["_x", "_y"],
+            Some("maximum") => &["_at"],
+            _ => &[],
+        };
+        let each = suffixes.iter();
+        each.map(|part| format!("{}{part}", name.text))
+            .collect::<Vec<_>>()
+    };
+    let own = parts(name, q);
+    let mut given = answers::parameter_names(r.file).into_iter();
+    let taken = given.find(|given| own.iter().any(|part| part == given));
+    let mut asked = entries(r.file.questions.as_ref()).into_iter();
+    let message = if let Some(given) = taken {
+        let name = &name.text;
+        format!("a part of the answer `{name}` has the name of the parameter `{given}`")
+    } else if let Some((of, _)) = asked.find(|(of, q)| parts(of, q).contains(&name.text)) {
+        let (name, of) = (&name.text, &of.text);
+        format!("`{name}` is the name of a part of the answer `{of}` too")
+    } else {
+        return;
+    };
+    r.report(name.span, message, "take another name for one of the two");
 }
 
 /// Whether a question is answered by the parameter whose name it has: `"d": {"solve": "d", …}`. Its answer has no name for

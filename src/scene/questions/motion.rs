@@ -18,16 +18,22 @@ pub(super) fn ask(
     name: &Text,
     q: &QuestionFile,
 ) -> Option<(Option<usize>, Ask)> {
-    let told = match (&q.speed, &q.inertia) {
-        (Some(_), _) => Some(told::speed_of(&format!("{}_velocity", name.text))),
-        (_, Some(_)) => Some(told::inertia(base, scene, name, q)?),
+    let velocity = || told::parts_of(&format!("{}_velocity", name.text));
+    let told = match (&q.speed, &q.direction, &q.inertia) {
+        (Some(_), ..) => Some((told::size(&velocity()), None)),
+        (_, Some(_), _) => {
+            let (angle, polar) = told::direction(velocity(), q.clockwise == Some(true));
+            Some((angle, Some(polar)))
+        }
+        (.., Some(_)) => Some((told::inertia(base, scene, name, q)?, None)),
         _ => None,
     };
-    if let Some(formula) = told {
+    if let Some((formula, polar)) = told {
         let ask = Ask::Value {
             formula,
             with: Vec::new(),
             meaning: told::meaning(q, base.file.stages.as_deref().unwrap_or_default()),
+            polar,
         };
         return Some((None, ask));
     }

@@ -1,5 +1,5 @@
-//! Questions that are answered by a formula of the geometry and of velocities just after: speed, what was before, angular
-//! momentum and moment of inertia about a point, the instantaneous center.
+//! Questions that are answered by a formula of the geometry and of velocities just after: speed, direction, what was before,
+//! angular momentum and moment of inertia about a point, the instantaneous center.
 //!
 //! Each becomes a [`Ask::Value`]; the velocities it takes are asked for too, unless they are already.
 
@@ -25,7 +25,7 @@ pub(super) fn resolve(
     let is_start = q.when == Some(EndName::Start);
     let latex = q.latex.as_ref().map(|t| t.text.as_str());
     let meaning = meaning(q, &[]);
-    let push = |scene: &mut Scene, suffix: &str, formula: Expr| {
+    let named = |scene: &mut Scene, suffix: &str, formula: Expr, polar: Option<Vector>| {
         let (latex, meaning) = match suffix.strip_prefix('_') {
             Some(axis) => (
                 latex.map(|l| with_subscript(l, axis)),
@@ -38,9 +38,11 @@ pub(super) fn resolve(
             formula,
             with: Vec::new(),
             meaning,
+            polar,
         };
         scene.questions.push(Question::new(&name, latex, ask));
     };
+    let push = |scene: &mut Scene, suffix: &str, formula: Expr| named(scene, suffix, formula, None);
     match kind {
         "inertia" => {
             let formula = inertia(resolver, scene, name, q)?;
@@ -57,17 +59,15 @@ pub(super) fn resolve(
             let formula = &body.mass * &cross(&arm, &velocity) + &body.inertia * &spin;
             push(scene, "", formula);
         }
-        "speed" => {
-            let (b, point) = impact::velocity(resolver, scene, q.speed.as_ref()?, q.of.as_ref())?;
-            let at = point.map(|(_, at)| at);
-            let v = match is_start {
-                true => scene.bodies[b].velocity_at(at.as_ref().unwrap_or(&scene.bodies[b].center)),
-                false => {
-                    let v = velocity_after(scene, b);
-                    moved(scene, b, v, at.as_ref())
+        "speed" | "direction" => {
+            let v = asked_velocity(resolver, scene, q)?;
+            match q.direction {
+                None => push(scene, "", size(&v)),
+                Some(_) => {
+                    let (angle, polar) = direction(v, q.clockwise == Some(true));
+                    named(scene, "", angle, Some(polar));
                 }
-            };
-            push(scene, "", (v[0].powi(2) + v[1].powi(2)).sqrt());
+            }
         }
         "instantaneous_center" => {
             let b = resolver.moving(q.instantaneous_center.as_ref()?)?;
@@ -108,10 +108,30 @@ pub(super) fn resolve(
     Some(())
 }
 
+/// The velocity of which the size or the direction is asked.
+fn asked_velocity(
+    resolver: &mut Resolver<'_>,
+    scene: &mut Scene,
+    q: &QuestionFile,
+) -> Option<Vector> {
+    let of = q.speed.as_ref().or(q.direction.as_ref())?;
+    let (b, point) = impact::velocity(resolver, scene, of, q.of.as_ref())?;
+    let at = point.map(|(_, at)| at);
+    let body = &scene.bodies[b];
+    Some(match q.when {
+        Some(EndName::Start) => body.velocity_at(at.as_ref().unwrap_or(&body.center)),
+        _ => {
+            let v = velocity_after(scene, b);
+            moved(scene, b, v, at.as_ref())
+        }
+    })
+}
+
 /// What one of these is, in words; where it belongs to the end of a motion, to that of its stage.
 pub(super) fn meaning(q: &QuestionFile, stages: &[StageFile]) -> String {
     let of = [
         ("speed", &q.speed),
+        ("direction of the velocity", &q.direction),
         ("moment of inertia", &q.inertia),
         ("instantaneous center", &q.instantaneous_center),
         ("angular momentum", &q.angular_momentum),
@@ -133,10 +153,19 @@ pub(super) fn meaning(q: &QuestionFile, stages: &[StageFile]) -> String {
             }
         }
     };
+    let sense = match (&q.direction, q.clockwise) {
+        (None, _) => "",
+        (Some(_), Some(true)) => ", clockwise from x",
+        (Some(_), _) => ", counterclockwise from x",
+    };
     match &q.of {
         // A velocity names the point, and `of` its body.
-        Some(of) => format!("{what} of {} of `{}`{when}", body.text, of.text),
-        None => format!("{what} of `{}`{}{when}", body.text, place(q, &body.text)),
+        Some(of) => format!("{what} of {} of `{}`{when}{sense}", body.text, of.text),
+        None => format!(
+            "{what} of `{}`{}{when}{sense}",
+            body.text,
+            place(q, &body.text)
+        ),
     }
 }
 
@@ -173,10 +202,21 @@ fn about(resolver: &mut Resolver<'_>, name: &Text, q: &QuestionFile) -> Option<V
     resolver.position(about)
 }
 
-/// The speed of a velocity that is asked for under this name.
-pub(super) fn speed_of(velocity: &str) -> Expr {
-    let v = ["x", "y"].map(|axis| Expr::symbol(&format!("{velocity}_{axis}")));
+/// The components of a velocity that is asked for under this name.
+pub(super) fn parts_of(velocity: &str) -> Vector {
+    ["x", "y"].map(|axis| Expr::symbol(&format!("{velocity}_{axis}")))
+}
+
+pub(super) fn size(v: &Vector) -> Expr {
     (v[0].powi(2) + v[1].powi(2)).sqrt()
+}
+
+/// The angle of a direction from the x axis, by that of its half, and the components that make it: counted clockwise, those of
+/// its mirror image in that axis.
+pub(super) fn direction([x, y]: Vector, clockwise: bool) -> (Expr, Vector) {
+    let v = [x, if clockwise { -y } else { y }];
+    let half = (&v[1] / (size(&v) + &v[0])).atan();
+    (half * Expr::from(2), v)
 }
 
 /// Velocity just after of another point, from that of the center of mass.

@@ -9,7 +9,7 @@ use super::super::file::SceneFile;
 use super::super::resolve::{Resolver, entries};
 use super::super::stage_file::StageFile;
 use super::super::{Ask, Question, Scene, questions};
-use crate::dimension::Dimension;
+use crate::dimension::{self, Dimension};
 use crate::domain::{Domain, Domains};
 use crate::expr::Symbol;
 
@@ -100,5 +100,20 @@ impl Scene {
         let whole = ["_x", "_y"].iter().find_map(|axis| name.strip_suffix(axis));
         let named = |name: &str| self.questions.iter().find(|q| q.name == name);
         named(name).or_else(|| named(whole?))
+    }
+
+    /// The dimension of what is asked for: of a formula that of the parameters and answers in it, where they have one.
+    pub fn dimension_of(&self, ask: &Ask) -> Dimension {
+        let formula = match ask {
+            Ask::Value { formula, .. } => formula,
+            Ask::Turn { of, .. } => &of[0],
+            ask => return ask.dimension(),
+        };
+        let of_name = |name: &str| match self.parameter(name) {
+            Some(given) => Some(given.dimension.clone()),
+            None => Some(self.dimension_of(&self.answering(name)?.ask)),
+        };
+        let found = dimension::of(formula, &of_name);
+        found.ok().flatten().unwrap_or_else(Dimension::none)
     }
 }

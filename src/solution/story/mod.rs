@@ -138,7 +138,19 @@ impl Page<'_> {
             let readings = self.readings();
             self.solution.push(Part::List(readings));
         }
-        self.solution.say(&format!("{AXES} unless said otherwise."));
+        let clockwise: Vec<Symbol> = (self.scene.questions.iter())
+            .filter(|q| q.ask.is_clockwise())
+            .map(|q| Symbol::from(q.name.as_str()))
+            .collect();
+        if clockwise.is_empty() {
+            self.solution.say(&format!("{AXES} unless said otherwise."));
+        } else {
+            let mut text = vec![say(&format!("{AXES}, but "))];
+            text.extend(words::symbols(&clockwise, " and "));
+            let are = if clockwise.len() == 1 { "is" } else { "are" };
+            text.push(say(&format!(" {are} counted clockwise.")));
+            self.solution.text(text);
+        }
         opening::composites(&mut self.solution, self.scene);
     }
 

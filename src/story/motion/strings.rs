@@ -236,8 +236,11 @@ impl Pulled<'_> {
     pub(super) fn steps(&self, stage: &Stage, acceleration: &Expr) -> Result<Vec<Step>, Refused> {
         let why = [
             match self.string.under {
-                Some(_) => {
+                Some(pulley) if stage.scene.bodies[pulley].inertia.is_zero() => {
                     "the pull of the string, of which two parts carry what hangs on the movable pulley"
+                }
+                Some(_) => {
+                    "the pull of the string on the moving side of the movable pulley, by moments about where the fastened side leaves it"
                 }
                 None => {
                     "the pull of the string beyond the pulleys, from the forces on what it moves there"

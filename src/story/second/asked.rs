@@ -4,6 +4,7 @@
 //! looked at on both sides, a largest value beside its place and far from it, a limit and an approximation closer and closer.
 
 use std::collections::BTreeSet;
+use std::f64::consts::TAU;
 use std::iter::successors;
 
 use super::super::StageTold;
@@ -133,7 +134,17 @@ impl Asked<'_> {
     /// A number, and what the question asks for followed at the same point.
     fn number(&self, seen: &Seen, question: &Question, answer: &Answer) -> Option<Held> {
         let formula = answer.formula()?;
+        let told = formula.evaluate(&seen.point);
         let found = match &question.ask {
+            Ask::Value {
+                polar: Some(parts), ..
+            } => {
+                let [x, y] = parts.each_ref().map(|v| self.formula(seen, v, &[], &[]));
+                let angle = y?.atan2(x?);
+                // A direction is the same after a full turn.
+                let turns = told.map_or(0.0, |told| ((told - angle) / TAU).round());
+                Some(angle + turns * TAU)
+            }
             Ask::Value { formula, with, .. } => {
                 self.formula(seen, &component(formula, answer), with, &[])
             }
@@ -144,7 +155,7 @@ impl Asked<'_> {
             _ => None,
         }?;
         let size = seen.units.size(&answer.dimension);
-        Some(match formula.evaluate(&seen.point) {
+        Some(match told {
             Some(told) => Held::Same([told, found], size),
             None => Held::Unseen,
         })

@@ -108,8 +108,8 @@ impl Asked<'_> {
         for question in self.needs(of) {
             let name = question.name.as_str();
             let found = match &question.ask {
-                Ask::Value { formula, with, .. } if with.is_empty() => {
-                    formula.evaluate(&out).map(Found::Scalar)
+                Ask::Value { with, .. } if with.is_empty() => {
+                    question.ask.value(&out).map(Found::Scalar)
                 }
                 Ask::Value { formula, with, .. } => self
                     .formula_at(point, formula, with, nudge)

@@ -190,6 +190,10 @@ pub(super) fn forward(
     };
     match moves && is_zero(size, &stage.scene.domains) != Some(true) {
         true => supposed.positive(size, format!("`{name}` moves forward"), refused),
-        false => supposed.not_negative(size, format!("`{name}` does not move backward"), refused),
+        false => supposed.not_negative(
+            size,
+            format!("`{name}` does not at first move backward"),
+            refused,
+        ),
     }
 }

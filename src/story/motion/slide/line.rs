@@ -304,7 +304,7 @@ impl<'a> Line<'a> {
             ),
             () if !self.strings.is_empty() => (
                 true,
-                "the string takes from one end what it gives to the other, and weight has a potential",
+                "the string only passes energy on from body to body, and weight has a potential",
             ),
             () if self.slide.gravity.is_none() => (true, "no force acts along the line"),
             () => (true, "the guide does no work, and weight has a potential"),

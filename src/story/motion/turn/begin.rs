@@ -2,7 +2,7 @@
 
 use super::super::tidied;
 use crate::algebra::Sign;
-use crate::answer::calc::{Seen, at_least_zero, constant, is_zero, sign};
+use crate::answer::calc::{Seen, at_least_zero, beyond_zero, constant, is_zero, sign};
 use crate::expr::{Expr, Vector, cross, dot, minus};
 use crate::formula::{Sentence, sentence};
 use crate::scene::{Stage, Turn};
@@ -36,7 +36,9 @@ pub(in crate::story) fn sense(
         (declared, None) => {
             let way = declared.unwrap_or_else(|| supposed(stage, spin));
             let need = &Expr::from(way) * spin;
-            let condition = at_least_zero(&need, domains);
+            // Without a force it has to turn already.
+            let is_steady = turn.gravity.is_none() && turn.torque.is_none();
+            let condition = beyond_zero(&need, domains, is_steady);
             let turns = sentence!("`{}` turns {}", body, sense_words(way));
             let words = sentence!("{}, so that {}", condition, turns);
             Ok((way, Some((need, words))))
