@@ -504,7 +504,7 @@ fn parts_are_free(r: &mut Resolver<'_>, name: &Text, q: &QuestionFile) {
     let own = parts(name, q);
     let mut given = answers::parameter_names(r.file).into_iter();
     let taken = given.find(|given| own.iter().any(|part| part == given));
-    let mut asked = entries(r.file.questions.as_ref()).into_iter();
+    let mut asked = entries(r.file.questions.as_ref());
     let message = if let Some(given) = taken {
         let name = &name.text;
         format!("a part of the answer `{name}` has the name of the parameter `{given}`")

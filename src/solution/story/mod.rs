@@ -145,10 +145,10 @@ impl Page<'_> {
         if clockwise.is_empty() {
             self.solution.say(&format!("{AXES} unless said otherwise."));
         } else {
-            let mut text = vec![say(&format!("{AXES}, but "))];
+            let mut text = vec![say(format!("{AXES}, but "))];
             text.extend(words::symbols(&clockwise, " and "));
             let are = if clockwise.len() == 1 { "is" } else { "are" };
-            text.push(say(&format!(" {are} counted clockwise.")));
+            text.push(say(format!(" {are} counted clockwise.")));
             self.solution.text(text);
         }
         opening::composites(&mut self.solution, self.scene);
