@@ -11,6 +11,8 @@ mod cause;
 mod desk;
 mod finals;
 mod impact;
+mod inertias;
+mod letters;
 mod link;
 mod names;
 mod open;
@@ -154,7 +156,7 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
         (worked, meant, needed)
     };
     let plain = text::joined(text);
-    let accelerations = names::accelerations(sheet, &plain);
+    let accelerations = letters::accelerations(sheet, &plain);
     let bound = Desk::new(sheet).bindings(&plain);
     let whatever = accelerations.contains(&None).then(|| Meant {
         bound: bound[0].clone(),
@@ -179,7 +181,7 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
         bound: known.clone(),
         ..Meant::default()
     });
-    let marked = Some(names::marked(sheet, &plain)).filter(|marked| !marked.is_empty());
+    let marked = Some(letters::marked(sheet, &plain)).filter(|marked| !marked.is_empty());
     let marked = marked.map(|marked| Meant {
         marked,
         ..best.1.clone()
@@ -262,8 +264,8 @@ fn check_with(
     let of_center = meant
         .value
         .as_ref()
-        .filter(|(name, _)| **name == *names::OF_CENTER);
-    desk.turning = of_center.and_then(|_| names::turning(sheet, &text::joined(text)));
+        .filter(|(name, _)| **name == *letters::OF_CENTER);
+    desk.turning = of_center.and_then(|_| letters::turning(sheet, &text::joined(text)));
     let read = text::joined(&arrows::spelled(text, &sheet.scene));
     let read = desk.in_names(&read);
     desk.primed = arrows::primed(&read);
@@ -275,7 +277,7 @@ fn check_with(
     desk.bound = meant.bound.keys().cloned().collect();
     desk.learned.extend(desk.bound.iter().cloned());
     desk.solved_for = names::solved_for(&read);
-    desk.own_with_mark = names::of_a_later_moment(sheet, &read);
+    desk.own_with_mark = letters::of_a_later_moment(sheet, &read);
     desk.own_with_mark.extend(meant.marked.iter().cloned());
     desk.anew = meant.anew;
     desk.in_units = meant.in_units;

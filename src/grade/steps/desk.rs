@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::sheet::Sheet;
 use super::impact::Stand;
-use super::names::{MARKS, OF_CENTER};
+use super::letters::{MARKS, OF_CENTER};
 use super::sought::{self, Sought};
 use super::vectors::{in_products, is_marked, marked_after};
 use super::{Final, text};

@@ -5,8 +5,8 @@
 use std::collections::BTreeMap;
 
 use super::super::{Diagnosis, Grade, Options, Verdict};
+use super::letters::ACCELERATIONS;
 use super::link::{Link, Weighed, equal};
-use super::names::ACCELERATIONS;
 use super::sought::Sought;
 use super::{Desk, Final, Status};
 use crate::algebra::{self, Sign};

@@ -3,27 +3,17 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::relation::solve_for;
-use super::super::sheet::Sheet;
-use super::super::{Tolerance, number};
 use super::cause::size_in;
+use super::letters::OF_CENTER;
 use super::link::Weighed;
 use super::{Desk, Diagnosis, Options, Status};
 use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
-use crate::equality::{self, Equality};
-use crate::expr::{Expr, Function, Node, Symbol, dot, ratio};
+use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{self, Content, Reading, Remark, Symbols};
-use crate::scene::{Ask, Body, Question, Scene, StageKind};
 
 /// Most names a student may introduce.
 const MOST_NAMES: usize = 100;
-/// Most accelerations that one letter is tried as.
-const MOST_WAYS: usize = 6;
-/// Most points about which a moment of inertia is tried.
-const MOST_POINTS: usize = 8;
-/// Most bodies whose moments of inertia are added.
-const MOST_BODIES: usize = 4;
-
 /// The lone name left of the first equality sign, and what stands right of it.
 pub(super) fn named(text: &str) -> Option<(Symbol, &str)> {
     let (left, right) = text.split_once('=')?;
@@ -100,126 +90,6 @@ pub(super) fn in_unit(text: &str, symbols: &Symbols) -> Option<Reading> {
     (measured && matches!(own.content, Content::Scalar(_))).then_some(read)
 }
 
-/// Whether a side is a name and nothing else.
-fn is_alone(side: &Content, name: &str) -> bool {
-    side.expr()
-        .and_then(Expr::as_symbol)
-        .is_some_and(|symbol| &**symbol == name)
-}
-
-/// What people call an acceleration, along a line or of a center of mass.
-pub(super) const ACCELERATIONS: [&str; 9] = [
-    "a", "a_G", "a_cm", "a_CM", "a_C", "a_c", "a_S", "a_x", "a_y",
-];
-
-/// The acceleration of a center where its letter alone is asked for as that of a turn.
-pub(super) const OF_CENTER: &str = "a_G";
-
-/// The equations of a worked solution that can be read by themselves.
-pub(super) fn readings(scene: &Scene, text: &str) -> Vec<Reading> {
-    let mut symbols = Symbols::open();
-    scene.declare_parameters(&mut symbols);
-    let lines = text.lines().take(super::MAX_LINES);
-    let parts = lines.flat_map(super::text::equations);
-    let readings = parts.filter_map(|part| formula::read(part, &symbols).ok());
-    readings.collect()
-}
-
-/// Marks behind a name that tell the moment just after.
-pub(super) const MARKS: [&str; 2] = ["'", "^{+}"];
-
-/// What is asked that a worked solution writes with a mark as well, and the mark: it may be of another moment with it.
-pub(super) fn marked(sheet: &Sheet, text: &str) -> BTreeSet<(Symbol, &'static str)> {
-    let readings = readings(&sheet.scene, text);
-    let used: BTreeSet<Symbol> = readings.iter().flat_map(Reading::symbols).collect();
-    let both = |name: &Symbol, mark: &str| {
-        let with = format!("{name}{mark}");
-        let short = with.replace(['{', '}'], "");
-        used.contains(name) && (used.contains(&*with) || used.contains(&*short))
-    };
-    let asked = sheet.derivation.answers.iter();
-    let asked = asked.map(|answer| Symbol::from(answer.name.as_str()));
-    let all = asked.flat_map(|name| MARKS.map(|mark| (name.clone(), mark)));
-    all.filter(|(name, mark)| both(name, mark)).collect()
-}
-
-/// Those of them that are asked before the last impact: with a prime they are of a later moment.
-pub(super) fn of_a_later_moment(sheet: &Sheet, text: &str) -> BTreeSet<(Symbol, &'static str)> {
-    let Some(last) = sheet.impacts.last() else {
-        return BTreeSet::new();
-    };
-    let of = |q: &Question, name: &str| {
-        name.strip_prefix(&*q.name)
-            .is_some_and(|rest| ["", "_x", "_y"].contains(&rest))
-    };
-    let is_last = |name: &Symbol| last.questions.iter().any(|q| of(q, name));
-    let mut marked = marked(sheet, text);
-    marked.retain(|(name, mark)| *mark == "'" && !is_last(name));
-    marked
-}
-
-/// The accelerations that such a name in a worked solution may stand for, counted either way: those of the scene, where it
-/// has no such name itself and the solution says that of nothing else. `None` stands for whatever the solution says it is.
-pub(super) fn accelerations(sheet: &Sheet, text: &str) -> Vec<Option<(Symbol, Expr)>> {
-    let scene = &sheet.scene;
-    let asked = sheet.derivation.answers.iter().map(|answer| &*answer.name);
-    let taken: BTreeSet<&str> = (scene.parameters.iter().map(|p| &*p.name))
-        .chain(asked)
-        .collect();
-    if sheet.accelerations.is_empty() {
-        return vec![None];
-    }
-    let rate = Dimension::new(0, 1, -2);
-    let of = |name: &str| Some(scene.parameter(name)?.dimension.clone());
-    let is_rate = |side: &Content| match side.expr().map(|e| dimension::of(e, &of)) {
-        Some(Ok(Some(found))) => found == rate,
-        _ => true,
-    };
-    let readings = readings(scene, text);
-    let used: BTreeSet<Symbol> = readings.iter().flat_map(Reading::symbols).collect();
-    let free = |name: &&&str| !taken.contains(**name) && used.contains(**name);
-    let along = ACCELERATIONS.iter().find(free);
-    let turns = turning(sheet, text).filter(|_| along.is_none());
-    let Some((name, letter)) = along.map(|a| (*a, *a)).or(turns.map(|a| (OF_CENTER, a))) else {
-        return vec![None];
-    };
-    let fits = readings.iter().all(|reading| match &reading.content {
-        Content::Relations(sides, _) if is_alone(&sides[0], letter) => {
-            sides[1..].iter().all(is_rate)
-        }
-        _ => true,
-    });
-    if !fits {
-        return vec![None];
-    }
-    // Bodies that turn, fall or press a spring have others.
-    let steady = |kind: &StageKind| match kind {
-        StageKind::Impact { .. } => true,
-        StageKind::Slide(slide) => slide.spring.is_none() && slide.on.is_none(),
-        _ => false,
-    };
-    let all = scene.stages.iter().all(|stage| steady(&stage.kind));
-    let each = sheet.accelerations.iter();
-    let both = each.flat_map(|value| [value.clone(), -value]);
-    let named = both.map(|value| Some((Symbol::from(name), value)));
-    (turns.map(|_| None).into_iter())
-        .chain(named.take(MOST_WAYS))
-        .chain((!all && turns.is_none()).then_some(None))
-        .collect()
-}
-
-/// An angular acceleration that is asked for by a letter with which a worked solution may mean that of a center.
-pub(super) fn turning<'s>(sheet: &'s Sheet, text: &str) -> Option<&'s str> {
-    let readings = readings(&sheet.scene, text);
-    let used: BTreeSet<Symbol> = readings.iter().flat_map(Reading::symbols).collect();
-    let mut asked = sheet.scene.questions.iter().filter(|q| {
-        let turns = matches!(q.ask, Ask::AngularAcceleration { .. });
-        turns && ACCELERATIONS.contains(&&*q.name) && used.contains(&*q.name)
-    });
-    let asked = asked.next()?;
-    (!used.contains(OF_CENTER)).then_some(&*asked.name)
-}
-
 /// Whether a letter behind a formula is a quantity first: a speed V rather than volts, also in `½ M V²`, a
 /// time t rather than tonnes.
 pub(super) fn is_quantity_first(unit: &str) -> bool {
@@ -255,67 +125,7 @@ pub(super) fn angle_in(line: &Expr, name: &Symbol, domains: &Domains) -> Option<
     })
 }
 
-/// The moment of inertia of a body about a point, by Steiner's theorem.
-fn about(body: &Body, at: &[Expr; 2]) -> Expr {
-    let [x, y] = [0, 1].map(|k| &at[k] - &body.center[k]);
-    &body.inertia + &(&body.mass * &(x.powi(2) + y.powi(2)))
-}
-
-/// The sums of some of them, or all.
-fn together(each: &[Expr]) -> impl Iterator<Item = Expr> {
-    (1..1usize << each.len()).map(|chosen| {
-        let parts = each.iter().enumerate();
-        let parts = parts.filter(|(k, _)| chosen >> k & 1 == 1);
-        Expr::sum(parts.map(|(_, e)| e.clone()).collect::<Vec<_>>())
-    })
-}
-
 impl Desk<'_> {
-    /// Velocities that are asked for along the one normal of the scene, as in v_{1n}, unless the solution says itself what such
-    /// a name is.
-    pub(super) fn along_normal(&mut self, text: &str) {
-        let text = text.replace(['_', '{', '}'], "");
-        let scene = &self.sheet.scene;
-        let mut normals = scene.contacts.iter().filter_map(|c| c.normal.as_ref());
-        let (Some(normal), None) = (normals.next(), normals.next()) else {
-            return;
-        };
-        for q in &scene.questions {
-            let name = Symbol::from(format!("{}_n", q.name));
-            // `v1_n` and `v_{1n}` are one name, the student's own where it comes first with what it is.
-            let joined = name.replace('_', "");
-            let first = text.split_once(&*joined);
-            let said = first.is_some_and(|(_, behind)| behind.trim_start().starts_with('='));
-            if let Ask::Velocity { along: None, .. } = q.ask
-                && !said
-                && let Some([x, y, _]) = self.components(&q.name)
-            {
-                let along = dot(&[x, y], normal);
-                self.linked.push(Expr::symbol(&name) - &along);
-                let along = along.substitute(&self.closed);
-                self.closed.insert(name, along);
-            }
-        }
-    }
-
-    /// The accelerations of the other motions, counted as the one that a letter stands for.
-    pub(super) fn know_accelerations(&mut self, meant: Option<&(Symbol, Expr)>) {
-        let Some((name, value)) = meant.filter(|(name, _)| ACCELERATIONS.contains(&&**name)) else {
-            return;
-        };
-        let all = &self.sheet.accelerations;
-        let turned = !all.contains(value);
-        let others = all
-            .iter()
-            .map(|other| if turned { -other } else { other.clone() });
-        let others = others.filter(|other| other != value).take(MOST_WAYS);
-        let moments = others.map(|other| {
-            let when = String::from("in another motion");
-            (when, BTreeMap::from([(name.clone(), other)]))
-        });
-        self.moments.extend(moments.collect::<Vec<_>>());
-    }
-
     /// Whether a name is the scene's or was introduced.
     fn is_known(&self, name: &Symbol) -> bool {
         let parameters = &self.sheet.scene.parameters;
@@ -450,49 +260,6 @@ impl Desk<'_> {
                 let broken = self.broken(right, at, text);
                 (Status::Wrong, broken.into_iter().collect())
             }
-        })
-    }
-
-    /// The moment of inertia that a name such as I_A speaks of, A a point of the scene or G, where the value given to it is that
-    /// of no body and of no bodies together.
-    fn other_inertia(&self, name: &Symbol, value: &Expr) -> Option<Expr> {
-        let scene = &self.sheet.scene;
-        let place = name.strip_prefix("I_")?;
-        let point = scene.points.iter().find(|p| p.name == place);
-        if point.is_none() && place != "G" || scene.bodies.iter().any(|b| b.name == place) {
-            return None;
-        }
-        let about = |body: &Body| about(body, point.map_or(&body.center, |p| &p.at));
-        let free = scene.bodies.iter().filter(|b| !b.is_fixed());
-        let each: Vec<Expr> = free.map(about).take(MOST_BODIES).collect();
-        let value = self.with_own(value);
-        if value.is_constant() {
-            // In numbers it may be rounded, and needs the values of the scene.
-            let values = scene.values();
-            let room = Tolerance::Relative(ratio(1, 100));
-            let is = |e: &Expr| number::within(&value, &e.substitute(&values), &room);
-            let none = each.iter().all(|e| is(e) == Some(false));
-            return none.then(|| each.into_iter().next()).flatten();
-        }
-        let others = together(&each).all(|total| {
-            let decision = equality::decide(&value, &total, &scene.domains);
-            decision.equality.is_different()
-        });
-        others.then(|| each.into_iter().next()).flatten()
-    }
-
-    /// Whether a value is the moment of inertia of bodies of the scene about the center of one or a point that the scene names.
-    pub(super) fn is_inertia(&self, value: &Expr) -> bool {
-        let scene = &self.sheet.scene;
-        let free = || scene.bodies.iter().filter(|b| !b.is_fixed());
-        let hinges = scene.hinges.iter().map(|h| &h.at);
-        let centers = free().map(|b| &b.center).chain(hinges);
-        let points = scene.points.iter().map(|p| &p.at).chain(centers);
-        let value = self.with_own(value);
-        points.take(MOST_POINTS).any(|point| {
-            let each: Vec<Expr> = free().map(|b| about(b, point)).take(MOST_BODIES).collect();
-            let same = |total| equality::decide(&value, &total, &scene.domains).equality;
-            together(&each).any(|total| matches!(same(total), Equality::Same { .. }))
         })
     }
 
@@ -654,30 +421,6 @@ impl Desk<'_> {
             self.own.insert(name.clone(), value);
         }
         found
-    }
-
-    /// What I_G and I_A stand for where nobody says it and only one body moves, and I with the name of a body.
-    fn lone_inertia(&self, name: &Symbol) -> Option<Expr> {
-        let scene = &self.sheet.scene;
-        let place = name.strip_prefix("I_")?;
-        if let Some(body) = scene
-            .bodies
-            .iter()
-            .find(|b| b.name == place && !b.is_fixed())
-        {
-            return Some(body.inertia.clone());
-        }
-        let mut free = scene.bodies.iter().filter(|b| !b.is_fixed());
-        let (Some(body), None) = (free.next(), free.next()) else {
-            return None;
-        };
-        match place {
-            "G" => Some(body.inertia.clone()),
-            place => {
-                let point = scene.points.iter().find(|p| p.name == place)?;
-                Some(about(body, &point.at))
-            }
-        }
     }
 
     /// The one letter of a short run that is no name: `a` in `ma`, where m is one.
