@@ -135,12 +135,18 @@ pub fn sign(e: &Expr, domains: &Domains) -> Seen {
     }
 }
 
-/// The first magnitude in an expression, and what stands in its bars, where that is of a kind.
+/// Most magnitudes that are taken with either sign: each doubles the work.
+const MOST_BARS: usize = 4;
+
+/// The first magnitude in an expression, and what stands in its bars, where that is of a kind; nothing where there are too many.
 pub(super) fn in_bars(e: &Expr, is_wanted: impl Fn(&Expr) -> bool) -> Option<(Expr, Expr)> {
-    e.parts().find_map(|part| match part.node() {
-        Node::Call(Function::Abs, x) if is_wanted(x) => Some((part.clone(), x.clone())),
+    let bars = e.parts().filter_map(|part| match part.node() {
+        Node::Call(Function::Abs, x) if is_wanted(x) => Some((part, x)),
         _ => None,
-    })
+    });
+    let all: Vec<(&Expr, &Expr)> = bars.take(MOST_BARS + 1).collect();
+    let (bars, inside) = *all.first()?;
+    (all.len() <= MOST_BARS).then(|| (bars.clone(), inside.clone()))
 }
 
 /// Whether something is proved to be positive, or not negative where `closed`, on the whole domain, or nowhere.

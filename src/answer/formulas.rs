@@ -7,9 +7,7 @@ use std::collections::BTreeSet;
 
 use num_traits::Signed;
 
-use super::calc::{
-    Seen, above_zero, beyond_zero, by_signs, essential, is_zero, keeps_to, sign, tidy,
-};
+use super::calc::{Seen, above_zero, beyond_zero, essential, is_zero, keeps_to, sign, tidy};
 use super::powers::not_zero;
 use super::{
     Answer, Check, Form, Known, Refused, inequality, limit, optimum, solve, threshold, zeros,
@@ -388,6 +386,7 @@ impl Work<'_> {
             let angle = is_along.or_else(|| angle_of(&tangent, domains));
             Ok(angle.unwrap_or_else(|| tangent.atan()))
         };
+        let mut is_by_quarter = true;
         let angle = match (x_sign, y_sign) {
             (Seen::Proved(Zero), Seen::Proved(Zero)) => {
                 return Ok(out.leave_open(sentence!("what is at rest moves in no direction")));
@@ -401,15 +400,23 @@ impl Work<'_> {
                 out.assumptions.push(above_zero(&x, domains));
                 Expr::zero()
             }
-            _ => tidied(&half.substitute(self.known))?,
+            _ => {
+                is_by_quarter = false;
+                let against_x = "the velocity does not point straight against x";
+                out.assumptions.push(Sentence::words(against_x));
+                tidied(&half.substitute(self.known))?
+            }
         };
         out.form = Form::value(angle);
-        let proved = x_sign.is_proved() || y_sign.is_proved();
-        out.checks.push(by_signs(
-            "identity",
-            "its tangent is the quotient of the components, whose signs ({how}) tell the quarter",
-            proved,
-        ));
+        let words = match is_by_quarter {
+            true => {
+                "its tangent is the quotient of the components, whose signs are proved and tell the quarter"
+            }
+            false => {
+                "the tangent of its half is the component across x over the sum of the speed and that along x"
+            }
+        };
+        out.checks.push(Check::new("identity", words, Some(true)));
         Ok(out)
     }
 

@@ -96,15 +96,15 @@ fn without_bars(
 
 /// The limit of arcs, their multiples and sums: of each arc that of its argument, inside of which it is continuous.
 fn of_arcs(of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) -> Option<Found> {
-    let mut inner: Option<Found> = None;
+    let (mut how, mut given) = (None, Vec::new());
     let value = arcs_at(of, parameter, &mut |x| {
         let found = found(x, parameter, to, domains)?;
-        let Tends::To(value) = &found.tends else {
-            return None;
-        };
-        let value = value.clone();
-        inner = Some(found);
-        Some(value)
+        how = Some(found.how);
+        given.extend(found.given);
+        match found.tends {
+            Tends::To(value) => Some(value),
+            Tends::Beyond(_) | Tends::Apart => None,
+        }
     })?;
     let is_inside = |e: &Expr| match e.node() {
         Node::Call(Function::Acos | Function::Asin, x) => {
@@ -121,7 +121,8 @@ fn of_arcs(of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) 
     };
     Some(Found {
         tends: Tends::To(value),
-        ..inner?
+        how: how?,
+        given,
     })
 }
 
