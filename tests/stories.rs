@@ -652,6 +652,16 @@ fn numbers_tell_formulas_of_answers_and_directions_in_degrees() {
     let balls = [("m", "2"), ("M", "1"), ("v", "3")];
     let text = solved("ball-at-half-its-speed", &balls);
     assert!(text.lines().any(|l| l == "d = 1 m/s"), "{text}");
+    let cars = [
+        ("m1", "3"),
+        ("m2", "4"),
+        ("v1", "7"),
+        ("v2", "7"),
+        ("mu", "1/2"),
+        ("g", "10"),
+    ];
+    let text = solved("cars-slide-from-a-crossing", &cars);
+    assert!(text.lines().any(|l| l == "d = 2.5 m"), "{text}");
 }
 
 #[test]
