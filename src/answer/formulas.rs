@@ -7,7 +7,8 @@ use std::collections::BTreeSet;
 
 use num_traits::Signed;
 
-use super::calc::{Seen, above_zero, beyond_zero, essential, is_zero, keeps_to, sign, tidy};
+use super::calc::{Seen, beyond_zero, essential, is_zero, keeps_to, sign, tidy};
+use super::dimensions::kind_of;
 use super::powers::not_zero;
 use super::{
     Answer, Check, Form, Known, Refused, inequality, limit, optimum, solve, threshold, zeros,
@@ -16,7 +17,7 @@ use crate::algebra::Sign;
 use crate::dimension::{self, Dimension};
 use crate::domain::{Domain, Domains};
 use crate::equality::{self, Equality, How};
-use crate::expr::{Expr, Function, Node, Symbol, Vector};
+use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{Relation, write_plain};
 use crate::formula::{Sentence, sentence};
 use crate::scene::{Ask, Question, Scene};
@@ -236,26 +237,14 @@ pub(super) fn put(
     })
 }
 
-/// The angle of which a formula is the tangent, where it lies within a quarter turn of zero.
-fn angle_of(tangent: &Expr, domains: &Domains) -> Option<Expr> {
-    let angle = tangent.factors().iter().find_map(|f| match f.node() {
-        Node::Call(Function::Sin, angle) => Some(angle),
-        _ => None,
-    })?;
-    let quarter = Expr::pi() * Expr::ratio(1, 2);
-    let room = [&quarter - angle, &quarter + angle];
-    let is_within = |room: &Expr| sign(room, domains) == Seen::Proved(Sign::Positive);
-    (*tangent == angle.sin() / angle.cos() && room.iter().all(is_within)).then(|| angle.clone())
-}
-
 /// A question about formulas on its way to an answer.
-struct Work<'a> {
-    scene: &'a Scene,
-    question: &'a Question,
+pub(super) struct Work<'a> {
+    pub scene: &'a Scene,
+    pub question: &'a Question,
     /// Name of the answer.
-    name: &'a str,
+    pub name: &'a str,
     /// What earlier answers stand for.
-    known: &'a Known,
+    pub known: &'a Known,
 }
 
 /// An equation or inequality, as it is asked.
@@ -307,7 +296,7 @@ impl Work<'_> {
     }
 
     /// A formula in parameters alone, with some of them at given values.
-    fn put(&self, e: &Expr, with: &[(Symbol, Expr)]) -> Result<Expr, Refused> {
+    pub(super) fn put(&self, e: &Expr, with: &[(Symbol, Expr)]) -> Result<Expr, Refused> {
         put(self.scene, self.name, self.known, e, with)
     }
 
@@ -317,7 +306,7 @@ impl Work<'_> {
         gathered(&asked.substitute(self.known).substitute(&with))
     }
 
-    fn blank(&self, words: impl Into<String>) -> Answer {
+    pub(super) fn blank(&self, words: impl Into<String>) -> Answer {
         Answer::blank(self.question, self.name, words)
     }
 
@@ -367,57 +356,6 @@ impl Work<'_> {
             }
         }
         out
-    }
-
-    /// The angle of a direction, as the proved signs of its components tell in which quarter it lies; where they tell nothing, by
-    /// that of its half.
-    fn direction(&self, half: &Expr, parts: &Vector, meaning: &str) -> Result<Answer, Refused> {
-        let mut out = self.blank(meaning);
-        let domains = &self.scene.domains;
-        let [x, y] = [self.put(&parts[0], &[])?, self.put(&parts[1], &[])?];
-        let (x_sign, y_sign) = (sign(&x, domains), sign(&y, domains));
-        use Sign::{Negative, Positive, Zero};
-        let quarter = || Expr::pi() * Expr::ratio(1, 2);
-        let tidied =
-            |e: &Expr| tidy(e, domains).map_err(|stop| Refused::uncalculated(self.name, stop));
-        let arc = |above: &Expr, below: &Expr| {
-            let tangent = tidied(&(above / below))?;
-            let is_along = tangent.is_zero().then(Expr::zero);
-            let angle = is_along.or_else(|| angle_of(&tangent, domains));
-            Ok(angle.unwrap_or_else(|| tangent.atan()))
-        };
-        let mut is_by_quarter = true;
-        let angle = match (x_sign, y_sign) {
-            (Seen::Proved(Zero), Seen::Proved(Zero)) => {
-                return Ok(out.leave_open(sentence!("what is at rest moves in no direction")));
-            }
-            (Seen::Proved(Positive), _) => arc(&y, &x)?,
-            (Seen::Proved(Negative), Seen::Proved(Negative)) => arc(&y, &x)? - Expr::pi(),
-            (Seen::Proved(Negative), _) => Expr::pi() - arc(&y, &-&x)?,
-            (_, Seen::Proved(Positive)) => quarter() - arc(&x, &y)?,
-            (_, Seen::Proved(Negative)) => -quarter() - arc(&x, &y)?,
-            (_, Seen::Proved(Zero)) => {
-                out.assumptions.push(above_zero(&x, domains));
-                Expr::zero()
-            }
-            _ => {
-                is_by_quarter = false;
-                let against_x = "the velocity does not point straight against x";
-                out.assumptions.push(Sentence::words(against_x));
-                tidied(&half.substitute(self.known))?
-            }
-        };
-        out.form = Form::value(angle);
-        let words = match is_by_quarter {
-            true => {
-                "its tangent is the quotient of the components, whose signs are proved and tell the quarter"
-            }
-            false => {
-                "the tangent of its half is the component across x over the sum of the speed and that along x"
-            }
-        };
-        out.checks.push(Check::new("identity", words, Some(true)));
-        Ok(out)
     }
 
     /// That a result is the formula with the other results in it.
@@ -598,55 +536,6 @@ impl Work<'_> {
         let hint = "compare quantities of the same kind";
         Err(Refused::question(self.name, reason, hint))
     }
-
-    fn dimension_of(&self, e: &Expr) -> Result<Dimension, Refused> {
-        dimension_of(self.scene, e, self.name)
-    }
-
-    /// Dimension of a formula of parameters and earlier answers, as it is stated: what is put in for a parameter may be a plain
-    /// number in its unit.
-    fn stated_dimension(&self, e: &Expr) -> Result<Option<Dimension>, Refused> {
-        let (scene, known) = (self.scene, self.known);
-        let parameter = |name: &str| dimension_of_parameter(scene, name);
-        let of_answer = |answer: &Expr| dimension::of(answer, &parameter).ok().flatten();
-        let of = |name: &str| match known.get(name) {
-            Some(answer) => of_answer(answer),
-            None => parameter(name),
-        };
-        let asked = |name: &str| match known.contains_key(name) {
-            true => kind_of(scene, name).or_else(|| of(name)),
-            false => of(name),
-        };
-        let is_plain = |s: &Symbol| known.get(s).is_some_and(Expr::is_constant);
-        if e.symbols().iter().any(is_plain)
-            && !has_number(e)
-            && let Ok(by_kind) = dimension::of(e, &asked)
-        {
-            return Ok(by_kind);
-        }
-        // Of an answer that is 0 nothing can be told: it stands for itself.
-        let plain = known.iter().filter(|(_, v)| of_answer(v).is_none());
-        let plain: Known = plain.map(|(s, v)| (s.clone(), v.clone())).collect();
-        dimension::of(&e.substitute(&plain), &of).or_else(|clash| {
-            let by_kind = dimension::of(e, &asked);
-            by_kind.map_err(|_| clashes(self.name, clash.message(&write_plain)))
-        })
-    }
-
-    /// What is put in for a parameter has its dimension, or is a number.
-    fn put_in_fits(&self, with: &[(Symbol, Expr)]) -> Result<(), Refused> {
-        for (name, value) in with.iter().filter(|(_, v)| !v.is_constant()) {
-            let own = self.stated_dimension(&Expr::symbol(name))?;
-            let put = self.stated_dimension(value)?;
-            if let (Some(own), Some(put)) = (own, put)
-                && own != put
-            {
-                let reason = format!("{name} is {own}, and what is put in for it {put}");
-                return Err(clashes(self.name, reason));
-            }
-        }
-        Ok(())
-    }
 }
 
 /// The same with equal factors gathered into powers, and nothing else changed.
@@ -724,47 +613,4 @@ fn with_words(with: &[(Symbol, Expr)]) -> Vec<Sentence> {
     with.iter()
         .map(|(s, v)| sentence!("taken at {} = {}", s, v))
         .collect()
-}
-
-fn dimension_of_parameter(scene: &Scene, name: &str) -> Option<Dimension> {
-    let found = scene.parameter(name);
-    found.map(|p| p.dimension.clone())
-}
-
-/// The dimension of a parameter, or of what a question asks for: a velocity that came out of plain numbers in their units is a
-/// velocity all the same.
-fn kind_of(scene: &Scene, name: &str) -> Option<Dimension> {
-    let mut questions = scene.questions.iter();
-    let found = questions.find(|q| {
-        let part = name.strip_prefix(&*q.name);
-        part.is_some_and(|part| matches!(part, "" | "_x" | "_y"))
-    });
-    match found.map(|q| q.ask.dimension()) {
-        Some(known) if known != Dimension::none() => Some(known),
-        _ => dimension_of_parameter(scene, name),
-    }
-}
-
-/// Whether a number stands beside the symbols, other than an exponent: it may be a quantity in its unit.
-fn has_number(e: &Expr) -> bool {
-    match e.node() {
-        Node::Number(_) => true,
-        Node::Symbol(_) => false,
-        Node::Sum(parts) | Node::Product(parts) => parts.iter().any(has_number),
-        Node::Power(base, _) => has_number(base),
-        Node::Call(_, argument) => has_number(argument),
-    }
-}
-
-fn clashes(at: &str, reason: String) -> Refused {
-    let hint = "both sides of a sum or relation have the same dimension";
-    Refused::question(at, reason, hint)
-}
-
-/// Dimension of an expression in the scene's parameters.
-pub fn dimension_of(scene: &Scene, e: &Expr, at: &str) -> Result<Dimension, Refused> {
-    match dimension::of(e, &|name| dimension_of_parameter(scene, name)) {
-        Ok(found) => Ok(found.unwrap_or_else(Dimension::none)),
-        Err(clash) => Err(clashes(at, clash.message(&write_plain))),
-    }
 }

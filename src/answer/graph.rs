@@ -6,7 +6,8 @@
 use std::collections::BTreeMap;
 
 use super::calc::tidy;
-use super::formulas::{dimension_of, put};
+use super::dimension_of;
+use super::formulas::put;
 use super::solve::solve;
 use super::{Answer, Refused};
 use crate::dimension::Dimension;

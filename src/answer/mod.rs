@@ -4,6 +4,8 @@
 //! known. Nothing here knows mechanics: the answers may come from an impact, from a motion or from anywhere else.
 
 pub mod calc;
+mod dimensions;
+mod direction;
 mod formulas;
 mod graph;
 mod inequality;
@@ -21,7 +23,8 @@ mod zeros;
 use std::collections::BTreeMap;
 use std::fmt;
 
-pub use formulas::{LONGEST, about, dimension_of, formulas, no_coefficient, remember};
+pub use dimensions::dimension_of;
+pub use formulas::{LONGEST, about, formulas, no_coefficient, remember};
 pub use graph::{Curve, Graph, graphs};
 
 use crate::algebra::Sign;
