@@ -10,21 +10,15 @@ use super::correct::{Correct, correct};
 use super::exact::solve_exact;
 use super::float::solve_f64;
 use super::values::{exact_values, values};
+use crate::expr::Rational;
 use crate::expr::number::to_f64;
-use crate::expr::{Point, Rational};
 use crate::scene::Scene;
 
 /// A double for every question that asks for numbers, and for formulas of such.
 pub fn doubles(scene: &Scene) -> Result<Answered<f64>, NoAnswer> {
     let mut out = motion(scene)?;
     // A formula may take data that the impact does not need.
-    let given = scene.values().into_iter();
-    let numbers =
-        given.filter_map(|(name, value)| Some((name, value.evaluate(&Point::default())?)));
-    let mut known = Point::<f64> {
-        values: numbers.collect(),
-        ..Point::default()
-    };
+    let mut known = scene.given::<f64>();
     for question in &scene.questions {
         let name = &question.name;
         let is_plain = question.ask.with().is_empty();

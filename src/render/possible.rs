@@ -6,7 +6,7 @@ use super::{latex, unicode};
 use crate::answer::Check;
 use crate::expr::Expr;
 use crate::formula::{self, write_plain};
-use crate::scene::{Contact, ContactLaw, Scene};
+use crate::scene::Scene;
 use crate::verify::possible::{Condition, Possible, Verdict};
 
 /// The conditions under which it is possible, such as `2 l ≥ d`.
@@ -33,7 +33,7 @@ pub fn check(scene: &Scene, possible: &Possible) -> Option<Check> {
         _ if possible.conditions.is_empty() && possible.not_judged.is_empty() => {
             String::from("whether it is possible: no normal and no outline to judge by")
         }
-        Verdict::Everywhere if scene.contacts.iter().any(may_gain) => {
+        Verdict::Everywhere if scene.contacts.iter().any(|c| c.law.may_gain()) => {
             String::from("what touches pushes and parts, for all admitted parameters")
         }
         Verdict::Everywhere => String::from("possible for all admitted parameters"),
@@ -57,15 +57,6 @@ pub fn check(scene: &Scene, possible: &Possible) -> Option<Check> {
         _ => None,
     };
     Some(Check::new("possible", words, holds))
-}
-
-/// Whether the law of a contact can gain energy, which is told beside its cases and bounds no parameter.
-fn may_gain(contact: &Contact) -> bool {
-    match &contact.law {
-        ContactLaw::Friction(law) => law.hypothesis.may_gain(),
-        ContactLaw::Decided(decided) => decided.law.hypothesis.may_gain(),
-        _ => false,
-    }
 }
 
 /// The verdict as data.

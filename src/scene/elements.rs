@@ -246,6 +246,15 @@ pub enum ContactLaw {
 }
 
 impl ContactLaw {
+    /// Whether it can gain kinetic energy, which is told beside its cases and bounds no parameter.
+    pub fn may_gain(&self) -> bool {
+        match self {
+            ContactLaw::Friction(law) => law.hypothesis.may_gain(),
+            ContactLaw::Decided(decided) => decided.law.hypothesis.may_gain(),
+            _ => false,
+        }
+    }
+
     /// The conditions of a decided mode of friction.
     pub fn conditions(&self) -> Option<&[Condition; 2]> {
         match self {
