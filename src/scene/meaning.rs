@@ -2,10 +2,16 @@
 
 use super::stage::{FallEnd, SlideEnd, StageKind, Until};
 use super::{BlowImpulse, Body, ContactLaw, KnownQuantity, Scene, Shape};
+use num_traits::{One, Signed};
+
 use crate::expr::{Expr, Node, Symbol, Vector};
 
 /// What a number is, with `{}` where a body stands, and of which body.
 type Use<'s> = (&'static str, Option<&'s str>, &'s Expr);
+
+/// What an angle of a velocity is.
+const TO_X: &str = "angle between the x axis and the first velocity of {}";
+const TO_Y: &str = "angle between the y axis and the first velocity of {}";
 
 /// Gives words to the parameters that have none and stand alone for a number of a body, a contact or a motion.
 pub(super) fn infer(scene: &mut Scene) {
@@ -94,29 +100,48 @@ fn of_body<'s>(body: &'s Body, out: &mut Vec<Use<'s>>) {
     }
     if let Some((speed, angle)) = polar(&body.velocity) {
         push("speed of {} at first", speed);
-        if let Some(angle) = angle {
-            push("angle between x and the first velocity of {}", angle);
+        if let Some((what, _, angle)) = angle {
+            push(what, angle);
         }
     }
-    push("angular velocity of {} at first", &body.spin);
-    push("angle between x and the axis of {}", &body.angle);
+    push(
+        match body.spin.as_symbol() {
+            Some(_) => "angular velocity of {} at first",
+            None => "angular velocity of {} at first, clockwise",
+        },
+        &body.spin,
+    );
+    push("angle between the x axis and that of {}", &body.angle);
     if let Shape::Composite { parts } = &body.shape {
         parts.iter().for_each(|part| of_body(part, out));
     }
 }
 
-/// The size of a vector along an axis, or at an angle to x.
-fn polar([x, y]: &Vector) -> Option<(&Expr, Option<&Expr>)> {
+/// The size of a vector along an axis, or at an angle to one, v cosθ and v sinθ of either sign, with the words for the angle.
+fn polar([x, y]: &Vector) -> Option<(&Expr, Option<Use<'_>>)> {
     if x.is_zero() || y.is_zero() {
         let along = if y.is_zero() { x } else { y };
         return symbol_in(along).map(|size| (size, None));
     }
-    let angle = x.factors().iter().find_map(|f| match f.node() {
-        Node::Call(_, angle) if angle.as_symbol().is_some() => Some(angle),
-        _ => None,
-    })?;
-    let shared = |e: &&Expr| e.as_symbol().is_some() && y.factors().contains(e);
-    Some((x.factors().iter().find(shared)?, Some(angle)))
+    let parts = |e: &Expr| -> Vec<Expr> {
+        let is_sign = |f: &Expr| f.as_number().is_some_and(|k| k.abs().is_one());
+        let factors = e.factors().iter();
+        factors.filter(|f| !is_sign(f)).cloned().collect()
+    };
+    let size = x.factors().iter().find(|f| f.as_symbol().is_some())?;
+    let is = |e: &Expr, of: Expr| {
+        let parts = parts(e);
+        parts.len() == 2 && parts.contains(size) && parts.contains(&of)
+    };
+    x.factors().iter().find_map(|f| {
+        let Node::Call(_, angle) = f.node() else {
+            return None;
+        };
+        let to_x = is(x, angle.cos()) && is(y, angle.sin());
+        let to_y = is(x, angle.sin()) && is(y, angle.cos());
+        let what = if to_x { TO_X } else { TO_Y };
+        (to_x || to_y).then_some((size, Some((what, None, angle))))
+    })
 }
 
 /// The one name of `v` and of `−v`.
@@ -151,12 +176,17 @@ fn of_impact<'s>(scene: &'s Scene, out: &mut Vec<Use<'s>>) {
     }
     for known in &scene.after {
         let what = match known.what {
-            KnownQuantity::Velocity { to: None, .. } => "velocity of {} just after",
+            KnownQuantity::Velocity { to: None, .. } => {
+                "component of the velocity of {} just after"
+            }
             KnownQuantity::Spin => "angular velocity of {} just after",
             KnownQuantity::Velocity { .. } => continue,
         };
         let name = scene.bodies[known.body].name.as_str();
-        out.push((what, Some(name), &known.value));
+        // Of −u only the author knows what u is.
+        if known.value.as_symbol().is_some() {
+            out.push((what, Some(name), &known.value));
+        }
     }
 }
 
@@ -185,7 +215,7 @@ fn of_motion<'s>(scene: &'s Scene, kind: &'s StageKind, out: &mut Vec<Use<'s>>) 
         }
         StageKind::Fall(fall) => match &fall.until {
             FallEnd::Drop(height) => {
-                let what = if fall.rising {
+                let what = if fall.rising || height.as_symbol().is_none() {
                     "height of the rise of {}"
                 } else {
                     "height of the fall of {}"

@@ -58,8 +58,8 @@ export async function valuesChanged() {
   drawing = false;
   refilm();
 }
-// Browsers stop a page that writes its address too often.
-const link = quietly(remember, 200);
+// Browsers stop a page that writes its address too often. The list of scenes has an address of its own.
+const link = quietly(() => $("bench").hidden || remember(), 200);
 const refilm = quietly(showFilm, 300);
 
 // Puts a scene on the bench, from its text where that was changed. A scene that cannot be read leaves the bench as it is.
