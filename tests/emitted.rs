@@ -287,18 +287,22 @@ fn output(command: &mut Command) -> String {
     String::from_utf8(done.stdout).expect("text")
 }
 
+/// Whether a function of an emitted text serves the others.
+fn is_helper(name: &str) -> bool {
+    let starts = ["wide_", "two_", "quick_", "unit_"];
+    starts.iter().any(|h| name.starts_with(h))
+}
+
 /// The names of the functions that a text offers, in the order of the answers.
 fn named(text: &str) -> impl Iterator<Item = &str> {
     text.lines().filter_map(|l| {
         let rest = l
             .strip_prefix("pub fn ")
             .or(l.strip_prefix("double "))
+            .or(l.strip_prefix("static inline double "))
             .or(l.strip_prefix("def "))?;
         let name = rest.split('(').next()?;
-        let helper = ["wide_", "two_", "quick_", "unit_"]
-            .iter()
-            .any(|h| name.starts_with(h));
-        (!helper).then_some(name)
+        (!is_helper(name)).then_some(name)
     })
 }
 
@@ -675,19 +679,24 @@ fn by_struct(case: &Case, language: Language) -> (String, String) {
     let given = (0..USUAL).find_map(|k| joint_point(case, k));
     let given = given.expect("a point at which all functions have values");
     // What one function takes of another's points is the same number, so that both ways see the same arguments.
-    let calls = case.functions.iter().map(|f| {
+    let names: Vec<&str> = named(&text)
+        .filter_map(|n| n.strip_prefix("c_"))
+        .filter(|n| !is_helper(n))
+        .take(case.functions.len())
+        .collect();
+    let calls = case.functions.iter().zip(&names).map(|(f, name)| {
         let value = |name: &str| given.iter().find(|(n, _)| n == name).expect("given").1;
         let list = f
             .arguments
             .iter()
             .map(|a| format!("{:?}", value(&a.symbol)));
-        format!("c_{}({})", f.name, list.collect::<Vec<_>>().join(", "))
+        format!("c_{name}({})", list.collect::<Vec<_>>().join(", "))
     });
     let list = |of: &dyn Fn(&str, f64) -> String| {
         let each = given.iter().map(|(name, v)| of(name, *v));
         each.collect::<Vec<_>>().join(", ")
     };
-    let fields = case.functions.iter().map(|f| format!("out.{}", f.name));
+    let fields = names.iter().map(|name| format!("out.{name}"));
     let printed: String = fields
         .chain(calls)
         .map(|value| match language {

@@ -36,7 +36,8 @@ impl Lexer<'_> {
             let word = &rest[..run];
             let degrees =
                 matches!(word, "deg" | "degree" | "degrees") && self.symbols.find(word).is_none();
-            if degrees && !rest[run..].trim_start().starts_with('/') {
+            let behind = rest[run..].trim_start();
+            if degrees && !behind.starts_with('/') && !behind.starts_with("per ") {
                 self.pos += run;
                 return Ok(Tok::Degree);
             }

@@ -248,6 +248,11 @@ pub(super) fn quantities(ctx: &Context, expected: &Quantity, answer: &Quantity) 
             let own = &answer.value * &expected.unit.value().powi(-1);
             scalars(ctx, &expected.written, &own)
         }
+        // So many digits of the number as it is written.
+        Some(Tolerance::Significant(_)) => {
+            let own = &expected.value * &answer.unit.value().powi(-1);
+            scalars(ctx, &own, &answer.written)
+        }
         _ => scalars(ctx, &expected.value, &answer.value),
     };
     let turns = [&expected.unit, &answer.unit].map(|u| (u.cycles, u.angle));

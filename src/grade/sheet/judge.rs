@@ -413,11 +413,12 @@ impl Sheet {
 /// What makes a direction the same one.
 const TURNS: [&str; 2] = [" - 2*pi", " + 2*pi"];
 
-/// The digits of an angle in degrees, which is read as a multiple of π: `69.4°`, `69.4 deg`.
+/// The digits of an angle in degrees, or of a rate, which is read as a multiple of π: `69.4°`, `69.4 deg`, `69.4°/s`.
 fn digits_in_degrees(key: &Key, answer: &str) -> Option<u32> {
     let signs = ["°", "^\\circ", "^{\\circ}", "degrees", "deg"];
     let turned = TURNS.iter().find_map(|turn| answer.strip_suffix(turn));
     let answer = turned.unwrap_or(answer).trim_end();
+    let answer = answer.strip_suffix("/s").unwrap_or(answer);
     let number = signs.iter().find_map(|sign| answer.strip_suffix(sign))?;
     let digits = read::answer(key, number).ok()?.literal?.digits;
     // 429.4° less a turn is 69.4°: those of the turn are gone.
