@@ -7,6 +7,7 @@ use super::Check;
 pub use crate::algebra::tidy;
 use crate::algebra::{self, Field, Sign};
 use crate::domain::{Domains, roles, samples, samples_until};
+use crate::equality;
 use crate::expr::{Expr, Function, Node, Point};
 use crate::formula::Sentence;
 use crate::interval::{Interval, Outcome, evaluate};
@@ -175,8 +176,8 @@ pub fn constant(e: &Expr) -> Option<Sign> {
 /// The sign at points of the domain, by enclosures.
 pub(super) fn seen(e: &Expr, domains: &Domains) -> Seen {
     match met_anywhere(e, domains) {
-        (3.., 0) => Seen::Positive,
-        (0, 3..) => Seen::Negative,
+        (3.., 0) if !equality::falls_below_zero(e, domains) => Seen::Positive,
+        (0, 3..) if !equality::falls_below_zero(&-e, domains) => Seen::Negative,
         _ => Seen::Mixed,
     }
 }

@@ -145,10 +145,11 @@ fn solve_without_bars(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Ro
             let excess = relation.excess.put(symbol, &root.value);
             // Where the value lies in the interval at all.
             let here = &root.within(&apart);
-            match sign(&excess, here) {
+            let seen = sign(&excess, here);
+            match seen {
                 Seen::Proved(Sign::Negative) | Seen::Negative => {}
                 Seen::Proved(Sign::Zero | Sign::NotPositive) if !relation.closed => {}
-                seen => {
+                _ => {
                     let sure = match seen {
                         Seen::Proved(s) => {
                             s == Sign::Positive || relation.closed && s.is_not_negative()
@@ -177,7 +178,7 @@ fn solve_without_bars(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Ro
                 None => sentence!(", against {}", stated(relation)),
                 Some(needed) => sentence!(": {} is needed so that {}", stated(relation), needed),
             };
-            let why = sentence!("{} = {}{}", symbol, &root.value, against);
+            let why = sentence!("{} = {}{}{}", symbol, &root.value, against, how(seen));
             out.discarded.push(why);
         }
     }
@@ -363,6 +364,15 @@ pub fn real(value: &Expr, domains: &Domains) -> Vec<Expr> {
     out
 }
 
+/// How a sign is known, where it is not proved.
+fn how(seen: Seen) -> &'static str {
+    if seen.is_proved() {
+        ""
+    } else {
+        " (seen at points, not proved)"
+    }
+}
+
 /// What must be above zero, or not below it, for a value to lie within a domain, where that is not sure; in `Err` why it does
 /// not.
 pub(super) fn placed(
@@ -392,10 +402,8 @@ pub(super) fn placed(
         }
         let how = if seen == Seen::Proved(Sign::NotPositive) && !limit.open {
             " or just at its end"
-        } else if seen.is_proved() {
-            ""
         } else {
-            " (seen at points, not proved)"
+            how(seen)
         };
         if outside {
             return Err(sentence!(

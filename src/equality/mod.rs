@@ -39,6 +39,21 @@ const FIRST: usize = 2;
 /// Products of terms beyond which a proof costs more than a look at many digits.
 const COSTLY: usize = 2_000_000;
 
+/// Points from which a value below zero is looked for.
+const LOOKED_FROM: usize = 8;
+
+/// Whether a point of the domain is found at which an expression is negative: each symbol is led to both sides of every place
+/// where it changes sign, to ends and far out.
+pub(crate) fn falls_below_zero(e: &Expr, domains: &Domains) -> bool {
+    let bearing = domains.relations_of(&e.symbols());
+    let all: Vec<&Expr> = bearing.iter().map(|r| &r.excess).chain([e]).collect();
+    let roles = roles(&all);
+    let (domains, _) = domains.completed(&roles);
+    let near = samples(&roles, &domains, LOOKED_FROM);
+    let supposed = [Assumption::NotNegative(e.clone())];
+    critical::tested(&supposed, &near, &domains, &roles).is_err()
+}
+
 /// Decides whether two formulas have the same value everywhere on the domain.
 ///
 /// Same result on every machine: limits count points, nodes and bits. Same result in either order: the search always begins
