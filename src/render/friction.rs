@@ -8,7 +8,7 @@ use super::{latex, unicode};
 use crate::answer::{Answer, Check};
 use crate::derive::friction::{Bound, Case, Direction, Table};
 use crate::expr::Expr;
-use crate::formula::write_plain;
+use crate::formula::{Sentence, write_plain};
 use crate::scene::{Friction, Hypothesis, Scene};
 use crate::story::Told;
 use crate::verify::Proof;
@@ -87,6 +87,15 @@ pub fn text(
                 for line in &answer.text {
                     say(&format!("    {}", line.written(|e| unicode(scene, e))));
                 }
+                let of_case = |words: &&Sentence| impact.assumptions().all(|own| own != **words);
+                for words in answer.assumptions.iter().filter(of_case) {
+                    let words = words.written(|e| unicode(scene, e));
+                    say(&format!("    given that {words}"));
+                }
+            }
+            for words in (impact.proof.assumptions.iter()).filter(|w| w.condition().is_some()) {
+                let words = words.written(|e| unicode(scene, e));
+                say(&format!("  given that {words}"));
             }
             for definition in &impact.derivation.definitions {
                 say(&format!(

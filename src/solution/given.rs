@@ -47,9 +47,10 @@ fn needed(scene: &Scene, mut all: Vec<Sentence>) -> Vec<Sentence> {
     all
 }
 
-/// Whether a condition is that of a case, which stands behind it in brackets.
+/// Whether a condition is that of a case, which stands behind it in brackets, or of one of several values.
 fn is_case(condition: &Sentence) -> bool {
-    let opens = |p: &Piece| matches!(p, Piece::Words(words) if words.starts_with(" ("));
+    let begins = |words: &str| words.starts_with(" (") || words.starts_with(", for ");
+    let opens = |p: &Piece| matches!(p, Piece::Words(words) if begins(words));
     condition.0.iter().any(opens)
 }
 

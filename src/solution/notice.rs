@@ -5,11 +5,12 @@ use std::collections::BTreeMap;
 
 use super::words::{self, fill, say};
 use super::{Claim, Inline, Part, Writer};
-use crate::algebra::{Field, Sign};
+use crate::algebra::{self, Field, Sign};
 use crate::answer::solve::{real, solve};
 use crate::answer::{Answer, Form};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol};
+use crate::formula::Sentence;
 use crate::laws::Unknown;
 use crate::scene::{Ask, EnergyWhen, ImpulseAt, Parameter};
 use crate::verify::needed_friction;
@@ -336,6 +337,9 @@ impl Writer<'_> {
                 continue;
             }
             for (value, to) in self.ends(&parameter.name) {
+                if to == To::Value && self.excludes(&parameter.name, &value) {
+                    continue;
+                }
                 let mut zeros = Vec::new();
                 let mut others = Vec::new();
                 for (answer, closed) in &answers {
@@ -402,6 +406,15 @@ impl Writer<'_> {
             out.push((Expr::zero(), To::Infinity));
         }
         out
+    }
+
+    /// Whether the collision is not possible at a value.
+    fn excludes(&self, name: &Symbol, value: &Expr) -> bool {
+        let domains = &self.scene.domains;
+        self.needed().filter_map(Sentence::condition).any(|(e, _)| {
+            let there = e.put(name, value);
+            algebra::sign(&there, domains) == Some(Sign::Negative)
+        })
     }
 
     /// The closed form at an end, where it has a value there.

@@ -2,10 +2,12 @@
 
 use super::known;
 use super::opening::NUMBERS;
+use super::sentence::sentence;
 use super::words::{self, fill, say};
 use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Writer};
 use crate::answer::Form;
 use crate::expr::{Expr, Symbol};
+use crate::formula::Sentence;
 use crate::scene::Scene;
 
 impl Writer<'_> {
@@ -247,16 +249,30 @@ impl Writer<'_> {
             text.extend(all);
             text.push(say("."));
         }
+        let needed: Vec<Sentence> = self.needed().cloned().collect();
+        if !needed.is_empty() {
+            text.push(say(" Needed besides: "));
+            text.extend(sentence(self.scene, &Sentence::join(needed, "; ")));
+            text.push(say("."));
+        }
         if !text.is_empty() {
             self.text(text);
         }
+    }
+
+    /// What must hold so that the collision is possible, with the reason.
+    pub(super) fn needed(&self) -> impl Iterator<Item = &Sentence> {
+        let all = self.proof.assumptions.iter();
+        all.filter(|words| words.condition().is_some())
     }
 
     /// What must hold beyond positive parameters.
     pub(super) fn conditions(&self) -> Vec<Inline> {
         let mut all = stated(self.scene);
         let own = self.d.assumptions.iter().map(ToString::to_string);
-        for a in own.chain(self.proof.assumptions.iter().cloned()) {
+        let told = self.proof.assumptions.iter();
+        let told = told.filter(|words| words.condition().is_none());
+        for a in own.chain(told.map(ToString::to_string)) {
             let text = a.replace("the bodies approach", "bodies that approach");
             let condition = words::condition(self.scene, &text);
             if !all.contains(&condition) {

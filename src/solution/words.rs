@@ -444,7 +444,7 @@ pub fn meaning(scene: &Scene, unknown: Unknown, reversed: bool) -> Meaning {
 pub fn assumptions(scene: &Scene, d: &Derivation, proof: &Proof) -> Vec<String> {
     let mut all = scene.domains.conditions();
     all.extend(d.assumptions.iter().map(ToString::to_string));
-    all.extend(proof.assumptions.iter().cloned());
+    all.extend(proof.assumptions.iter().map(ToString::to_string));
     all
 }
 

@@ -8,7 +8,7 @@ use super::worlds::World;
 use super::{Case, StageTold, State, Told, second};
 use crate::answer::{self, Answer, Refused};
 use crate::derive;
-use crate::formula::Sentence;
+use crate::formula::{Sentence, sentence};
 use crate::scene::{Scene, Stage};
 use crate::verify::possible::{self, Rule};
 use crate::verify::{self, APPROACH};
@@ -18,10 +18,24 @@ pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
     let derivation = derive::derive(scene).map_err(|stop| Refused::stop("", stop))?;
     let mut proof = verify::prove(scene, &derivation);
     let possible = possible::judge(scene, &derivation);
-    let mut open = possible.open().into_iter();
-    let is_told = proof.assumptions.iter().any(|words| words == APPROACH);
-    if !is_told && open.any(|condition| condition.rule == Rule::Approach) {
-        proof.assumptions.push(String::from(APPROACH));
+    let mut is_told = proof
+        .assumptions
+        .iter()
+        .any(|words| words.to_string() == APPROACH);
+    let mut known = super::answer::as_decided(scene);
+    for open in possible.open() {
+        if open.rule == Rule::Approach {
+            if !std::mem::replace(&mut is_told, true) {
+                proof.assumptions.push(Sentence::words(APPROACH));
+            }
+            continue;
+        }
+        let Some(e) = open.essential.as_ref().filter(|_| open.divides(&known)) else {
+            continue;
+        };
+        known = known.given(e, true);
+        let needed = sentence!("{} ({})", Sentence::not_negative(e), &open.words);
+        proof.assumptions.push(needed);
     }
     let counting = &derivation.counting;
     let contradiction = counting.contradictory.then(|| Refused {

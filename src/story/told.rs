@@ -156,7 +156,7 @@ impl Case {
     pub fn assumptions(&self) -> impl Iterator<Item = Sentence> {
         let own = self.derivation.assumptions.iter();
         let own = own.map(|words| words.put_in(&self.handed));
-        own.chain(self.proof.assumptions.iter().map(Sentence::from))
+        own.chain(self.proof.assumptions.iter().cloned())
     }
 
     /// The laws that its motion was put into.

@@ -26,7 +26,7 @@ use num_traits::Zero;
 use crate::answer::{Answer, Check, Form};
 use crate::derive::Derivation;
 use crate::expr::{Expr, Point, Rational, Scalar, Symbol};
-use crate::formula::write_plain;
+use crate::formula::{Sentence, write_plain};
 use crate::numeric::{self};
 use crate::scene::{Ask, Scene};
 
@@ -48,7 +48,7 @@ pub struct Proof {
     /// Checks of each answer, in the order of the answers.
     pub answers: Vec<Vec<Check>>,
     /// Conditions of the collision itself that could not be shown from the domain, such as that the bodies approach.
-    pub assumptions: Vec<String>,
+    pub assumptions: Vec<Sentence>,
 }
 
 impl Proof {
@@ -266,7 +266,7 @@ fn admissible(scene: &Scene, derivation: &Derivation, runs: &[Run<Rational>], pr
         }
     }
     if separating > 0 {
-        proof.assumptions.push(String::from(APPROACH));
+        proof.assumptions.push(Sentence::words(APPROACH));
     }
     if let Some(most) = most {
         let told: Vec<String> = ratios.iter().flatten().map(write_plain).collect();

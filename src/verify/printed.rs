@@ -36,7 +36,7 @@ pub struct Finding {
     pub printed: String,
     /// Whether it holds; `None` where that could not be found out.
     pub holds: Option<bool>,
-    /// In which cases of friction it holds, where it does not in all of them.
+    /// Under which conditions it holds, and in which cases of friction, where it does not in all of them.
     pub only_where: Option<String>,
     /// What carom has in its place.
     pub carom: String,
@@ -58,11 +58,30 @@ pub fn check(scene: &Scene, derivation: &Derivation, all: &[Answer]) -> Vec<Find
     let findings = scene.printed.iter().map(|printed| desk.check(printed));
     let mut findings: Vec<Finding> = findings.collect();
     desk.consequences(&mut findings);
+    for (finding, printed) in findings.iter_mut().zip(&scene.printed) {
+        if let (Some(true), Print::Formula { item, .. }) = (finding.holds, &printed.what) {
+            finding.only_where = conditions(all, item);
+        }
+    }
     for finding in findings.iter_mut().filter(|f| f.holds == Some(false)) {
         finding.explained.get_or_insert_with(|| UNEXPLAINED.into());
     }
     findings
 }
+
+/// What an answer rests on beyond what the scene states.
+fn conditions(all: &[Answer], item: &str) -> Option<String> {
+    let answer = all.iter().find(|a| a.name == item)?;
+    let conditions = answer
+        .assumptions
+        .iter()
+        .filter(|words| words.condition().is_some());
+    let conditions: Vec<String> = conditions.map(ToString::to_string).collect();
+    (!conditions.is_empty()).then(|| conditions.join(AND))
+}
+
+/// Stands between conditions.
+const AND: &str = "; ";
 
 impl Desk<'_> {
     fn check(&self, printed: &Printed) -> Finding {

@@ -6,7 +6,7 @@ mod motion;
 mod reached;
 mod turns;
 
-pub(super) use reached::{needs, of_impact, part, tell};
+pub(super) use reached::{as_decided, needs, of_impact, part, tell};
 
 use std::collections::BTreeSet;
 use std::iter::successors;

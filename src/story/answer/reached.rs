@@ -104,18 +104,33 @@ pub(in crate::story) fn of_impact(scene: &Scene, case: &Case, question: &Questio
         return Vec::new();
     }
     let possible = case.possible.open().into_iter();
-    let approach = possible.filter(|c| c.rule == Rule::Approach && !c.is_equation);
-    let approach = approach.filter_map(|c| {
+    let possible = possible.filter(|c| !c.is_equation).filter_map(|c| {
         let excess = c.essential.as_ref()?;
-        let told = sentence!("{} ({})", Sentence::positive(excess), &c.words);
+        let closed = c.rule != Rule::Approach;
+        let holds = match closed {
+            true => Sentence::not_negative(excess),
+            false => Sentence::positive(excess),
+        };
+        let told = sentence!("{} ({})", holds, &c.words);
         let origin = Origin::Outcome(c.words.clone());
-        Some(Need::new(excess, false, origin, told))
+        Some(Need::new(excess, closed, origin, told))
     });
+    open(possible.chain(decided(scene)), &scene.domains)
+}
+
+/// The scene's domains where friction does what is told.
+pub(in crate::story) fn as_decided(scene: &Scene) -> Domains {
+    let with = |all: Domains, need: Need| all.with_relation(need.relation);
+    decided(scene).fold(scene.domains.clone(), with)
+}
+
+/// What must hold so that friction does what is told.
+fn decided(scene: &Scene) -> impl Iterator<Item = Need> {
     let decided = scene.contacts.iter().filter_map(|c| match &c.law {
         ContactLaw::Decided(decided) => Some((&c.name, decided)),
         _ => None,
     });
-    let does = decided.flat_map(|(name, decided)| {
+    decided.flat_map(|(name, decided)| {
         decided.when.iter().map(move |(left, relation, right)| {
             let excess = match relation.is_below() {
                 true => right - left,
@@ -127,8 +142,7 @@ pub(in crate::story) fn of_impact(scene: &Scene, case: &Case, question: &Questio
             let origin = Origin::Outcome(decided.mode.of(name));
             Need::new(&excess, closed, origin, told)
         })
-    });
-    open(approach.chain(does), &scene.domains)
+    })
 }
 
 /// Whether a question is about what an outcome gives; a coefficient at which friction does something else is given by none.

@@ -1,6 +1,6 @@
 //! Findings about one printed thing in several cases of friction, put together.
 
-use super::{Finding, UNEXPLAINED};
+use super::{AND, Finding, UNEXPLAINED};
 
 /// Findings in each of several cases, all about the same printed things. What holds in one of the cases holds there: a book
 /// prints one of them, and what it is read with is told beside it.
@@ -22,8 +22,21 @@ fn together(all: Vec<(&str, Finding)>) -> Option<Finding> {
         let mut where_: Vec<&str> = holds(Some(true)).map(|(words, _)| *words).collect();
         let is_everywhere = where_.len() == all.len();
         where_.dedup();
+        let mut told: Vec<String> = Vec::new();
+        if !is_everywhere {
+            told.push(where_.join(", or "));
+        }
+        // What it rests on in each of them.
+        let given = found.only_where.iter().flat_map(|words| words.split(AND));
+        let shared = |words: &&str| {
+            let others = holds(Some(true)).map(|(_, f)| f.only_where.as_deref());
+            others
+                .flatten()
+                .all(|given| given.split(AND).any(|own| own == *words))
+        };
+        told.extend(given.filter(shared).map(str::to_string));
         return Some(Finding {
-            only_where: (!is_everywhere).then(|| where_.join(", or ")),
+            only_where: (!told.is_empty()).then(|| told.join(AND)),
             ..found.clone()
         });
     }
