@@ -54,8 +54,10 @@ impl Field {
                         turns = factor;
                         continue;
                     }
-                    if let Some(unit) = self.inverse_direction(&term)?
-                        && factor.is_integer()
+                    let whole = factor.is_integer();
+                    let half = *factor.denom() == Int::from(2);
+                    if (whole || half)
+                        && let Some(unit) = self.inverse_direction(&term, half)?
                         && let Some(k) = factor.numer().as_i64()
                         && k.abs() <= MOST_TURNS
                     {
@@ -145,8 +147,8 @@ impl Field {
         Ok(Some((base, k.ok_or(Stop::TooLarge("angle multiple"))?)))
     }
 
-    /// Cosine and sine of asin x or atan x.
-    fn inverse_direction(&mut self, term: &Element) -> Result<Option<Direction>, Stop> {
+    /// Cosine and sine of asin x or atan x, or of half of it.
+    fn inverse_direction(&mut self, term: &Element, half: bool) -> Result<Option<Direction>, Stop> {
         let Some(v) = self.as_generator(term) else {
             return Ok(None);
         };
@@ -156,12 +158,30 @@ impl Field {
         };
         let square = self.mul(&x, &x)?;
         let one = self.integer(1);
+        if function == Function::Asin && half {
+            // Half of it lies within a quarter turn of 0: (√(1 + x) ± √(1 − x))/2.
+            let roots = [self.add(&one, &x)?, self.sub(&one, &x)?];
+            let [above, below] = [self.sqrt(&roots[0])?, self.sqrt(&roots[1])?];
+            let halved = self.number(&ratio(1, 2));
+            let both = [self.add(&above, &below)?, self.sub(&above, &below)?];
+            return Ok(Some([
+                self.mul(&both[0], &halved)?,
+                self.mul(&both[1], &halved)?,
+            ]));
+        }
         if function == Function::Asin {
             let rest = self.sub(&one, &square)?;
             return Ok(Some([self.sqrt(&rest)?, x]));
         }
         let rest = self.add(&one, &square)?;
         let root = self.sqrt(&rest)?;
+        if half {
+            // cos² of half an angle is (1 + cos)/2, and its sine is sin/(2 cos).
+            let twice = self.mul(&root, &self.integer(2))?;
+            let cos = self.sqrt(&self.div(&self.add(&root, &one)?, &twice)?)?;
+            let sin = self.div(&x, &self.mul(&twice, &cos)?)?;
+            return Ok(Some([cos, sin]));
+        }
         Ok(Some([self.div(&one, &root)?, self.div(&x, &root)?]))
     }
 

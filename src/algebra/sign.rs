@@ -128,7 +128,7 @@ impl Field {
         let told = self
             .by_coefficients(p, &[])
             .or_else(|| self.by_logarithm(p))
-            .or_else(|| self.by_relations(p))
+            .or_else(|| self.by_relations_and_more(p, depth))
             .or_else(|| self.by_ends(p, depth));
         if told.is_some() {
             return told;
@@ -148,6 +148,18 @@ impl Field {
             .or_else(|| self.by_conjugate(p, depth))
             .or_else(|| self.by_discriminant(p, depth))
             .or_else(|| self.by_bounds(p, depth))
+    }
+
+    /// The sign by relations; where they let it be zero, a quadratic without zeros may still be known to have none.
+    fn by_relations_and_more(&self, p: &Poly, depth: u32) -> Option<Sign> {
+        let told = self.by_relations(p)?;
+        if told.is_strict() || told == Sign::Zero || depth == 0 {
+            return Some(told);
+        }
+        let strict = self
+            .by_discriminant(p, depth)
+            .filter(|sign| sign.is_strict());
+        strict.or(Some(told))
     }
 
     /// What is of the first degree in a sine or cosine lies between its values at −1 and 1, whatever the angle: 1 − cos x ≥ 0;
@@ -287,7 +299,8 @@ impl Field {
             return None;
         }
         let plain = |v: &usize| p.degree(*v) == 2 && self.gens[*v].relation.is_none();
-        // Three tries: each may look at discriminants of its own.
+        let mut found = None;
+        // Three tries: each may look at discriminants of its own. In x² + l x + l² it is x that tells that l > 0 keeps it from 0.
         for v in p.variables().into_iter().filter(plain).take(3) {
             let parts = p.by_power(v);
             let [c, b, a] = parts.as_slice() else {
@@ -301,10 +314,13 @@ impl Field {
             if let Some(below @ (Sign::Negative | Sign::NotPositive)) = below
                 && let Some(sign @ (Sign::Positive | Sign::Negative)) = self.sign_sub(a, depth)
             {
-                return Some(Sign::made(sign.is_not_negative(), below.is_strict()));
+                found = Some(Sign::made(sign.is_not_negative(), below.is_strict()));
+                if below.is_strict() {
+                    break;
+                }
             }
         }
-        None
+        found
     }
 
     /// All terms of one sign. Variables that stand for others are positive, up to what `ends` adds; strict is a sign only if

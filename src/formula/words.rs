@@ -61,6 +61,15 @@ impl Lexer<'_> {
         if let Some(tok) = self.spelled_out(start) {
             return Ok(tok);
         }
+        // A name just as it was declared: `v1f_y`.
+        let of_name = |b: &u8| b.is_ascii_alphanumeric() || *b == b'_';
+        let whole = &rest[..rest.bytes().take_while(of_name).count()];
+        if whole.contains('_')
+            && let Some(declared) = self.symbols.find(whole)
+        {
+            self.pos = start + whole.len();
+            return Ok(Tok::Name(declared.name.clone()));
+        }
         if rest.starts_with('d')
             && !matches!(self.text.as_bytes().get(start + 1), Some(b'_' | b'\''))
         {
