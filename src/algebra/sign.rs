@@ -394,6 +394,11 @@ impl Field {
             Kind::Root => self.radicand_sign(v),
             Kind::Abs(_) => Known::NotNegative,
             Kind::Call(Function::Exp | Function::Cosh, _) => Known::Positive,
+            Kind::Call(Function::Asin | Function::Atan, x)
+                if self.sign_of(x) == Some(Sign::Positive) =>
+            {
+                Known::Positive
+            }
             Kind::Call(Function::Ln, x) if x.as_number().is_some_and(|x| x > ratio(1, 1)) => {
                 Known::Positive
             }

@@ -164,7 +164,8 @@ pub(super) fn says(scene: &Scene, alone: Option<&Derivation>, a: &Answer) -> Str
     let name = &a.name;
     let is_it = |q: &&Question| q.name == a.question;
     let asked = scene.questions.iter().find(is_it).map(|q| &q.ask);
-    let is_largest = matches!(asked, Some(Ask::Maximum { .. }));
+    // Its place is an answer of its own, which says no more.
+    let is_largest = *name == a.question && matches!(asked, Some(Ask::Maximum { .. }));
     let text = |e: &Expr| unicode(scene, e);
     let value = match &a.form {
         Form::Value { short, .. } => Some(text(short)),

@@ -6,8 +6,9 @@ mod top;
 use super::bearing::bearing;
 use super::{arrival, balance, half, kept, meanwhile, pushed, tidied};
 use crate::answer::calc::{Seen, at_least_zero, is_zero, sign, tidy};
+use crate::answer::solve::real;
 use crate::expr::{Expr, Function, Vector, cross, dot, minus};
-use crate::formula::Sentence;
+use crate::formula::{Sentence, sentence};
 use crate::scene::{Lump, Stage, Turn, Until, direction};
 use crate::story::{Refused, StageTold, State};
 use begin::{fits, is_balanced, whirl};
@@ -176,7 +177,12 @@ fn counts_forward(stage: &Stage, turn: &Turn) -> Result<Option<Sentence>, Refuse
         return Ok(None);
     };
     match sign(by, &stage.scene.domains) {
-        Seen::Proved(s) if s.is_not_negative() => Ok(None),
+        // Its sign is known wherever it has a value.
+        Seen::Proved(s) if s.is_not_negative() => {
+            let has_value = real(by, &stage.scene.domains).into_iter();
+            let has_value = has_value.map(|need| Sentence::not_negative(&need));
+            Ok(has_value.reduce(|all, need| sentence!("{} and {}", all, need)))
+        }
         Seen::Proved(_) | Seen::Negative => Err(Refused::new(
             &stage.name,
             format!(
