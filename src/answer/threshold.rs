@@ -18,6 +18,8 @@ use crate::formula::{Sentence, sentence};
 use crate::interval::enclosure::decimal;
 use crate::scene::Scene;
 
+/// Largest value, in nodes, that a condition names.
+const SHORT: usize = 8;
 /// A step away from a value, of any size.
 const STEP: &str = "\u{1}step";
 
@@ -85,7 +87,7 @@ pub(super) fn fill(
         });
         return;
     }
-    meet(out, parameter, [left, right], &roots);
+    meet(out, parameter, relation, [left, right], &roots);
     if relation == Relation::Equal {
         exists(out, &roots, domains);
         let values = roots.inside.iter().map(|root| root.value.clone());
@@ -124,7 +126,13 @@ fn radicand(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Expr> {
 }
 
 /// That both sides are the same at the values that were found.
-fn meet(out: &mut Answer, parameter: &Symbol, sides: [&Expr; 2], roots: &Roots) {
+fn meet(
+    out: &mut Answer,
+    parameter: &Symbol,
+    relation: Relation,
+    sides: [&Expr; 2],
+    roots: &Roots,
+) {
     for root in &roots.inside {
         if root.proved {
             let [left, right] = sides.map(|side| root.put_in(side, parameter));
@@ -136,7 +144,12 @@ fn meet(out: &mut Answer, parameter: &Symbol, sides: [&Expr; 2], roots: &Roots) 
         out.needs.extend(needs);
         let given = root.given.iter().map(|given| {
             let is_shared = roots.inside.iter().all(|r| r.given.contains(given));
+            // Where the answer is a range, its end alone keeps to what is told of the parameter.
+            let of_end = relation != Relation::Equal
+                && root.value.size() <= SHORT
+                && !given.to_string().ends_with(" domain");
             match is_shared {
+                true if of_end => sentence!("{} for {} = {}", given, parameter, &root.value),
                 true => given.clone(),
                 false => sentence!("{}, for {} = {}", given, parameter, &root.value),
             }

@@ -173,6 +173,7 @@ impl Dimension {
         let si = self.si();
         match si.as_str() {
             "1/s" => String::from("rad/s"),
+            "1/s²" => String::from("rad/s²"),
             "kg m/s" => String::from("N s"),
             "kg m/s²" => String::from("N"),
             "kg m²/s²" => String::from("J"),

@@ -326,6 +326,7 @@ pub fn answered(scene: &Scene, ask: &Ask, value: f64) -> String {
         return format!("{} rad ≈ {degrees}°", double(value));
     }
     let (value, unit) = in_units_of_data(scene, &scene.dimension_of(ask), value);
+    let unit = if unit == "1" { "" } else { &*unit };
     format!("{} {unit}", double(value)).trim_end().to_owned()
 }
 

@@ -96,7 +96,9 @@ fn stage(scene: &Scene, s: &StageTold) -> String {
             let _ = writeln!(out, "\npossible where: {}", only.join(", "));
         }
         out.push('\n');
-        if let Some(possible) = super::possible::check(&scene, &case.possible) {
+        let is_open = !derivation.counting.contradictory;
+        let possible = super::possible::check(&scene, &case.possible);
+        if let Some(possible) = possible.filter(|_| is_open) {
             check(&mut out, "", &possible);
         }
         for words in &case.possible.not_judged {

@@ -5,20 +5,37 @@ use super::{BlowImpulse, Body, ContactLaw, KnownQuantity, Scene, Shape};
 use num_traits::{One, Signed};
 
 use crate::expr::{Expr, Node, Symbol, Vector};
+use crate::formula::unicode_name;
 
 /// What a number is, with `{}` where a body stands, and of which body.
 type Use<'s> = (&'static str, Option<&'s str>, &'s Expr);
 
-/// What an angle of a velocity is.
-const TO_X: &str = "angle between the x axis and the first velocity of {}";
-const TO_Y: &str = "angle between the y axis and the first velocity of {}";
+/// What an angle of a velocity is, from the x axis or from the y axis.
+const TO: [&str; 2] = [
+    "angle between the x axis and the first velocity of {}",
+    "angle between the y axis and the first velocity of {}",
+];
+/// The same for what turns about a point.
+const FROM: [&str; 2] = [
+    "angle at first between the horizontal and the line from that point to {}",
+    "angle at first between the vertical and the line from that point to {}",
+];
+/// What the components of a velocity are: to the right, to the left, up, down.
+const ALONG: [&str; 4] = [
+    "velocity of {} to the right at first",
+    "velocity of {} to the left at first",
+    "upward velocity of {} at first",
+    "downward velocity of {} at first",
+];
 
 /// Gives words to the parameters that have none and stand alone for a number of a body, a contact or a motion.
 pub(super) fn infer(scene: &mut Scene) {
     let meanings: Vec<(usize, String)> = {
         let uses = uses(scene);
         let all = scene.parameters.iter().enumerate();
-        let unsaid = all.filter(|(_, p)| p.meaning.is_empty());
+        // A statement says what its letters are.
+        let is_said = |name| is_in(&scene.statement, name) || is_told_before(scene, name);
+        let unsaid = all.filter(|(_, p)| p.meaning.is_empty() && !is_said(&p.name));
         unsaid
             .filter_map(|(i, p)| Some((i, words(&uses, &p.name)?)))
             .collect()
@@ -36,11 +53,39 @@ pub(super) fn infer(scene: &mut Scene) {
     }
 }
 
+/// Whether a text names a symbol, by its name or its Greek letter.
+fn is_in(text: &str, name: &Symbol) -> bool {
+    let mut words = text.split(|c: char| !c.is_alphanumeric() && c != '_');
+    let letter = unicode_name(name);
+    words.any(|word| word == name.as_ref() || word == letter)
+}
+
+/// Whether the page of a lone impact writes out the motion just before, of which a symbol is a component.
+fn is_told_before(scene: &Scene, name: &Symbol) -> bool {
+    let moves = |body: &Body| {
+        let is_part = body.velocity.iter().any(|e| e.mentions(name));
+        let is_spin = body.spin.mentions(name);
+        match scene.statement.is_empty() {
+            true => is_part && polar(&body.velocity).is_none(),
+            false => is_part || is_spin,
+        }
+    };
+    scene.stages.is_empty() && scene.bodies.iter().any(moves)
+}
+
 /// What a parameter is, by its first use: `mass of the rod`, `mass of body a and of body b`.
 fn words(uses: &[Use<'_>], name: &Symbol) -> Option<String> {
     let is_it = |e: &Expr| e.as_symbol() == Some(name) || (-e).as_symbol() == Some(name);
     let mut mine = uses.iter().filter(|(.., e)| is_it(e));
-    let (what, first, _) = mine.next()?;
+    let Some((what, first, _)) = mine.next() else {
+        // A rod of the length 2 ℓ.
+        let half = |e: &Expr| (&Expr::ratio(1, 2) * e).as_symbol() == Some(name);
+        let (what, body, _) = uses.iter().find(|(.., e)| half(e))?;
+        return Some(format!(
+            "half the {}",
+            what.replace("{}", &called((*body)?))
+        ));
+    };
     let mut bodies: Vec<String> = first.iter().map(|body| called(body)).collect();
     for (_, body, _) in mine.filter(|(also, ..)| also == what) {
         let body = body.map(called);
@@ -76,6 +121,16 @@ fn uses(scene: &Scene) -> Vec<Use<'_>> {
         );
         of_motion(scene, &stage.kind, &mut out);
     }
+    // Where nothing else is told by a letter, it says where a body is.
+    for body in scene
+        .bodies
+        .iter()
+        .filter(|b| !matches!(b.shape, Shape::Fixed))
+    {
+        let [x, y] = &body.center;
+        out.push(("x coordinate of {} at first", Some(&body.name), x));
+        out.push(("y coordinate of {} at first", Some(&body.name), y));
+    }
     out
 }
 
@@ -100,8 +155,12 @@ fn of_body<'s>(body: &'s Body, out: &mut Vec<Use<'s>>) {
     }
     if let Some((speed, angle)) = polar(&body.velocity) {
         push("speed of {} at first", speed);
-        if let Some((what, _, angle)) = angle {
-            push(what, angle);
+        if let Some((axis, angle)) = angle {
+            push(TO[axis], angle);
+        }
+    } else {
+        for (e, words) in body.velocity.iter().zip(ALONG.chunks(2)) {
+            push(words[usize::from(e.as_symbol().is_none())], e);
         }
     }
     push(
@@ -117,8 +176,8 @@ fn of_body<'s>(body: &'s Body, out: &mut Vec<Use<'s>>) {
     }
 }
 
-/// The size of a vector along an axis, or at an angle to one, v cosθ and v sinθ of either sign, with the words for the angle.
-fn polar([x, y]: &Vector) -> Option<(&Expr, Option<Use<'_>>)> {
+/// The size of a vector along an axis, or at an angle to one, v cosθ and v sinθ of either sign, with that axis and angle.
+fn polar([x, y]: &Vector) -> Option<(&Expr, Option<(usize, &Expr)>)> {
     if x.is_zero() || y.is_zero() {
         let along = if y.is_zero() { x } else { y };
         return symbol_in(along).map(|size| (size, None));
@@ -139,8 +198,7 @@ fn polar([x, y]: &Vector) -> Option<(&Expr, Option<Use<'_>>)> {
         };
         let to_x = is(x, angle.cos()) && is(y, angle.sin());
         let to_y = is(x, angle.sin()) && is(y, angle.cos());
-        let what = if to_x { TO_X } else { TO_Y };
-        (to_x || to_y).then_some((size, Some((what, None, angle))))
+        (to_x || to_y).then_some((size, Some((usize::from(!to_x), angle))))
     })
 }
 
@@ -180,7 +238,7 @@ fn of_impact<'s>(scene: &'s Scene, out: &mut Vec<Use<'s>>) {
                 "component of the velocity of {} just after"
             }
             KnownQuantity::Spin => "angular velocity of {} just after",
-            KnownQuantity::Velocity { .. } => continue,
+            KnownQuantity::Velocity { .. } => "component of the relative velocity of {} just after",
         };
         let name = scene.bodies[known.body].name.as_str();
         // Of −u only the author knows what u is.
@@ -193,11 +251,22 @@ fn of_impact<'s>(scene: &'s Scene, out: &mut Vec<Use<'s>>) {
 fn of_motion<'s>(scene: &'s Scene, kind: &'s StageKind, out: &mut Vec<Use<'s>>) {
     let name = |b: usize| Some(scene.bodies[b].name.as_str());
     match kind {
-        StageKind::Turn(turn) => match &turn.until {
-            Until::By(angle) => out.push(("angle of the turn of {}", name(turn.body), angle)),
-            Until::For(time) => out.push(("time of the turn of {}", name(turn.body), time)),
-            _ => {}
-        },
+        StageKind::Turn(turn) => {
+            match &turn.until {
+                Until::By(angle) => out.push(("angle of the turn of {}", name(turn.body), angle)),
+                Until::For(time) => out.push(("time of the turn of {}", name(turn.body), time)),
+                _ => {}
+            }
+            let moment = turn.torque.iter();
+            out.extend(moment.map(|moment| ("moment on {}", name(turn.body), moment)));
+            if turn.about.iter().all(Expr::is_zero)
+                && let Some((size, angle)) = polar(&scene.bodies[turn.body].center)
+            {
+                let about = "distance of {} from the point about which it turns";
+                out.push((about, name(turn.body), size));
+                out.extend(angle.map(|(axis, angle)| (FROM[axis], name(turn.body), angle)));
+            }
+        }
         StageKind::Slide(slide) => {
             let friction = slide.friction.iter();
             out.extend(friction.map(|mu| ("coefficient of sliding friction", None, mu)));
@@ -223,7 +292,7 @@ fn of_motion<'s>(scene: &'s Scene, kind: &'s StageKind, out: &mut Vec<Use<'s>>) 
                 out.push((what, name(fall.body), height));
             }
             FallEnd::Range(range) => {
-                out.push(("range of the flight of {}", name(fall.body), range))
+                out.push(("horizontal distance that {} flies", name(fall.body), range))
             }
             FallEnd::Time(time) => out.push(("time of the flight of {}", name(fall.body), time)),
             _ => {}

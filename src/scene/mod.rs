@@ -91,10 +91,7 @@ pub fn read(text: &str) -> Result<Scene, Faults> {
         let (mut scene, all) = resolve::resolve(whole, turns, std::mem::take(faults));
         *faults = all;
         questions::name_centers(&file, &mut scene);
-        // A statement says what its letters are.
-        if scene.statement.is_empty() {
-            meaning::infer(&mut scene);
-        }
+        meaning::infer(&mut scene);
         scene
     })
 }

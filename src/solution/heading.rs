@@ -132,6 +132,8 @@ pub(super) fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> 
             };
             match order {
                 Some(0) => {}
+                Some(1) => out.push(say(", to first order")),
+                Some(2) => out.push(say(", to second order")),
                 Some(order) => out.push(say(format!(", to order {order}"))),
                 None => out.insert(0, say("Leading term of ")),
             }
@@ -147,8 +149,12 @@ pub(super) fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> 
             "" => vec![say("To show: "), related(left, *relation, right)],
             claim => vec![say("To show: "), say(claim)],
         },
-        Ask::Turn { number, .. } => {
-            fill("In turn {}, whichever it is", [math(&Expr::symbol(number))])
+        Ask::Turn { number, total, .. } => {
+            let form = match total {
+                true => "In {} turns, however many",
+                false => "In turn {}, whichever it is",
+            };
+            fill(form, [math(&Expr::symbol(number))])
         }
         Ask::Unused(of) => fill("Data not needed for {}", [math(&Expr::symbol(of))]),
         _ => vec![say(words::capital(&called(scene, &answer.words)))],

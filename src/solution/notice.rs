@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use super::words::{self, fill, say};
 use super::{Claim, Inline, Part, Writer};
-use crate::algebra::{self, Field, Sign};
+use crate::algebra::{Field, Sign};
 use crate::answer::solve::{real, solve};
 use crate::answer::{Answer, Form};
 use crate::dimension::Dimension;
@@ -167,7 +167,7 @@ impl Writer<'_> {
         ))
     }
 
-    /// Spins and impulses whose sign is proved.
+    /// Spins whose sign is proved, and a loss that is a gain.
     fn signs(&mut self) -> Vec<Vec<Inline>> {
         let mut items = Vec::new();
         for (answer, closed) in self.closed() {
@@ -175,7 +175,13 @@ impl Writer<'_> {
                 .scene
                 .asked_of_impact()
                 .find(|q| q.name == answer.question);
-            let Some(Ask::Spin { body, clockwise }) = question.map(|q| q.ask.clone()) else {
+            let symbol = words::formula(&Expr::symbol(&answer.name));
+            let ask = question.map(|q| q.ask.clone());
+            if ask.as_ref().is_some_and(is_lost) && self.sign(&closed) == Some(Sign::Negative) {
+                items.push(fill("{} is negative: kinetic energy is gained.", [symbol]));
+                continue;
+            }
+            let Some(Ask::Spin { body, clockwise }) = ask else {
                 continue;
             };
             let (is, positive) = match self.sign(&closed) {
@@ -188,7 +194,6 @@ impl Writer<'_> {
                 false => "counterclockwise",
             };
             let whom = words::body(self.scene, body);
-            let symbol = words::formula(&Expr::symbol(&answer.name));
             let parts = [symbol, say(is), say(whom), say(sense)];
             items.push(fill("{} is {}: {} turns {}.", parts));
         }
@@ -337,7 +342,7 @@ impl Writer<'_> {
                 continue;
             }
             for (value, to) in self.ends(&parameter.name) {
-                if to == To::Value && self.excludes(&parameter.name, &value) {
+                if self.is_shut_off(&parameter.name, &value, to) {
                     continue;
                 }
                 let mut zeros = Vec::new();
@@ -408,12 +413,20 @@ impl Writer<'_> {
         out
     }
 
-    /// Whether the collision is not possible at a value.
-    fn excludes(&self, name: &Symbol, value: &Expr) -> bool {
-        let domains = &self.scene.domains;
-        self.needed().filter_map(Sentence::condition).any(|(e, _)| {
-            let there = e.put(name, value);
-            algebra::sign(&there, domains) == Some(Sign::Negative)
+    /// Whether a relation of the scene, or what makes the collision possible, keeps a parameter from an end.
+    fn is_shut_off(&mut self, name: &Symbol, value: &Expr, to: To) -> bool {
+        let relations = self.scene.domains.relations.iter();
+        let relations = relations.map(|r| r.excess.clone());
+        let needed = self.needed().filter_map(Sentence::condition);
+        let all = relations.chain(needed.map(|(excess, _)| excess));
+        let own: Vec<Expr> = all.filter(|excess| excess.mentions(name)).collect();
+        own.into_iter().any(|excess| {
+            // Far out the leading term decides.
+            let at_end = match to {
+                To::Value => self.value_at(&excess, name, value, to),
+                To::Infinity => self.value_at(&(excess / Expr::symbol(name)), name, value, to),
+            };
+            at_end.is_some_and(|e| self.sign(&e) == Some(Sign::Negative))
         })
     }
 

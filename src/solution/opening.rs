@@ -1,6 +1,8 @@
 //! What stands below the title: the statement, what the symbols mean, what moves just before, how a rough contact behaves; and
 //! what the rest of the text shows to be needed there.
 
+use std::collections::BTreeSet;
+
 use super::neat::{alike, tidied};
 use super::rough;
 use super::words::{self, fill, say, set};
@@ -89,6 +91,29 @@ impl Solution {
             *texts[here] = meant;
         }
     }
+}
+
+/// What counts as positive, and which symbols count the other way: answers asked for clockwise, and the ω of a spin −ω.
+pub(super) fn axes(scene: &Scene, unless: &str) -> Vec<Inline> {
+    let told = |name: &Symbol| {
+        let mut all = scene.parameters.iter();
+        all.any(|p| p.name == *name && p.meaning.contains("clockwise"))
+    };
+    let asked = scene.questions.iter().filter(|q| q.ask.is_clockwise());
+    let mut clockwise: Vec<Symbol> = asked.map(|q| Symbol::from(q.name.as_str())).collect();
+    for body in &scene.bodies {
+        let reversed = -&body.spin;
+        clockwise.extend(reversed.as_symbol().filter(|name| !told(name)).cloned());
+    }
+    let mut seen = BTreeSet::new();
+    clockwise.retain(|name| seen.insert(name.clone()));
+    if clockwise.is_empty() {
+        return vec![say(format!("{AXES}{unless}."))];
+    }
+    let are = if clockwise.len() == 1 { "is" } else { "are" };
+    let lead = vec![say(format!("{AXES}, but "))];
+    let end = vec![say(format!(" {are} counted clockwise."))];
+    [lead, words::symbols(&clockwise, " and "), end].concat()
 }
 
 /// Sets the names of the axes in sentences and headings as the symbols they are.
@@ -198,7 +223,7 @@ impl Writer<'_> {
             self.text(text);
         }
         self.push(Part::Figure(Slot::Before));
-        let mut text = format!("{AXES}.");
+        let mut text = String::new();
         let forces: Vec<String> = self.forces();
         if !forces.is_empty() {
             let one = forces.len() == 1 && !forces[0].starts_with("the weights ");
@@ -209,7 +234,9 @@ impl Writer<'_> {
                 if one { "has" } else { "have" },
             ));
         }
-        self.say(&text);
+        let mut lead = axes(self.scene, "");
+        lead.push(say(text));
+        self.text(lead);
         composites(&mut self.solution, self.scene);
         self.before();
         if let Some(law) = rough::law(self.scene) {

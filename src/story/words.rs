@@ -1,10 +1,11 @@
 //! Sentences about stages, made from what was found of them: what happens, which forces have impulses, what is open.
 
+use super::answer::angular;
 use super::{Case, StageTold, change, line};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, is_zero, sign, tidy};
 use crate::derive;
-use crate::expr::{Expr, Symbol, dot};
+use crate::expr::{Expr, Symbol, cross, dot};
 use crate::formula::{Sentence, listed, sentence};
 use crate::scene::{
     BlowImpulse, Contact, ContactLaw, Fall, FallEnd, OneSided, Scene, Slide, SlideEnd, Stage,
@@ -450,25 +451,50 @@ fn turning(stage: &Stage, told: &StageTold, turn: &Turn) -> Sentence {
     let from_rest = is_zero(before, domains) == Some(true);
     let gain = Expr::sum(told.work.iter().map(|(_, w)| w.clone()));
     let hangs = carried.iter().all(|b| stage.scene.bodies[*b].is_particle());
-    let [turns, and_grows, and_falls] = match names.len() {
-        1 if hangs && turn.gravity.is_some() => ["swings", ", and gains speed", ", and slows down"],
-        1 => ["turns", ", and gains speed", ", and slows down"],
-        _ if hangs && turn.gravity.is_some() => {
-            ["swing together", ", and gain speed", ", and slow down"]
-        }
-        _ => ["turn as one body", ", and gain speed", ", and slow down"],
+    let is_one = names.len() == 1;
+    let turns = match hangs && turn.gravity.is_some() {
+        true if is_one => "swings",
+        true => "swing together",
+        false if is_one => "turns",
+        false => "turn as one body",
     };
     let rate = match change::way(&gain, domains, &[]) {
-        _ if matches!(turn.until, Until::Stops) && names.len() == 1 => ", and comes to rest",
+        _ if matches!(turn.until, Until::Stops) && is_one => ", and comes to rest",
         _ if matches!(turn.until, Until::Stops) => ", and come to rest",
         _ if same => " at a steady rate",
         _ if from_rest => ", from rest",
-        Some(true) => and_grows,
-        Some(false) => and_falls,
         None => "",
+        Some(gains) => match (gains, is_one, one_way(told, turn, gains)) {
+            (true, true, true) => ", and gains speed",
+            (true, false, true) => ", and gain speed",
+            (false, true, true) => ", and slows down",
+            (false, false, true) => ", and slow down",
+            (true, true, false) => ", and is faster at the end",
+            (true, false, false) => ", and are faster at the end",
+            (false, true, false) => ", and is slower at the end",
+            (false, false, false) => ", and are slower at the end",
+        },
     };
     let turns = format!(" {turns}{sense} about `{}`", turn.about_name);
     sentence!("{}{}{}", listed(&names), turns, rate)
+}
+
+/// Whether what turns only gains speed, or only loses it: no more than half a turn, with moments of one sense at both ends.
+fn one_way(told: &StageTold, turn: &Turn, gains: bool) -> bool {
+    let stage = &told.placed;
+    if turn.gravity.is_none() {
+        return true;
+    }
+    let spin = &told.before.spin[turn.body];
+    let Ok((way, _)) = super::motion::sense(stage, spin, turn) else {
+        return false;
+    };
+    let [first, last] = super::motion::arms(stage, turn, spin);
+    let half = &Expr::from(way) * &cross(&first, &last);
+    let grows = Expr::from(if gains { way } else { -way });
+    let rates = [false, true].map(|end| &grows * &angular(told, turn, way, end));
+    let mut all = [half].into_iter().chain(rates);
+    all.all(|e| matches!(sign(&e, &stage.scene.domains), Seen::Proved(s) if s.is_not_negative()))
 }
 
 /// Which forces have an impulse, and why; which have none.

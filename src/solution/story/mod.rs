@@ -17,7 +17,7 @@ mod swing;
 use super::asked;
 use super::known;
 use super::neat::tidied;
-use super::opening::{self, AXES};
+use super::opening;
 use super::rough;
 use super::sentence::{self, full_sentence};
 use super::words::{self, say};
@@ -138,19 +138,8 @@ impl Page<'_> {
             let readings = self.readings();
             self.solution.push(Part::List(readings));
         }
-        let clockwise: Vec<Symbol> = (self.scene.questions.iter())
-            .filter(|q| q.ask.is_clockwise())
-            .map(|q| Symbol::from(q.name.as_str()))
-            .collect();
-        if clockwise.is_empty() {
-            self.solution.say(&format!("{AXES} unless said otherwise."));
-        } else {
-            let mut text = vec![say(format!("{AXES}, but "))];
-            text.extend(words::symbols(&clockwise, " and "));
-            let are = if clockwise.len() == 1 { "is" } else { "are" };
-            text.push(say(format!(" {are} counted clockwise.")));
-            self.solution.text(text);
-        }
+        let axes = opening::axes(self.scene, " unless said otherwise");
+        self.solution.text(axes);
         opening::composites(&mut self.solution, self.scene);
     }
 
@@ -552,6 +541,23 @@ impl Page<'_> {
             text.extend(words::symbols(&self.told.unused, " and "));
             text.push(say("."));
             items.push(text);
+        }
+        // A restitution of zero ends a scene that a later stage needs to go on.
+        let assumed: Vec<String> = (self.told.assumed().iter())
+            .map(ToString::to_string)
+            .collect();
+        for condition in &mut self.valid {
+            let Inline::Math(math) = condition else {
+                continue;
+            };
+            if let [Math::Expr(low), sign @ Math::Op("≤"), Math::Expr(name), ..] = &mut math[..]
+                && low.is_zero()
+                && assumed
+                    .iter()
+                    .any(|a| a.starts_with(&Sentence::positive(name).to_string()))
+            {
+                *sign = Math::Op("<");
+            }
         }
         // What no answer needs has no conditions either.
         let unused = &self.told.unused;

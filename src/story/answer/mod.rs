@@ -6,6 +6,7 @@ mod motion;
 mod reached;
 mod turns;
 
+pub(super) use motion::angular;
 pub(super) use reached::{as_decided, needs, of_impact, part, tell};
 
 use std::collections::BTreeSet;
@@ -98,7 +99,12 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
     for (told, checks) in stages.iter_mut().zip(checks) {
         told.checks.extend(checks);
     }
-    let unused = unused(scene, &answers);
+    // What decides the case is needed too.
+    let cases = stages.iter().flat_map(|told| &told.cases);
+    let decide = cases.flat_map(|case| &case.conditions);
+    let decide: BTreeSet<Symbol> = decide.flat_map(|(_, e)| e.symbols()).collect();
+    let mut unused = unused(scene, &answers);
+    unused.retain(|name| !decide.contains(name));
     Ok(Told {
         stages,
         answers,

@@ -62,6 +62,15 @@ pub(super) fn reaction(
     Ok(valued(out, value, granted))
 }
 
+/// The words behind a spin that is counted the other way.
+fn sense(clockwise: bool) -> &'static str {
+    if clockwise {
+        ", clockwise positive"
+    } else {
+        ""
+    }
+}
+
 /// How the spin of a body grows in a rotation or a linkage.
 pub(super) fn angular_acceleration(
     question: &Question,
@@ -70,8 +79,9 @@ pub(super) fn angular_acceleration(
 ) -> Result<Answer, Refused> {
     let (state, when, granted) = end(told, at_end);
     let words = format!(
-        "angular acceleration at the {when} of `{}`",
-        told.placed.name
+        "angular acceleration at the {when} of `{}`{}",
+        told.placed.name,
+        sense(question.ask.is_clockwise())
     );
     let out = blank(question, words);
     let Ask::AngularAcceleration {
@@ -396,6 +406,7 @@ pub(super) fn at_end(
     };
     let along = match ask {
         Ask::Velocity { along, .. } => answer::along(along.as_ref()),
+        Ask::Spin { clockwise, .. } => sense(*clockwise).into(),
         _ => String::new(),
     };
     let words = format!("{what}, {when} of `{}`{along}", told.placed.name);
@@ -524,7 +535,7 @@ fn bearing(told: &StageTold, turn: &Turn, way: i64, along: &Vector, at_end: bool
 }
 
 /// Angular acceleration of a turning body, counterclockwise: the moments about the fixed point over the moment of inertia.
-fn angular(told: &StageTold, turn: &Turn, way: i64, at_end: bool) -> Expr {
+pub(in crate::story) fn angular(told: &StageTold, turn: &Turn, way: i64, at_end: bool) -> Expr {
     let stage = &told.placed;
     let arms = stage::arms(stage, turn, &told.before.spin[turn.body]);
     let weight = match &turn.gravity {

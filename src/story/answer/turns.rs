@@ -139,7 +139,7 @@ impl Asked<'_> {
             return open("its sum over the turns has no closed form that was found");
         };
         let mut out = Answer::blank(question, &question.name, self.words());
-        out.text = self.reasons(&general, &law);
+        out.text = self.reasons(&Symbol::from(question.name.as_str()), &general, &law);
         out.dimension = dimension_of(scene, &law.value, &question.name)?;
         out.form = Form::value(law.value);
         out.assumptions = law.given.into_iter().collect();
@@ -193,7 +193,7 @@ impl Asked<'_> {
     }
 
     /// Why it is so for every turn, and how it goes on from one to the next.
-    fn reasons(&self, general: &State, law: &Law) -> Vec<Sentence> {
+    fn reasons(&self, name: &Symbol, general: &State, law: &Law) -> Vec<Sentence> {
         let n = Expr::symbol(self.number);
         let before = &n - &Expr::one();
         let [places, motion] = self.named_parts(general).map(|mut parts| {
@@ -216,12 +216,20 @@ impl Asked<'_> {
             out.push(Sentence::words("every turn begins as the first does"));
         }
         out.extend(match &law.by {
-            By::Factor(ratio) => Some(sentence!("each turn multiplies it by {}", ratio)),
-            By::Step(step) => Some(sentence!("each turn adds {}", step)),
-            By::Sum(ratio) => Some(sentence!(
-                "each turn adds {} times what the one before adds: a geometric series",
-                ratio
-            )),
+            By::Factor(ratio) => Some(sentence!("each turn multiplies {} by {}", name, ratio)),
+            By::Step(step) => Some(sentence!("each turn adds {} to {}", step, name)),
+            By::Sum(ratio) => Some(match self.total {
+                true => sentence!(
+                    "{} is the sum over {} turns; each turn adds {} times what the one before adds: a geometric series",
+                    name,
+                    &n,
+                    ratio
+                ),
+                false => sentence!(
+                    "each turn adds {} times what the one before adds: a geometric series",
+                    ratio
+                ),
+            }),
             By::Nothing => None,
         });
         out

@@ -300,7 +300,7 @@ fn conserved(turn: &Turn) -> Vec<crate::story::Kept> {
         (_, Some(_)) => kept(
             "energy",
             false,
-            "the moment does work equal to its size times the angle",
+            "the moment does work, the moment times the angle",
         ),
         (Some(_), None) => kept(
             "energy",

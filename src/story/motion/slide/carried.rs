@@ -525,7 +525,7 @@ impl<'a> Pair<'a> {
             () if self.rubs() => (false, "friction does work against the slip"),
             () if self.slide.force.is_some() || self.below.force.is_some() => (
                 false,
-                "the force does work equal to its size times the distance",
+                "the force does work, its component along the line times the distance",
             ),
             () if self.is_undriven() => (true, "no force acts along the line"),
             () => (true, "the surfaces are smooth, and weight has a potential"),

@@ -278,7 +278,7 @@ impl<'a> Line<'a> {
             () if self.rubs() => (false, "friction does work against the slip"),
             () if self.slide.force.is_some() => (
                 false,
-                "the force does work equal to its size times the distance",
+                "the force does work, its component along the line times the distance",
             ),
             () if self.slide.spring.is_some() && self.round.is_some() => (
                 true,
