@@ -82,6 +82,61 @@ pub(super) fn below_each_other(text: &str) -> Option<String> {
     aligned.then(|| format!("{:start$}{}{:end$}", "", inside.replace('&', " "), ""))
 }
 
+/// Environments whose lines follow each other.
+const LINES: [&str; 7] = [
+    "aligned", "align*", "align", "gathered", "gather*", "gather", "split",
+];
+
+/// A line of LaTeX without what lays it out before it.
+fn bare(line: &str) -> &str {
+    line.trim_start_matches(|c: char| c.is_whitespace() || c == '&')
+}
+
+/// Whether a line goes on from the one above: it begins with a sign, or it is the last and empty.
+pub(super) fn goes_on(rest: &str) -> bool {
+    const SIGNS: &str = "=|+|-|−|<|>|≤|≥|≈|·|\\end|\\le|\\ge|\\approx|\\simeq|\\times|\\cdot|\\pm|\\quad|\\qquad|\\Rightarrow|\\implies|$";
+    let line = bare(rest);
+    line.is_empty() || SIGNS.split('|').any(|sign| line.starts_with(sign))
+}
+
+/// The last of several equations in the lines of an environment, with blanks for the rest, byte for byte: each says what follows
+/// from those above. Nothing where lines are no equations, or two of them are about the same name.
+pub(super) fn last_equation(text: &str) -> Option<String> {
+    let (name, from) = LINES.iter().find_map(|name| {
+        let open = format!("\\begin{{{name}}}");
+        Some((name, text.find(&open)? + open.len()))
+    })?;
+    let to = from + text[from..].find(&format!("\\end{{{name}}}"))?;
+    let around = |c: char| c.is_whitespace() || "$\\[].".contains(c);
+    let begin = from - name.len() - "\\begin{}".len();
+    let closed = to + "\\end{}".len() + name.len();
+    if !text[..begin].trim_matches(around).is_empty()
+        || !text[closed..].trim_matches(around).is_empty()
+    {
+        return None;
+    }
+    let mut starts = vec![from];
+    let breaks = text[from..to]
+        .match_indices("\\\\")
+        .map(|(at, _)| from + at + 2);
+    starts.extend(breaks.filter(|at| !goes_on(&text[*at..to])));
+    let ends = starts[1..].iter().map(|at| at - 2).chain([to]);
+    let left = |(start, end): (usize, usize)| {
+        let (left, _) = text[start..end].split_once('=')?;
+        Some(left.replace('&', "").trim().to_string())
+    };
+    let lefts: Vec<String> = starts
+        .iter()
+        .copied()
+        .zip(ends)
+        .map(left)
+        .collect::<Option<_>>()?;
+    let last = *starts.last()?;
+    let apart = (1..lefts.len()).all(|i| !lefts[..i].contains(&lefts[i]));
+    let line = text[last..to].replace('&', " ");
+    (starts.len() > 1 && apart).then(|| format!("{:last$}{line}", ""))
+}
+
 /// A text of several lines with signs between them, as `x = 1, y = 2` has.
 pub(crate) fn lines_apart(text: &str) -> Option<String> {
     let text = text.trim();
@@ -89,10 +144,7 @@ pub(crate) fn lines_apart(text: &str) -> Option<String> {
         let inside = text.strip_prefix(&format!("\\begin{{{name}}}"))?;
         inside.strip_suffix(&format!("\\end{{{name}}}"))
     };
-    if let Some(inside) = ["aligned", "align", "align*", "gathered"]
-        .iter()
-        .find_map(|n| framed(n))
-    {
+    if let Some(inside) = LINES.iter().find_map(|n| framed(n)) {
         return Some(inside.replace('&', " "));
     }
     let lines: Vec<&str> = text

@@ -5,6 +5,7 @@
 
 use super::Relation;
 use super::fault::{Fault, Faulty};
+use super::frames;
 use super::note::{Note, Remark};
 use super::pair::Pair;
 use super::symbols::{Symbols, is_angle_name};
@@ -279,7 +280,13 @@ impl<'a> Lexer<'a> {
                 | '\u{205f}'
                 | '\u{3000}' => c.len_utf8(),
                 '&' if self.aligned => 1,
-                '\\' if self.aligned && rest.starts_with("\\\\") => 2,
+                '\\' if self.aligned && rest.starts_with("\\\\") => {
+                    if !frames::goes_on(&rest[2..]) {
+                        let fault = Fault::new("a line begins here", self.pos, self.pos + 2);
+                        return Err(fault.hint("a line that goes on begins with a sign"));
+                    }
+                    2
+                }
                 '\\' => match decoration(&rest[1..]) {
                     Some(length) => 1 + length,
                     None => break,

@@ -6,6 +6,7 @@
 
 mod again;
 mod bound;
+mod boxes;
 mod calls;
 mod characters;
 mod component;
@@ -108,14 +109,19 @@ impl Reading {
     }
 }
 
-/// Reads a formula. Of several `\boxed{}` the last counts, and what stands around it is passed over; so are words
-/// around a single formula in dollars.
+/// Reads a formula. Of several `\boxed{}` the last counts, with what touches it; words around it are passed over, and so are
+/// those around a single formula in dollars.
 pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     let held = prose::Held::of(text);
-    if held.any("\\")
-        && let Some(text) = box_beside_unit(text)
+    if held.all("\\box")
+        && let Some(formula) = boxes::unboxed(text)
     {
-        return read(&text, symbols);
+        return read(&formula.map_err(|fault| *fault)?, symbols);
+    }
+    if held.all("\\{=&")
+        && let Some(last) = frames::last_equation(text)
+    {
+        return read(&last, symbols);
     }
     if held.any("\\")
         && let Some(text) = upright(text)
@@ -189,11 +195,20 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     if usual.is_ok()
         && held.any(" ")
         && held.joins()
-        && !text.contains("\\boxed")
         && let Some((at, length)) = between(" or ").or_else(|| between(" and "))
     {
         let fault = Fault::new("a word between two formulas", at + 1, at + length - 1);
         return Err(*fault.hint("values and bounds are joined by words, as in x = 1 or x = 2"));
+    }
+    // `x = 5 since x > 0`: a condition is no factor.
+    if usual.is_ok()
+        && held.any(" ")
+        && held.any("<>=\u{2264}")
+        && let Some((at, length)) = prose::conditional(text)
+        && symbols.find(&text[at + 1..at + length - 1]).is_none()
+    {
+        let fault = Fault::new("a word between two formulas", at + 1, at + length - 1);
+        return Err(*fault.hint("give the formula alone, without the condition behind it"));
     }
     usual.map_err(|fault| *fault)
 }
@@ -308,6 +323,8 @@ pub fn other_readings(text: &str, symbols: &Symbols, slashes: bool) -> Vec<Readi
     let Ok(usual) = read(text, symbols) else {
         return Vec::new();
     };
+    let formula = boxes::unboxed(text).and_then(Result::ok);
+    let text = formula.as_deref().unwrap_or(text);
     let held = prose::Held::of(text);
     let mut out: Vec<Reading> = Vec::new();
     let count = (usual.choices - u32::from(usual.slashes)).min(MAX_READINGS);
@@ -329,6 +346,8 @@ pub fn other_readings(text: &str, symbols: &Symbols, slashes: bool) -> Vec<Readi
 /// The readings in which every slash outside functions reaches as far as some people mean it: over the first factor where
 /// all of a tight product was taken, over all where a number or a space parted it; in the second, `3/4 x` stays as it is.
 pub fn slashes_turned(text: &str, symbols: &Symbols) -> Vec<Reading> {
+    let formula = boxes::unboxed(text).and_then(Result::ok);
+    let text = formula.as_deref().unwrap_or(text);
     let held = prose::Held::of(text);
     let turned = [0, 1u64 << lexer::HALVES].map(|halves| halves | 1u64 << lexer::SLASHES);
     let read = |flips| read_as(text, symbols, flips, held).ok();
@@ -347,7 +366,7 @@ pub(crate) fn within_limit(text: &str) -> Faulty<()> {
 
 fn read_as(text: &str, symbols: &Symbols, flips: u64, held: prose::Held) -> Faulty<Reading> {
     within_limit(text)?;
-    let (mut start, end) = boxed(text)?;
+    let (mut start, end) = framed(text);
     let mut inner = &text[..end];
     // `**x = 5**` in Markdown.
     let bold = inner[start..].trim().strip_prefix("**");
@@ -530,20 +549,6 @@ fn has_both_signs(w: &Written) -> bool {
     here || w.pieces().into_iter().any(has_both_signs)
 }
 
-/// `\boxed{1.5}\text{ m}`: the text with blanks for all that stands before the inside of the box, and for what closes it,
-/// where a unit stands behind.
-fn box_beside_unit(text: &str) -> Option<String> {
-    if !text.contains("\\boxed") {
-        return None;
-    }
-    let (start, end) = boxed(text).ok()?;
-    let ends = |c: char| c.is_whitespace() || "$.".contains(c);
-    let behind = text[end..].strip_prefix('}')?.trim_end_matches(ends);
-    let unit = crate::dimension::unit(&plain_unit(behind)?);
-    unit.is_ok_and(|unit| !unit.dimension.is_none() || unit.angle)
-        .then(|| format!("{:start$}{} {behind}", "", &text[start..end]))
-}
-
 /// The inside of quotation marks around a whole text.
 fn quoted(text: &str) -> Option<&str> {
     let opened = text.trim().strip_prefix(['"', '“', '„', '«'])?;
@@ -551,41 +556,19 @@ fn quoted(text: &str) -> Option<&str> {
     (!inside.contains(['"', '“', '”', '»'])).then_some(inside)
 }
 
-/// Start and end of the inside of the last `\boxed{}`; without one of the whole text, or of `\text{2 m/s}` around all of it.
-fn boxed(text: &str) -> Faulty<(usize, usize)> {
-    const OPEN: &str = "\\boxed";
+/// Start and end of a formula in quotation marks or in `\text{2 m/s}`; of another the whole.
+fn framed(text: &str) -> (usize, usize) {
     const FONTS: [&str; 4] = ["\\text{", "\\textbf{", "\\mathrm{", "\\mathbf{"];
     if let Some(inside) = quoted(text) {
         let start = text.find(inside).unwrap_or(0);
-        return Ok((start, start + inside.len()));
+        return (start, start + inside.len());
     }
-    let command = text.contains('\\').then(|| text.rfind(OPEN));
-    let Some(at) = command.flatten() else {
-        let inside = |font: &&str| text.strip_prefix(*font)?.strip_suffix('}');
-        let font = FONTS.iter().find(|font| {
-            inside(font)
-                .is_some_and(|i| i.starts_with(|c: char| c.is_ascii_digit()) && !i.contains('}'))
-        });
-        return Ok(font.map_or((0, text.len()), |font| (font.len(), text.len() - 1)));
-    };
-    let behind = &text[at + OPEN.len()..];
-    let blanks = behind.len() - behind.trim_start().len();
-    let start = at + OPEN.len() + blanks;
-    let mut depth = 0u32;
-    for (i, b) in text.bytes().enumerate().skip(start) {
-        match b {
-            b'{' => depth += 1,
-            b'}' if depth == 1 => return Ok((start + 1, i)),
-            b'}' => depth = depth.saturating_sub(1),
-            _ if depth == 0 => break,
-            _ => {}
-        }
-    }
-    Err(Fault::new(
-        "\\boxed needs a group in braces that is closed",
-        at,
-        at + OPEN.len(),
-    ))
+    let inside = |font: &&str| text.strip_prefix(*font)?.strip_suffix('}');
+    let font = FONTS.iter().find(|font| {
+        inside(font)
+            .is_some_and(|i| i.starts_with(|c: char| c.is_ascii_digit()) && !i.contains('}'))
+    });
+    font.map_or((0, text.len()), |font| (font.len(), text.len() - 1))
 }
 
 /// The text without a full stop or comma behind it, and the place of that; `4.` keeps its point.

@@ -56,27 +56,44 @@ pub(super) fn changes(word: &str) -> bool {
         || word.ends_with("n’t")
 }
 
+/// Words that lead to a formula.
+const LEADS: &str = "is are was be becomes became equals gives give gave get got gets obtain obtains obtained find finds found \
+    yields yield have hence thus so then therefore finally namely follows answer solution result";
+/// Words that say what a formula is or where it holds.
+const PLAIN: &str = "a after an and angular answer asked at ball before block bodies body both by center centre collision \
+    correct desired disk energy final finally for here his hit i immediately impact impulse in is it its just kinetic loss \
+    mass momentum my now of our qed required result rod sought solution speed spin stick that the their thus value \
+    velocities velocity wanted we which with afterward afterwards as because independent motion move moves moving since \
+    speeds this together travel travels us when where";
+
+fn is_in(list: &str, word: &str) -> bool {
+    list.split(' ')
+        .any(|known| word.eq_ignore_ascii_case(known))
+}
+
+/// Whether a word leads to the formula behind it.
+pub(super) fn leads(word: &str) -> bool {
+    is_in(LEADS, word)
+}
+
+/// Whether a word behind a formula begins what changes nothing of it.
+pub(super) fn goes_on(word: &str) -> bool {
+    is_in(PLAIN, word) && word != "of"
+}
+
 /// Whether words before and behind a formula say no more than that it is what was asked: `Solving gives`, `is the answer`.
 /// None changes a value; before it a verb, a colon or a plain word leads to it, behind it a plain word begins: what no list
 /// knows could change the value it stands next to, but for that of an equation, which says itself what it is about.
 fn lead_to_it(before: &str, formula: &str, behind: &str) -> bool {
-    const LEADS: &str = "is are was be becomes became equals gives give gave get got gets obtain obtains obtained find finds found \
-        yields yield have hence thus so then therefore finally namely follows answer solution result";
     const ADVERBS: &str =
         "about again approximately exactly indeed just now simply then therefore thus";
     const THAT: &str = "conclude concludes conclusion find finds follows implies see show shows";
     const TO: &str = "equal equals simplifies reduces leads comes evaluates amounts";
-    const PLAIN: &str = "a after an and angular answer asked at ball before block bodies body both by center centre collision \
-        correct desired disk energy final finally for here his hit i immediately impact impulse in is it its just kinetic loss \
-        mass momentum my now of our qed required result rod sought solution speed spin stick that the their thus value \
-        velocities velocity wanted we which with afterward afterwards as because independent motion move moves moving since \
-        speeds together travel travels us where";
     let words = |text: &str| -> Vec<String> {
         let parts = text.split(|c: char| !c.is_alphabetic() && !"'’".contains(c));
         let parts = parts.filter(|word| !word.is_empty());
         parts.map(str::to_lowercase).collect()
     };
-    let is_in = |list: &str, word: &String| list.split(' ').any(|known| known == word);
     let (mut said, more) = (words(before), words(behind));
     let unchanged = !said.iter().chain(&more).any(|word| changes(word));
     while said.last().is_some_and(|word| is_in(ADVERBS, word)) {
@@ -90,10 +107,7 @@ fn lead_to_it(before: &str, formula: &str, behind: &str) -> bool {
         [.., last] => is_in(LEADS, last) || is_in(PLAIN, last) || before.trim_end().ends_with(':'),
         [] => true,
     };
-    let goes_on = || {
-        more.first()
-            .is_none_or(|word| is_in(PLAIN, word) && word != "of")
-    };
+    let goes_on = || more.first().is_none_or(|word| goes_on(word));
     unchanged && (formula.contains('=') || led && goes_on())
 }
 
@@ -320,6 +334,15 @@ fn said_between(text: &str) -> Option<usize> {
         .filter_map(|word| text.rfind(word).map(|at| (at, at + word.len())));
     let (start, end) = found.max_by_key(|(_, end)| *end)?;
     (text[..start].contains(RELATIONS) && text[end..].contains(RELATIONS)).then_some(end)
+}
+
+/// Where a word begins a condition behind a relation, and its length with the blanks around it: `x = 5 since x > 0`.
+pub(super) fn conditional(text: &str) -> Option<(usize, usize)> {
+    const WORDS: [&str; 5] = [" as ", " since ", " if ", " for ", " because "];
+    let place = |word: &&str| Some((text.find(*word)?, word.len()));
+    let (at, length) = WORDS.iter().find_map(place)?;
+    let relates = text[..at].contains(RELATIONS) && text[at + length..].contains(RELATIONS);
+    relates.then_some((at, length))
 }
 
 /// Signs between two sides.

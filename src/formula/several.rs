@@ -3,7 +3,7 @@
 use super::frames::{below_each_other, without_braces};
 use super::prose::Held;
 use super::{
-    Content, Fault, Join, MAX_BYTES, Reading, Relation, Remark, Symbols, boxed, plain_unit,
+    Content, Fault, Join, MAX_BYTES, Reading, Relation, Remark, Symbols, framed, plain_unit,
     read_either,
 };
 use crate::dimension::{self, Unit};
@@ -34,13 +34,13 @@ const OR: [&str; 4] = ["or", "∨", "\\vee", "\\lor"];
 const AND: [&str; 4] = ["and", "∧", "\\wedge", "\\land"];
 
 /// Most values or bounds of one text.
-const MOST: usize = 12;
+pub(super) const MOST: usize = 12;
 
 /// `x ∈ [2, 3)`, `x in (0, ∞)`, `x ∈ (−∞, 1) ∪ (2, 3]` and `[0, 1)` as the relations they stand for; without a name only what
 /// could be no vector, unless `pairs` are intervals too.
 pub(super) fn interval(text: &str, symbols: &Symbols, pairs: bool) -> Option<Reading> {
     const SIGNS: [&str; 6] = ["∈", "\\in ", "\\in\\", "\\in(", "\\in[", " in "];
-    let (mut start, mut stop) = boxed(text).ok()?;
+    let (mut start, mut stop) = framed(text);
     let plain = |c: char| c.is_whitespace() || c == '$';
     start = stop - text[start..stop].trim_start_matches(plain).len();
     stop = start
@@ -360,7 +360,7 @@ pub(super) fn values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fa
     if text.len() > MAX_BYTES {
         return None;
     }
-    let (start, stop) = boxed(text).ok()?;
+    let (start, stop) = framed(text);
     let set = without_braces(&text[start..stop]);
     let list = set.is_some();
     let plain = set.or_else(|| below_each_other(&text[start..stop]));

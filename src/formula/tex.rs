@@ -167,7 +167,7 @@ impl<'a> Lexer<'a> {
         let lines = name.trim_end_matches('*');
         if matches!(
             lines,
-            "aligned" | "align" | "alignedat" | "equation" | "gathered" | "split"
+            "aligned" | "align" | "alignedat" | "equation" | "gathered" | "gather" | "split"
         ) {
             self.pos = end;
             self.aligned = begins;

@@ -41,7 +41,7 @@ impl Lexer<'_> {
                 self.pos += run;
                 return Ok(Tok::Degree);
             }
-            let percent = ["percent", "per cent"].into_iter().find(|said| {
+            let percent = ["percent", "per cent", "pct"].into_iter().find(|said| {
                 let behind = rest.strip_prefix(said);
                 behind.is_some_and(|b| !b.starts_with(|c: char| c.is_alphanumeric()))
             });
@@ -97,7 +97,7 @@ impl Lexer<'_> {
             return Ok(Tok::Name(axis.into()));
         }
         if self.symbols.is_open() {
-            if (run > 2 || &rest[..run] == "is")
+            if (run > 2 || matches!(&rest[..run], "is" | "so"))
                 && self.before == Before::Nothing
                 && !self.notes.iter().any(|n| n.end >= start + run)
             {

@@ -1,0 +1,357 @@
+//! The last `\boxed{}` of a text, and what of the text around it belongs to its formula.
+//!
+//! In: a text. Out: the same, byte for byte, with blanks for what is passed over: words before the box and behind it, the
+//! left side of an equation that ends in it. A sign, number or symbol that touches the box stays, and then the braces of the
+//! box are brackets. Words that could change the value are a fault.
+
+use super::fault::{Fault, Faulty};
+use super::plain_unit;
+use super::prose::{changes, goes_on, leads};
+use super::several::MOST;
+
+const OPEN: [&str; 2] = ["\\boxed", "\\fbox"];
+/// What ends the formula before a box.
+const BEFORE: &str = "=|≈|:|;|, |. |\n|&|\\\\|\\approx|\\simeq|\\implies|\\Rightarrow|\\Longrightarrow|\\rightarrow|\\to|\
+    \\therefore|\\iff|\\Leftrightarrow|\\quad|\\qquad|⟹|⇒|→|∴|⟺|⇔|->";
+/// What ends the formula behind one.
+const BEHIND: &str =
+    "\n|&|\\\\|\\end{|\\tag|\\label|\\quad|\\qquad|\\blacksquare|\\square|\\Box|□|■|∎|;|, |. ";
+/// Groups of words in LaTeX.
+const WORDS: [&str; 5] = ["text", "textbf", "textrm", "mbox", "textit"];
+
+/// The formula of the last box; nothing where there is no box.
+pub(super) fn unboxed(text: &str) -> Option<Faulty<String>> {
+    let last = last_box(text, text.len())?;
+    Some(last.and_then(|[at, start, end]| around(text, at, [start, end])))
+}
+
+/// Where the last box before a byte begins, and start and end of its inside.
+fn last_box(text: &str, before: usize) -> Option<Faulty<[usize; 3]>> {
+    let found = OPEN.iter().filter_map(|open| {
+        let at = text[..before].rfind(open)?;
+        Some((at, at + open.len()))
+    });
+    let (at, named) = found.max()?;
+    let start = named + text[named..].len() - text[named..].trim_start().len();
+    let closed = text[start..].starts_with('{').then(|| closing(text, start));
+    Some(match closed.flatten() {
+        Some(end) => Ok([at, start + 1, end]),
+        None => {
+            let message = "\\boxed needs a group in braces that is closed";
+            Err(Fault::new(message, at, named))
+        }
+    })
+}
+
+/// The brace that closes the one at a byte.
+fn closing(text: &str, open: usize) -> Option<usize> {
+    let mut depth = 0u32;
+    let braces = text.bytes().enumerate().skip(open);
+    braces
+        .filter(|(_, b)| matches!(b, b'{' | b'}'))
+        .find_map(|(i, b)| {
+            depth = if b == b'{' { depth + 1 } else { depth - 1 };
+            (depth == 0).then_some(i)
+        })
+}
+
+fn around(text: &str, mut at: usize, inside: [usize; 2]) -> Faulty<String> {
+    let [mut from, mut to] = inside;
+    let mut close = to + 1;
+    // `\text{the speed is \boxed{5}}`, `\underline{\boxed{5}}`: a group that changes nothing.
+    while let Some(open) = trimmed(&text[..at]).strip_suffix('{')
+        && text[close..]
+            .trim_start_matches([' ', '.'])
+            .starts_with('}')
+    {
+        let letters = open.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+        let name = &open[letters.len()..];
+        let dresses = "boxed fbox underline mathbf boldsymbol bm mathrm displaystyle color";
+        let known = letters.ends_with('\\') && (WORDS.contains(&name) || dresses.contains(name));
+        if !known && !open.is_empty() && !open.ends_with([' ', '$']) {
+            break;
+        }
+        close += text[close..].find('}').map_or(0, |end| end + 1);
+        at = if known { letters.len() - 1 } else { open.len() };
+    }
+    let in_dollars = text[..at].matches('$').count() % 2 == 1;
+    let opened = text[..at].trim_end().ends_with('$');
+    let math = in_dollars && !opened;
+    let (left, joined) = match joined_boxes(text, at)? {
+        Some(first) => (first, true),
+        None => (before(text, at, math)?, false),
+    };
+    let math = in_dollars && !text[close..].trim_start().starts_with('$');
+    let right = behind(text, close, math, left < at)?;
+    let soft = joined || left == at || text[left..at].contains(['<', '>', '≤', '≥']);
+    let soft = soft && right.is_none_or(|(_, soft)| soft);
+    let right = right.map(|(end, _)| end);
+    if left < at || right.is_some() {
+        (from, to) = (left, right.unwrap_or(close));
+    }
+    let mut out = format!("{:from$}{}", "", &text[from..to]);
+    // Each box inside what is kept; its braces are brackets where something touches it.
+    while let Some(Ok([at, start, end])) = last_box(&out, out.len()) {
+        let [open, shut] = if soft { [" ", " "] } else { ["(", ")"] };
+        out.replace_range(end..end + 1, shut);
+        out.replace_range(start - 1..start, open);
+        out.replace_range(at..start - 1, &" ".repeat(start - 1 - at));
+    }
+    Ok(out.replace('$', " "))
+}
+
+/// A text without blanks, dollars and what else only sets the type at its end.
+fn trimmed(text: &str) -> &str {
+    const DRESS: [&str; 12] = [
+        "**",
+        "\\(",
+        "\\[",
+        "\\,",
+        "\\;",
+        "\\!",
+        "\\ ",
+        "\\displaystyle",
+        "\\Large",
+        "\\large",
+        "\\left",
+        "#",
+    ];
+    let mut text = text;
+    loop {
+        let plain = text.trim_end_matches(|c: char| c.is_whitespace() || "$\"“~".contains(c));
+        match DRESS.iter().find_map(|dress| plain.strip_suffix(dress)) {
+            Some(shorter) => text = shorter,
+            None => return plain,
+        }
+    }
+}
+
+/// A text without the like at its beginning.
+fn bare(text: &str) -> &str {
+    const DRESS: [&str; 8] = ["**", "\\)", "\\]", "\\,", "\\;", "\\!", "\\ ", "\\right"];
+    let mut text = text;
+    loop {
+        let plain = text.trim_start_matches(|c: char| c.is_whitespace() || "$\"”~".contains(c));
+        match DRESS.iter().find_map(|dress| plain.strip_prefix(dress)) {
+            Some(shorter) => text = shorter,
+            None => return plain,
+        }
+    }
+}
+
+/// Where the first of several boxes begins that a comma or a word joins: `\boxed{5} and \boxed{6}`.
+fn joined_boxes(text: &str, mut at: usize) -> Faulty<Option<usize>> {
+    let mut first = None;
+    for _ in 1..MOST {
+        let Some(Ok([other, _, end])) = last_box(text, at) else {
+            break;
+        };
+        let between = text.get(end + 1..at).unwrap_or_default();
+        let between = between.replace("\\text", " ").replace("\\quad", " ");
+        let said = between.replace(['$', '{', '}'], " ");
+        let said = said.trim();
+        let (word, name) = said.split_once(' ').unwrap_or((said, ""));
+        let named = || {
+            name.trim_end()
+                .strip_suffix('=')
+                .is_some_and(|name| !name.trim().contains(' '))
+        };
+        if !matches!(word, "and" | "or" | "," | ";") || !name.is_empty() && !named() {
+            break;
+        }
+        first = Some(other);
+        at = other;
+    }
+    // The name before the first of them, as before the others.
+    let Some(first) = first else { return Ok(None) };
+    let named = trimmed(&text[..first]).strip_suffix('=').map(str::trim_end);
+    let name = named.and_then(|named| named.rsplit([' ', '$']).next());
+    let begins = name.and_then(|name| text[..first].rfind(name));
+    Ok(Some(begins.unwrap_or(first)))
+}
+
+/// The last place where one of several signs ends.
+fn last_end(text: &str, signs: &str) -> usize {
+    let ends = signs
+        .split('|')
+        .filter_map(|sign| Some(text.rfind(sign)? + sign.len()));
+    ends.max().unwrap_or(0)
+}
+
+/// Whether a word is one of prose: two letters at least, and no command.
+fn is_prose(word: &str) -> bool {
+    let word = word.trim_matches(|c: char| !c.is_alphabetic() && c != '\\');
+    word.chars().count() > 1 && word.chars().all(|c| c.is_alphabetic() || "'’-".contains(c))
+}
+
+fn fault(from: usize, to: usize) -> Box<Fault> {
+    let fault = Fault::new("words beside the box could change what it says", from, to);
+    fault.hint("give the formula alone")
+}
+
+/// Where the formula begins that a box ends: at the box, unless something before it touches it.
+fn before(text: &str, at: usize, math: bool) -> Faulty<usize> {
+    let mut from = last_end(&text[..at], BEFORE);
+    if math {
+        from = from.max(last_end(&text[..at], "$"));
+    }
+    // Behind a group of words or another box.
+    for group in WORDS
+        .iter()
+        .chain(&["begin", "end", "boxed", "fbox", "tag"])
+    {
+        let opened = text[from..at]
+            .rfind(&format!("\\{group}{{"))
+            .map(|open| from + open);
+        let shut = opened.and_then(|open| closing(text, open + group.len() + 1));
+        if let Some(shut) = shut.filter(|shut| *shut < at) {
+            let last = trimmed(&text[..at]).len() == shut + 1;
+            let is_box = matches!(*group, "boxed" | "fbox");
+            if WORDS.contains(group) {
+                let words = &text[opened.unwrap_or(shut) + group.len() + 2..shut];
+                checked(words, [from, at])?;
+            }
+            if !is_box || last {
+                from = from.max(shut + 1);
+            }
+        }
+    }
+    let body = trimmed(&text[from..at]);
+    let from = from + body.len() - bare(body).len();
+    let body = bare(body);
+    let label = !math && matches!(body.trim_matches(['(', ')']), "a" | "b" | "c" | "d");
+    if body.is_empty() || label && body.ends_with(')') {
+        return Ok(at);
+    }
+    if math {
+        return Ok(from);
+    }
+    // What stands behind the last word touches the box.
+    let mut start = from;
+    let mut word_end = None;
+    for word in body.split_inclusive([' ', '\n']) {
+        start += word.len();
+        if is_prose(word) {
+            word_end = Some((start, word.trim()));
+        }
+    }
+    let Some((end, word)) = word_end else {
+        return Ok(from);
+    };
+    checked(&text[from..end], [from, at])?;
+    let rest = &text[end.min(at)..at];
+    match bare(trimmed(rest)) {
+        "" => Ok(at),
+        touching if leads(word) || touching.starts_with(['-', '−', '+', '±']) => {
+            Ok(at - rest.len())
+        }
+        _ => Err(fault(from, at)),
+    }
+}
+
+/// Refuses words before a box of which one could change its value: those behind the last verb, or the last three.
+fn checked(words: &str, [from, to]: [usize; 2]) -> Faulty<()> {
+    let split = words.split(|c: char| !c.is_alphabetic() && !"'’".contains(c));
+    let words: Vec<&str> = split.filter(|word| !word.is_empty()).collect();
+    let verb = words.iter().rposition(|word| leads(word) && *word != "by");
+    let behind = verb.map_or(words.len().saturating_sub(3), |verb| verb + 1);
+    let denied = words.iter().rev().take(4);
+    let denied = denied.filter(|word| is_denial(word)).count() > 0;
+    match denied || words[behind..].iter().any(|word| changes(word)) {
+        true => Err(fault(from, to)),
+        false => Ok(()),
+    }
+}
+
+fn is_denial(word: &str) -> bool {
+    const WORDS: &str = "not never cannot no wrong incorrect incorrectly wrongly mistaken false untrue impossible neither";
+    WORDS.split(' ').any(|w| word.eq_ignore_ascii_case(w))
+        || word.ends_with("n't")
+        || word.ends_with("n’t")
+}
+
+/// Where the formula ends that begins with a box, and whether what touches it is a unit, a relation or the like, which needs
+/// no brackets around the box; nothing where it ends with the box.
+fn behind(text: &str, close: usize, math: bool, touched: bool) -> Faulty<Option<(usize, bool)>> {
+    const FACTORS: [&str; 7] = [
+        "million", "thousand", "billion", "trillion", "hundred", "dozen", "or",
+    ];
+    let rest = &text[close..];
+    let words = rest.split(|c: char| !c.is_alphabetic() && !"'’".contains(c));
+    let mut words = words
+        .filter(|word| !word.is_empty() && *word != "text")
+        .take(12);
+    if words.any(|word| {
+        [
+            "wrong",
+            "incorrect",
+            "wrongly",
+            "incorrectly",
+            "mistaken",
+            "untrue",
+            "false",
+        ]
+        .contains(&word)
+    }) {
+        return Err(fault(close, text.len()));
+    }
+    let stops = BEHIND.split('|').filter_map(|sign| rest.find(sign));
+    let mut stop = stops.min().unwrap_or(rest.len());
+    let listed = rest[stop..].strip_prefix(", ").map(bare);
+    if listed.is_some_and(|next| next.starts_with(|c: char| c.is_ascii_digit() || "-−".contains(c)))
+    {
+        return Ok(Some((text.len(), true)));
+    }
+    if let Some(end) = rest[..stop]
+        .find('$')
+        .filter(|end| math && !bare(&rest[..*end]).is_empty())
+    {
+        stop = stop.min(end);
+    }
+    let punctuation = |c: char| c.is_whitespace() || "$.,".contains(c);
+    let body = bare(&rest[..stop]).trim_end_matches(punctuation);
+    let end = close + stop;
+    let apart = rest[..rest.len() - bare(rest).len()].contains([' ', '$']);
+    let unit = plain_unit(body).and_then(|plain| crate::dimension::unit(&plain).ok());
+    if unit.is_some_and(|unit| !unit.dimension.is_none() || unit.angle) {
+        return Ok(Some((end, true)));
+    }
+    let first = body.split([' ', '$', ',']).next().unwrap_or_default();
+    let in_group = WORDS
+        .iter()
+        .find_map(|group| body.strip_prefix(&format!("\\{group}{{")));
+    let said = in_group.map(|inside| inside.split('}').next().unwrap_or(inside));
+    let aside = body
+        .strip_prefix('(')
+        .filter(|inside| inside.split([' ', ')']).any(is_prose));
+    let dash = body.strip_prefix(['-', '–', '—']).map(str::trim_start);
+    let dash = dash.filter(|said| apart && said.split(' ').next().is_some_and(is_prose));
+    let prose = (!math && is_prose(first)).then_some(body);
+    let prose = said.or(aside).or(dash).or(prose).map(str::trim_start);
+    if let Some(said) = prose {
+        let word = said.split([' ', ',', '}', ')']).next().unwrap_or_default();
+        if ["percent", "pct", "degrees", "degree", "deg", "per"].contains(&word) {
+            return Ok(Some((end, true)));
+        }
+        let capital = word.starts_with(char::is_uppercase);
+        let mut first = said.split([' ', ',']).take(4);
+        let changed = match word {
+            "is" | "was" | "are" => first.any(is_denial),
+            _ => first.any(changes),
+        };
+        let plain = capital || goes_on(word) || word.is_empty();
+        return match changed || !plain || FACTORS.contains(&word) {
+            true => Err(fault(close, text.len())),
+            false => Ok(None),
+        };
+    }
+    if body.is_empty()
+        || !touched && body.starts_with(['}', ')'])
+        || apart && matches!(body, "!" | "*")
+    {
+        return Ok(None);
+    }
+    let soft =
+        body.starts_with(['=', '≈', '<', '>', '≤', '≥', '°', ',']) || body.starts_with("\\approx");
+    Ok(Some((end, soft)))
+}
