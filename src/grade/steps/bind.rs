@@ -11,6 +11,7 @@ use super::Desk;
 use super::letters::{MARKS, readings};
 use super::link::Link;
 use crate::derive::{Moment, Names};
+use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol, cross, minus};
 use crate::formula::{self, Content};
 use crate::laws::{Geometry, Unknown};
@@ -206,12 +207,13 @@ impl Desk<'_> {
             .collect();
         let moves = self.sheet.story.as_ref().is_some_and(Story::has_motions);
         let is_after = |mark: &str| mark == "'" || mark == "^+";
+        let incoming = self.coming_in(&all, text);
         let mut of: Vec<Values> = vec![Values::new(); all.len()];
         for (name, key, mark, body, part) in &named {
             let mut others = named.iter();
             let beside = others.any(|(_, other, mark, ..)| other == key && is_after(mark));
             let after = match &**mark {
-                "" => !beside,
+                "" => !beside && !incoming.contains_key(*name),
                 "^-" if !moves => false,
                 mark if is_after(mark) => true,
                 _ => continue,
@@ -295,6 +297,78 @@ impl Desk<'_> {
         true
     }
 
+    /// Names that stand for velocities before an impact, with these: one side of a balance of momenta has them with the masses of
+    /// their bodies, and of one of them it is said that it is what its body comes in with.
+    fn coming_in(&self, all: &[Around], text: &str) -> Values {
+        let readings = readings(&self.sheet.scene, text);
+        let sides = readings
+            .iter()
+            .filter_map(|reading| match &reading.content {
+                Content::Relations(sides, _) => {
+                    Some([sides.first()?.expr()?, sides.get(1)?.expr()?])
+                }
+                _ => None,
+            });
+        let sides: Vec<[&Expr; 2]> = sides.collect();
+        let given = |name: &Symbol| self.sheet.scene.parameter(name).is_some();
+        let said = sides.iter().filter_map(|[name, value]| {
+            let name = name.as_symbol().filter(|name| !given(name))?;
+            Some((name.clone(), (*value).clone()))
+        });
+        let said: Values = said.collect();
+        let mut found = Values::new();
+        for [left, right] in sides {
+            for (side, other) in [(left, right), (right, left)] {
+                let names = side.symbols().into_iter().filter(|name| !given(name));
+                let names: Vec<Symbol> = names.collect();
+                if side.as_symbol().is_none() && names.iter().any(|name| said.contains_key(name)) {
+                    let ways = all.iter().flat_map(|a| [0, 1].map(|axis| (a, axis)));
+                    let way = ways.filter_map(|(a, axis)| self.coming(a, axis, side, &names));
+                    found.extend(
+                        way.filter(|way| self.comes_in(way, side, other, &said))
+                            .flatten(),
+                    );
+                }
+            }
+        }
+        found
+    }
+
+    /// Whether names are velocities before an impact by what is said of one of them, and by the balance in which they stand.
+    fn comes_in(&self, way: &Values, side: &Expr, other: &Expr, said: &Values) -> bool {
+        let zero = |e: Expr| self.all_zero(&[e], &Values::new()) == Some(true);
+        let told = way.iter().any(|(name, before)| {
+            let value = said.get(name).map(|e| e.substitute(said).substitute(said));
+            value.is_some_and(|value| zero(value - before))
+        });
+        let gap = other - side.substitute(way);
+        // `m v = m v_1 + M v_2` says nothing of what comes in.
+        let domains = &self.sheet.scene.domains;
+        let same = equality::decide(&gap, &Expr::zero(), domains).equality;
+        told && !matches!(same, Equality::Same { .. }) && zero(gap)
+    }
+
+    /// Names in a side of a balance, each with the velocity before the impact of the one body whose mass it has.
+    fn coming(
+        &self,
+        around: &Around,
+        axis: usize,
+        side: &Expr,
+        names: &[Symbol],
+    ) -> Option<Values> {
+        let (mut free, mut way): (Vec<usize>, _) = (around.moving().collect(), Values::new());
+        for name in names {
+            let factor = side.derivative(name);
+            let has = |b: &usize| {
+                let more = &factor - &around.scene.bodies[*b].mass;
+                self.all_zero(&[more], &Values::new()) == Some(true)
+            };
+            let body = free.remove(free.iter().position(has)?);
+            way.insert(name.clone(), around.before[body][axis].clone());
+        }
+        Some(way)
+    }
+
     /// Whether a line that holds gives a name in what is given.
     pub(super) fn is_stated(&self, name: &Symbol) -> bool {
         let given = |other: &Symbol| other == name || self.sheet.scene.parameter(other).is_some();
@@ -306,7 +380,7 @@ impl Desk<'_> {
     pub(super) fn bindings(&self, text: &str) -> Vec<Values> {
         let all = impacts(self.sheet);
         let unknown = self.unknown_names(text);
-        let mut found = vec![Values::new()];
+        let mut found = vec![self.coming_in(&all, text)];
         for name in &unknown {
             let ways = self.after_given(&all, name);
             if !ways.is_empty() {
