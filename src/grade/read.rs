@@ -122,6 +122,12 @@ pub(super) fn is_stable(reading: &Reading) -> bool {
         })
 }
 
+/// Whether a letter is a name before it is a unit.
+fn is_named(key: &Key, letter: &str) -> bool {
+    let name = Symbol::from(letter);
+    is_stranger(&name) || declared(key, &name)
+}
+
 /// Reads an answer.
 pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
     if let (Some((value, mine)), Some(theirs)) = (sense(text), key.direction)
@@ -137,10 +143,14 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
     }
     let mut usual = formula::read(text, &key.readable);
     if let Ok(reading) = &usual
-        && let Some((at, _)) = misfit(key, text, reading)
-        && let Ok(product) = answer(key, &format!("{}*{}", &text[..at], &text[at..]))
+        && let Some(places) = misfit(key, text, reading)
+        && (places.len() == 1 || places.iter().all(|at| is_named(key, &text[*at..=*at])))
     {
-        return Ok(product);
+        let mut product = text.to_string();
+        places.iter().rev().for_each(|at| product.insert(*at, '*'));
+        if let Ok(product) = answer(key, &product) {
+            return Ok(product);
+        }
     }
     // `between 0 and 1` says nothing of its ends.
     if let Ok(Reading {

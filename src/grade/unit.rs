@@ -202,14 +202,24 @@ fn is_coherent(unit: &Unit) -> bool {
     unit.value().is_one()
 }
 
-/// The place of a letter behind a formula in symbols that was read as a unit and measures something else than what is asked, as
-/// in `v − μ g t`: it may be a name.
-pub(super) fn misfit(key: &Key, text: &str, reading: &Reading) -> Option<(usize, usize)> {
+/// The places of letters behind a formula in symbols that were read as a unit and measure something else than what is asked, as
+/// in `v − μ g t` and `½ μ g t²`: they may be names.
+pub(super) fn misfit(key: &Key, text: &str, reading: &Reading) -> Option<Vec<usize>> {
     let mut notes = reading.notes.iter();
     let note = notes.find(|n| n.remark == Remark::UnitOfSymbols)?;
-    let letter = text.get(note.start..note.end)?.trim_end();
     let fits = asked(key)? == reading.unit.as_ref()?.dimension;
-    (letter.len() == 1 && !fits).then_some((note.start, note.start + 1))
+    let mut places = Vec::new();
+    let mut at = note.start;
+    for word in text.get(note.start..note.end)?.trim_end().split(' ') {
+        let power = word
+            .get(1..)
+            .filter(|_| word.starts_with(|c: char| c.is_ascii_alphabetic()))?;
+        let plain = |c: char| "^{}²³".contains(c) || c.is_ascii_digit();
+        power.chars().all(plain).then_some(())?;
+        places.push(at);
+        at += word.len() + 1;
+    }
+    (!fits && !places.is_empty()).then_some(places)
 }
 
 /// Dimension of what is asked, where it is known and not that of a number.

@@ -22,8 +22,9 @@ impl Sheet {
         let named = |name: &Symbol| read::is_stranger(name) && values.contains_key(name);
         // And a way that was asked for is no second.
         let unit = |reading: &Reading| {
-            let (from, to) = unit::misfit(&entry.key, answer, reading)?;
-            values.contains_key(&answer[from..to]).then_some(())
+            let places = unit::misfit(&entry.key, answer, reading)?;
+            let mut letters = places.into_iter().map(|at| &answer[at..=at]);
+            letters.find(|letter| values.contains_key(*letter))
         };
         // In `2K` an energy that was asked for is no kelvin.
         let measured = |reading: &Reading| match reading.content.answer() {
