@@ -247,6 +247,19 @@ fn numbers_that_stand_alone_in_their_place_lie_within_the_tolerance() {
         ("v > 3.13 m/s", "v > 3.5 m/s", "different"),
         ("0.5 < mu < 0.577", "0.5 < mu < 0.5774", "equivalent"),
         ("0.5 < mu < 0.577", "0.52 < mu < 0.5774", "different"),
+        ("x > 1/3", "0.333 < x", "equivalent"),
+        ("x > 1/3", "0.333 > x", "different"),
+        ("x > 1/3", "x - 0.333 > 0", "equivalent"),
+        ("x > 1/3", "3x > 1.002", "equivalent"),
+        ("x > 1/3", "3x > 1.02", "different"),
+        ("x > 1/3", "-3x > -1.002", "different"),
+        ("x < 1 or x > 3", "x < 1.001 or x > 2.999", "equivalent"),
+        ("x < 1 or x > 3", "x < 1.001 and x > 2.999", "different"),
+        ("x < 1 or x > 3", "x < 1.001 or x > 2.9", "different"),
+        ("abs(x) < 1/3", "-0.333 < x < 0.333", "equivalent"),
+        ("abs(x) < 1/3", "-0.333 < x < 0.35", "different"),
+        ("v = 5 m/s", "2v = 10.02 m/s", "equivalent"),
+        ("v = 5 m/s", "2v = 10.2 m/s", "different"),
     ];
     for (expected, answer, verdict) in rows {
         let line = json!({"expected": expected, "answer": answer, "tolerance": "1%"});

@@ -160,10 +160,15 @@ fn tolerated(ctx: &Context, answer: &Reading) -> Finding {
         let near = |a: &Expr, e: &Expr| number::within(a, e, tolerance) == Some(true);
         relation::at_zeros(expected, &answer.content, &near, domains)
     };
+    let bounded = |tolerance| {
+        let near = |a: &Expr, e: &Expr| number::within(a, e, tolerance) == Some(true);
+        relation::at_bounds(expected, &answer.content, &near)
+    };
     if let (Verdict::Different, Some(tolerance)) = (found.verdict, &ctx.options.tolerance)
         && let Some(content) = in_place(tolerance)
             .filter(changed)
             .or_else(|| near(tolerance).filter(changed))
+            .or_else(|| bounded(tolerance).filter(changed))
     {
         let near = answer.with(content);
         let exact = compare(&ctx.plain(), &near);

@@ -26,7 +26,7 @@ mod worked;
 use crate::dimension::Dimension;
 use crate::domain::{Domain, Domains};
 use crate::expr::{Symbol, effort};
-use crate::formula::{self, Content, Fault, Reading, Symbols};
+use crate::formula::{self, Content, Fault, Join, Reading, Symbols};
 pub(crate) use crate::verify::rounding::fraction;
 
 pub use form::Form;
@@ -465,7 +465,11 @@ pub fn show(content: &Content) -> String {
             values.join(" or ")
         }
         Content::Joined(join, parts) => {
-            let parts: Vec<String> = parts.iter().map(show).collect();
+            let part = |part: &Content| match part {
+                Content::Joined(Join::Or, _) if *join == Join::And => format!("({})", show(part)),
+                part => show(part),
+            };
+            let parts: Vec<String> = parts.iter().map(part).collect();
             parts.join(join.word())
         }
         Content::Vector(v) => {

@@ -6,6 +6,7 @@
 //! Relations without solutions, or that hold everywhere on the domain, are compared over the reals; none of them is rewarded
 //! for saying nothing.
 
+mod bounds;
 mod cells;
 mod equations;
 mod factor;
@@ -30,6 +31,7 @@ use crate::domain::{Domain, Domains, roles};
 use crate::expr::{Expr, Function, Node, Symbol, ratio};
 use crate::formula::{Content, Join, Relation, is_angle_name, write_plain};
 use crate::interval::{Big, Outcome, evaluate};
+pub(super) use bounds::at_bounds;
 use cells::Cases;
 use equations::{GAINED, LOST, alternatives, equations, told};
 use inequality::inequalities;
@@ -273,11 +275,17 @@ fn cases(content: &Content) -> Option<Vec<Vec<Normal>>> {
                     Some(product) => vec![vec![product]],
                     None => parts.concat(),
                 }),
+                // Each case of one with each case of the others.
                 Join::And => {
-                    let system = |cases: Vec<Vec<Normal>>| <[_; 1]>::try_from(cases).ok();
-                    let all: Vec<[Vec<Normal>; 1]> =
-                        parts.into_iter().map(system).collect::<Option<_>>()?;
-                    Some(vec![all.into_iter().flatten().flatten().collect()])
+                    let first = vec![Vec::new()];
+                    parts.iter().try_fold(first, |all, part| {
+                        let with = |case: &Vec<Normal>| {
+                            let each = part.iter().map(|other| [&case[..], other].concat());
+                            each.collect::<Vec<_>>()
+                        };
+                        let all: Vec<_> = all.iter().flat_map(with).collect();
+                        (all.len() <= plain::MOST_CASES).then_some(all)
+                    })
                 }
             }
         }

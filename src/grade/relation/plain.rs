@@ -15,7 +15,7 @@ use crate::formula::{Relation, write_plain};
 use crate::interval::{Interval, Outcome, evaluate};
 
 /// Most cases that come out.
-const MOST_CASES: usize = 48;
+pub(super) const MOST_CASES: usize = 48;
 /// Functions that may stand in each other.
 const DEPTH: usize = 6;
 /// Highest power of a root.
