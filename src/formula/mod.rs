@@ -190,27 +190,39 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     if worded && let Some(reading) = read_behind_words(text, symbols) {
         return reading.map_err(|fault| *fault);
     }
-    // What no rule read as words is no product of their letters.
-    let between = |word: &str| Some((text.find(word)?, word.len()));
     if usual.is_ok()
         && held.any(" ")
-        && held.joins()
-        && let Some((at, length)) = between(" or ").or_else(|| between(" and "))
+        && let Some(fault) = word_between(text, symbols, held)
     {
-        let fault = Fault::new("a word between two formulas", at + 1, at + length - 1);
-        return Err(*fault.hint("values and bounds are joined by words, as in x = 1 or x = 2"));
-    }
-    // `x = 5 since x > 0`: a condition is no factor.
-    if usual.is_ok()
-        && held.any(" ")
-        && held.any("<>=\u{2264}")
-        && let Some((at, length)) = prose::conditional(text)
-        && symbols.find(&text[at + 1..at + length - 1]).is_none()
-    {
-        let fault = Fault::new("a word between two formulas", at + 1, at + length - 1);
-        return Err(*fault.hint("give the formula alone, without the condition behind it"));
+        return Err(*fault);
     }
     usual.map_err(|fault| *fault)
+}
+
+/// Refuses a word between formulas that no rule read: it is no product of its letters.
+fn word_between(text: &str, symbols: &Symbols, held: prose::Held) -> Option<Box<Fault>> {
+    let between = |word: &str| Some((text.find(word)?, word.len()));
+    let joining = held
+        .joins()
+        .then(|| between(" or ").or_else(|| between(" and ")));
+    let (found, hint) = match joining.flatten() {
+        Some(found) => (
+            found,
+            "values and bounds are joined by words, as in x = 1 or x = 2",
+        ),
+        // `x = 5 since x > 0`
+        None => {
+            let found = prose::conditional(text);
+            let name = |(at, length): &(usize, usize)| &text[at + 1..at + length - 1];
+            let found = found.filter(|found| symbols.find(name(found)).is_none())?;
+            (
+                found,
+                "give the formula alone, without the condition behind it",
+            )
+        }
+    };
+    let (start, end) = (found.0 + 1, found.0 + found.1 - 1);
+    Some(Fault::new("a word between two formulas", start, end).hint(hint))
 }
 
 /// A text whose last word, `m/s` or `[m/s]`, is set as a unit where a fault lies in it: m may be a mass as well.
