@@ -61,10 +61,12 @@ impl Lexer<'_> {
         if let Some(tok) = self.spelled_out(start) {
             return Ok(tok);
         }
-        // A name just as it was declared: `v1f_y`.
+        // A letter behind a digit belongs to a name with an index that was declared so: `v1f_y`.
         let of_name = |b: &u8| b.is_ascii_alphanumeric() || *b == b'_';
         let whole = &rest[..rest.bytes().take_while(of_name).count()];
-        if whole.contains('_')
+        let base = whole.split_once('_').map_or("", |(base, _)| base);
+        if base.ends_with(|c: char| c.is_ascii_alphabetic())
+            && base.contains(|c: char| c.is_ascii_digit())
             && let Some(declared) = self.symbols.find(whole)
         {
             self.pos = start + whole.len();
