@@ -295,9 +295,9 @@ fn a_film_has_the_strings_of_its_stages_with_what_carries_their_ends() {
     // From the weight over the fixed pulley, down and up again to the ceiling; the load hangs on the axle.
     let carried = [
         [Some("weight"), None],
-        [Some("block"), None],
-        [Some("block"), None],
-        [Some("block"), Some("load")],
+        [Some("movable_pulley"), None],
+        [Some("movable_pulley"), None],
+        [Some("movable_pulley"), Some("load")],
     ];
     assert_eq!(ends, carried);
     assert!(!film["standing"].as_array().expect("lines").is_empty());
