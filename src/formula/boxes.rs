@@ -5,9 +5,9 @@
 //! box are brackets. Words that could change the value are a fault.
 
 use super::fault::{Fault, Faulty};
-use super::plain_unit;
 use super::prose::{changes, goes_on, leads};
 use super::several::MOST;
+use super::{name, plain_unit};
 
 const OPEN: [&str; 2] = ["\\boxed", "\\fbox"];
 /// What ends the formula before a box.
@@ -33,8 +33,7 @@ fn last_box(text: &str, before: usize) -> Option<Faulty<[usize; 3]>> {
     });
     let (at, named) = found.max()?;
     let start = named + text[named..].len() - text[named..].trim_start().len();
-    let closed = text[start..].starts_with('{').then(|| closing(text, start));
-    Some(match closed.flatten() {
+    Some(match closing(text, start) {
         Some(end) => Ok([at, start + 1, end]),
         None => {
             let message = "\\boxed needs a group in braces that is closed";
@@ -45,14 +44,7 @@ fn last_box(text: &str, before: usize) -> Option<Faulty<[usize; 3]>> {
 
 /// The brace that closes the one at a byte.
 fn closing(text: &str, open: usize) -> Option<usize> {
-    let mut depth = 0u32;
-    let braces = text.bytes().enumerate().skip(open);
-    braces
-        .filter(|(_, b)| matches!(b, b'{' | b'}'))
-        .find_map(|(i, b)| {
-            depth = if b == b'{' { depth + 1 } else { depth - 1 };
-            (depth == 0).then_some(i)
-        })
+    Some(open + name::closing(text.as_bytes().get(open..)?)?)
 }
 
 fn around(text: &str, mut at: usize, inside: [usize; 2]) -> Faulty<String> {
@@ -263,9 +255,16 @@ fn checked(words: &str, [from, to]: [usize; 2]) -> Faulty<()> {
     }
 }
 
-fn is_denial(word: &str) -> bool {
-    const WORDS: &str = "not never cannot no wrong incorrect incorrectly wrongly mistaken false untrue impossible neither";
+/// Whether a word says that something is not so, wherever it stands.
+fn is_wrong(word: &str) -> bool {
+    const WORDS: &str = "wrong incorrect incorrectly wrongly mistaken false untrue";
     WORDS.split(' ').any(|w| word.eq_ignore_ascii_case(w))
+}
+
+fn is_denial(word: &str) -> bool {
+    const WORDS: &str = "not never cannot no impossible neither";
+    is_wrong(word)
+        || WORDS.split(' ').any(|w| word.eq_ignore_ascii_case(w))
         || word.ends_with("n't")
         || word.ends_with("n’t")
 }
@@ -281,18 +280,7 @@ fn behind(text: &str, close: usize, math: bool, touched: bool) -> Faulty<Option<
     let mut words = words
         .filter(|word| !word.is_empty() && *word != "text")
         .take(12);
-    if words.any(|word| {
-        [
-            "wrong",
-            "incorrect",
-            "wrongly",
-            "incorrectly",
-            "mistaken",
-            "untrue",
-            "false",
-        ]
-        .contains(&word)
-    }) {
+    if words.any(is_wrong) {
         return Err(fault(close, text.len()));
     }
     let stops = BEHIND.split('|').filter_map(|sign| rest.find(sign));

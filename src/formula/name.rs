@@ -7,13 +7,20 @@ const LONGEST: usize = 40;
 
 /// Bytes and text of an index or a raised mark in braces.
 fn braced(text: &str, at: usize) -> Option<(&str, usize)> {
-    let rest = text.get(at..)?.strip_prefix('{')?;
-    let mut depth = 0;
-    for (i, c) in rest.char_indices().take(LONGEST * 3) {
-        match c {
-            '{' => depth += 1,
-            '}' if depth == 0 => return Some((&rest[..i], at + i + 2)),
-            '}' => depth -= 1,
+    let rest = text.as_bytes().get(at..)?;
+    let end = closing(&rest[..rest.len().min(LONGEST * 3)])?;
+    Some((&text[at + 1..at + end], at + end + 1))
+}
+
+/// The brace that closes the one with which a text begins.
+pub(super) fn closing(text: &[u8]) -> Option<usize> {
+    let mut depth = 0u32;
+    for (i, byte) in text.iter().enumerate() {
+        match byte {
+            b'{' => depth += 1,
+            b'}' if depth == 1 => return Some(i),
+            b'}' => depth = depth.checked_sub(1)?,
+            _ if depth == 0 => return None,
             _ => {}
         }
     }

@@ -164,7 +164,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     let parameter = scene.parameters.iter().any(|p| *p.name == *answer.name);
     let fresh = !parameter && is_fresh(solution, answer);
     let brief = solution.detail == Detail::Brief;
-    given_that(solution, scene, answer);
+    given_that(solution, scene, ask, answer);
     let mut lines: Vec<Line> = Vec::new();
     let plain = |e: &Expr| e.as_number().is_some();
     let stated = answer.stated.iter();

@@ -6,13 +6,13 @@ use super::words::say;
 use crate::algebra::{Sign, sign};
 use crate::answer::Answer;
 use crate::formula::{Piece, Sentence};
-use crate::scene::Scene;
+use crate::scene::{Ask, Scene};
 
-/// What an answer rests on beyond what the whole solution does, which is told at its end.
-pub(super) fn given_that(solution: &mut Solution, scene: &Scene, answer: &Answer) {
-    let stages = scene.has_stages();
+/// What an answer rests on beyond what the whole solution does, which is told at its end; what is to be shown needs it all.
+pub(super) fn given_that(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer) {
+    let all = scene.has_stages() || matches!(ask, Ask::Show { .. });
     let given = answer.assumptions.iter();
-    let given = given.filter(|a| stages || !solution.assumptions.contains(&a.to_string()));
+    let given = given.filter(|a| all || !solution.assumptions.contains(&a.to_string()));
     let given = needed(scene, given.cloned().collect());
     if !given.is_empty() {
         let mut text = vec![say("Given that ")];

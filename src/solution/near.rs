@@ -46,7 +46,7 @@ pub(super) fn near<'s>(
         return names;
     };
     solution.section(0, heading(scene, &question.ask, highest[0]));
-    given_that(solution, scene, highest[0]);
+    given_that(solution, scene, &question.ask, highest[0]);
     let box_of = forms(solution, &question.ask, &highest);
     let told: Vec<Vec<Math>> = box_of.iter().map(|l| l.math.clone()).collect();
     solution.push(Part::Result(box_of));

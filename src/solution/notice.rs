@@ -278,6 +278,10 @@ impl Writer<'_> {
                 let mut bodies = self.scene.bodies.iter();
                 bodies.any(|b| b.inertia.mentions(&p.name))
             };
+            let needed = self.needed().filter_map(Sentence::condition);
+            let domains = needed.fold(self.scene.domains.clone(), |all, (e, is_open)| {
+                all.given(&e, !is_open)
+            });
             let parameters = self.scene.parameters.iter();
             let (sizes, places): (Vec<_>, Vec<_>) = parameters.partition(is_size);
             let zero = places
@@ -285,7 +289,7 @@ impl Writer<'_> {
                 .chain(sizes)
                 .filter(|p| lone.contains(&p.dimension) && closed.mentions(&p.name))
                 .find_map(|p| {
-                    let roots = solve(&closed, &p.name, &self.scene.domains).ok()?;
+                    let roots = solve(&closed, &p.name, &domains).ok()?;
                     let [root] = roots.inside.as_slice() else {
                         return None;
                     };

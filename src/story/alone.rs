@@ -8,7 +8,7 @@ use super::worlds::World;
 use super::{Case, StageTold, State, Told, second};
 use crate::answer::{self, Answer, Refused};
 use crate::derive;
-use crate::formula::{Sentence, sentence};
+use crate::formula::Sentence;
 use crate::scene::{Scene, Stage};
 use crate::verify::possible::{self, Rule};
 use crate::verify::{self, APPROACH};
@@ -18,24 +18,18 @@ pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
     let derivation = derive::derive(scene).map_err(|stop| Refused::stop("", stop))?;
     let mut proof = verify::prove(scene, &derivation);
     let possible = possible::judge(scene, &derivation);
-    let mut is_told = proof
-        .assumptions
-        .iter()
-        .any(|words| words.to_string() == APPROACH);
     let mut known = super::answer::as_decided(scene);
     for open in possible.open() {
+        let need = super::answer::of_condition(open).filter(|_| open.divides(&known));
+        let Some(need) = need else { continue };
         if open.rule == Rule::Approach {
-            if !std::mem::replace(&mut is_told, true) {
-                proof.assumptions.push(Sentence::words(APPROACH));
-            }
-            continue;
+            // It says more.
+            proof
+                .assumptions
+                .retain(|words| words.to_string() != APPROACH);
         }
-        let Some(e) = open.essential.as_ref().filter(|_| open.divides(&known)) else {
-            continue;
-        };
-        known = known.given(e, true);
-        let needed = sentence!("{} ({})", Sentence::not_negative(e), &open.words);
-        proof.assumptions.push(needed);
+        known = known.with_relation(need.relation);
+        proof.assumptions.push(need.told);
     }
     let counting = &derivation.counting;
     let contradiction = counting.contradictory.then(|| Refused {
@@ -120,11 +114,7 @@ fn about_answers(scene: &Scene, case: &Case) -> Result<Vec<Answer>, Refused> {
         let mut answers = answer::formulas(&part, question, &known)?.unwrap_or_default();
         answer::remember(scene, &answers, &mut known);
         for answer in &mut answers {
-            // With what they approach is told besides.
-            let is_told = |words: &Sentence| {
-                needs.iter().any(|need| need.says(words))
-                    || !needs.is_empty() && words.to_string() == APPROACH
-            };
+            let is_told = |words: &Sentence| needs.iter().any(|need| need.says(words));
             let given = case.assumptions().filter(|words| !is_told(words));
             answer.assumptions.extend(given);
             super::answer::tell(scene, &question.ask, &needs, answer);

@@ -38,6 +38,9 @@ pub struct Finding {
     pub holds: Option<bool>,
     /// Under which conditions it holds, and in which cases of friction, where it does not in all of them.
     pub only_where: Option<String>,
+    /// Those conditions, one each.
+    #[serde(skip)]
+    given: Vec<String>,
     /// What carom has in its place.
     pub carom: String,
     /// How it is known.
@@ -60,7 +63,8 @@ pub fn check(scene: &Scene, derivation: &Derivation, all: &[Answer]) -> Vec<Find
     desk.consequences(&mut findings);
     for (finding, printed) in findings.iter_mut().zip(&scene.printed) {
         if let (Some(true), Print::Formula { item, .. }) = (finding.holds, &printed.what) {
-            finding.only_where = conditions(all, item);
+            finding.given = conditions(all, item);
+            finding.only_where = cases::in_words(&finding.given);
         }
     }
     for finding in findings.iter_mut().filter(|f| f.holds == Some(false)) {
@@ -70,18 +74,16 @@ pub fn check(scene: &Scene, derivation: &Derivation, all: &[Answer]) -> Vec<Find
 }
 
 /// What an answer rests on beyond what the scene states.
-fn conditions(all: &[Answer], item: &str) -> Option<String> {
-    let answer = all.iter().find(|a| a.name == item)?;
-    let conditions = answer
-        .assumptions
+fn conditions(all: &[Answer], item: &str) -> Vec<String> {
+    let is_it = |a: &&Answer| a.name == item || a.question == item;
+    let given = all
         .iter()
-        .filter(|words| words.condition().is_some());
-    let conditions: Vec<String> = conditions.map(ToString::to_string).collect();
-    (!conditions.is_empty()).then(|| conditions.join(AND))
+        .find(is_it)
+        .into_iter()
+        .flat_map(|a| &a.assumptions);
+    let conditions = given.filter(|words| words.condition().is_some());
+    conditions.map(ToString::to_string).collect()
 }
-
-/// Stands between conditions.
-const AND: &str = "; ";
 
 impl Desk<'_> {
     fn check(&self, printed: &Printed) -> Finding {

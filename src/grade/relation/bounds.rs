@@ -3,10 +3,13 @@
 
 use num_traits::Signed;
 
+use super::solved::solve_for;
+use crate::domain::Domains;
 use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{Content, Join, Relation};
 
 /// `name  sign  value`.
+#[derive(Clone)]
 struct Bound {
     name: Symbol,
     sign: Relation,
@@ -16,30 +19,14 @@ struct Bound {
 impl Bound {
     /// A relation of two sides, solved for the one name in it, which stands in it with a number before it.
     fn of(left: &Content, sign: Relation, right: &Content) -> Option<Bound> {
-        let plain = |name: &Content, sign: Relation, value: &Content| {
-            let name = name.expr()?.as_symbol()?.clone();
-            let value = Some(value).filter(|value| value.expr().is_some_and(Expr::is_constant))?;
-            let value = value.clone();
-            Some(Bound { name, sign, value })
-        };
-        if let Some(bound) = plain(left, sign, right).or_else(|| plain(right, sign.turned(), left))
-        {
-            return Some(bound);
-        }
         let difference = left.expr()? - right.expr()?;
         let mut names = difference.symbols().into_iter();
         let (name, None) = (names.next()?, names.next()) else {
             return None;
         };
-        let factor = difference.derivative(&name);
-        let number = factor.as_number()?;
-        let rest = difference.substitute(&[(name.clone(), Expr::zero())].into());
-        let sign = if number.is_negative() {
-            sign.turned()
-        } else {
-            sign
-        };
-        let value = -rest * factor.powi(-1);
+        let falls = difference.derivative(&name).as_number()?.is_negative();
+        let sign = if falls { sign.turned() } else { sign };
+        let value = solve_for(&difference, &name, &Domains::default())?;
         let value = match [left, right]
             .into_iter()
             .find(|side| matches!(side, Content::Quantity(_)))
@@ -121,12 +108,7 @@ pub(in crate::grade) fn at_bounds(
 ) -> Option<Content> {
     let mut all = Vec::new();
     solved(expected, &mut |bound| {
-        let same = Bound {
-            name: bound.name.clone(),
-            sign: bound.sign,
-            value: bound.value.clone(),
-        };
-        all.push(same);
+        all.push(bound.clone());
         bound
     })?;
     solved(answer, &mut |mut bound| {

@@ -543,18 +543,18 @@ impl Page<'_> {
             items.push(text);
         }
         // A restitution of zero ends a scene that a later stage needs to go on.
-        let assumed: Vec<String> = (self.told.assumed().iter())
-            .map(ToString::to_string)
-            .collect();
+        let assumed = self.told.assumed();
+        let is_positive = |name: &Expr| {
+            let mut all = assumed.iter().filter_map(Sentence::condition);
+            all.any(|(e, is_open)| is_open && e == *name)
+        };
         for condition in &mut self.valid {
             let Inline::Math(math) = condition else {
                 continue;
             };
             if let [Math::Expr(low), sign @ Math::Op("≤"), Math::Expr(name), ..] = &mut math[..]
                 && low.is_zero()
-                && assumed
-                    .iter()
-                    .any(|a| a.starts_with(&Sentence::positive(name).to_string()))
+                && is_positive(name)
             {
                 *sign = Math::Op("<");
             }

@@ -7,7 +7,7 @@ mod reached;
 mod turns;
 
 pub(super) use motion::angular;
-pub(super) use reached::{as_decided, needs, of_impact, part, tell};
+pub(super) use reached::{as_decided, needs, of_condition, of_impact, part, tell};
 
 use std::collections::BTreeSet;
 use std::iter::successors;

@@ -14,7 +14,7 @@ use crate::domain::{Domain, Domains, Origin, Relation};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Sentence, sentence};
 use crate::scene::{Ask, ContactLaw, Question, Scene, StageKind};
-use crate::verify::possible::Rule;
+use crate::verify::possible::{Condition, Rule};
 
 /// A step away from a value.
 const STEP: &str = "\u{1}step";
@@ -22,9 +22,10 @@ const STEP: &str = "\u{1}step";
 /// Something that must hold so that a scene gets to some answers.
 #[derive(Clone, PartialEq)]
 pub(in crate::story) struct Need {
-    relation: Relation,
+    /// The relation.
+    pub relation: Relation,
     /// The same as an answer tells it.
-    told: Sentence,
+    pub told: Sentence,
 }
 
 impl Need {
@@ -103,19 +104,21 @@ pub(in crate::story) fn of_impact(scene: &Scene, case: &Case, question: &Questio
     if !is_of_outcomes(&scene.questions, question) {
         return Vec::new();
     }
-    let possible = case.possible.open().into_iter();
-    let possible = possible.filter(|c| !c.is_equation).filter_map(|c| {
-        let excess = c.essential.as_ref()?;
-        let closed = c.rule != Rule::Approach;
-        let holds = match closed {
-            true => Sentence::not_negative(excess),
-            false => Sentence::positive(excess),
-        };
-        let told = sentence!("{} ({})", holds, &c.words);
-        let origin = Origin::Outcome(c.words.clone());
-        Some(Need::new(excess, closed, origin, told))
-    });
+    let possible = case.possible.open().into_iter().filter_map(of_condition);
     open(possible.chain(decided(scene)), &scene.domains)
+}
+
+/// What a condition of a collision needs, with its reason; nothing of one that is an equation.
+pub(in crate::story) fn of_condition(c: &Condition) -> Option<Need> {
+    let excess = c.essential.as_ref().filter(|_| !c.is_equation)?;
+    let closed = c.rule != Rule::Approach;
+    let holds = match closed {
+        true => Sentence::not_negative(excess),
+        false => Sentence::positive(excess),
+    };
+    let told = sentence!("{} ({})", holds, &c.words);
+    let origin = Origin::Outcome(c.words.clone());
+    Some(Need::new(excess, closed, origin, told))
 }
 
 /// The scene's domains where friction does what is told.

@@ -1,6 +1,6 @@
 //! Findings about one printed thing in several cases of friction, put together.
 
-use super::{AND, Finding, UNEXPLAINED};
+use super::{Finding, UNEXPLAINED};
 
 /// Findings in each of several cases, all about the same printed things. What holds in one of the cases holds there: a book
 /// prints one of them, and what it is read with is told beside it.
@@ -27,16 +27,10 @@ fn together(all: Vec<(&str, Finding)>) -> Option<Finding> {
             told.push(where_.join(", or "));
         }
         // What it rests on in each of them.
-        let given = found.only_where.iter().flat_map(|words| words.split(AND));
-        let shared = |words: &&str| {
-            let others = holds(Some(true)).map(|(_, f)| f.only_where.as_deref());
-            others
-                .flatten()
-                .all(|given| given.split(AND).any(|own| own == *words))
-        };
-        told.extend(given.filter(shared).map(str::to_string));
+        let shared = |words: &&String| holds(Some(true)).all(|(_, f)| f.given.contains(words));
+        told.extend(found.given.iter().filter(shared).cloned());
         return Some(Finding {
-            only_where: (!told.is_empty()).then(|| told.join(AND)),
+            only_where: in_words(&told),
             ..found.clone()
         });
     }
@@ -56,4 +50,9 @@ fn together(all: Vec<(&str, Finding)>) -> Option<Finding> {
         carom: values.join("; "),
         ..told.1.clone()
     })
+}
+
+/// Conditions one after the other; nothing where there are none.
+pub(super) fn in_words(all: &[String]) -> Option<String> {
+    (!all.is_empty()).then(|| all.join("; "))
 }
