@@ -1,18 +1,20 @@
 //! Scenes as questions of learning platforms: well-formed, a branch for every belief, nothing of a scene acted on as markup.
 //! That the branches end where they should is tried in Maxima by `tests/platforms/stack.py`.
 
-use carom::command;
 use carom::export::{Exercise, exercise, moodle, numbas, stack};
 use carom::grade::sheet::Sheet;
 use carom::grade::{Options, Verdict};
+use carom::{command, worked};
 use roxmltree::{Document, Node};
 
 fn opened(text: &str) -> (Sheet, Exercise) {
     let scene = command::scene("scene", text, &[]).expect("a sound scene");
-    let (sheet, _) = command::sheet(scene).expect("proved answers");
+    let (sheet, _) = command::sheet(scene.clone()).expect("proved answers");
+    let assumed = worked::in_cases(&scene).expect("a told scene").told;
     let exercise = exercise(
         &sheet,
         String::from("<p>[[input:ans9]] {@1@} \\(x\\) $y$ {z}</p>"),
+        &assumed.assumed(),
     );
     (sheet, exercise.expect("questions"))
 }
@@ -174,6 +176,39 @@ const HOSTILE: &str = r#"{
 }"#;
 
 #[test]
+fn variants_keep_to_what_the_answers_rest_on() {
+    let (_, exercise) = scene("problems/crude-see-saw");
+    let quiz = stack(&exercise);
+    let quiz = Document::parse(&quiz).expect("XML");
+    let mut seen = 0;
+    for question in all(quiz.root(), "question") {
+        let text = field(question, "questionvariables");
+        let variables = all(question, "questionvariables").next();
+        let text = variables.map_or(text, |v| field(v, "text"));
+        let is_pivot = text.contains("(L^2 - 3*d^2)/(L^2 + 3*d^2)");
+        for row in text.lines().filter(|l| l.contains("L=")) {
+            let value = |name: &str| {
+                let (_, rest) = row.split_once(name).expect("the value");
+                let (n, d) = rest
+                    .split([',', ']'])
+                    .next()
+                    .map(|v| v.split_once('/').unwrap_or((v, "1")))
+                    .expect("a number");
+                n.parse::<f64>().expect("a number") / d.parse::<f64>().expect("a number")
+            };
+            let (length, apart) = (value("L="), value("d="));
+            assert!(length >= apart, "the supports stand under the plank: {row}");
+            assert!(
+                !is_pivot || length * length >= 3.0 * apart * apart,
+                "the left one comes free: {row}"
+            );
+            seen += 1;
+        }
+    }
+    assert!(seen >= 10, "variants are compared");
+}
+
+#[test]
 fn words_of_a_scene_stay_words_and_names_keep_their_meaning() {
     let (_, exercise) = opened(HOSTILE);
     for quiz in [stack(&exercise), moodle(&exercise).expect("exact values")] {
@@ -231,6 +266,6 @@ fn a_scene_that_asks_for_no_formula_says_what_would_help() {
     );
     let scene = command::scene("scene", &text, &[]).expect("a sound scene");
     let (sheet, _) = command::sheet(scene).expect("answers");
-    let refused = exercise(&sheet, String::new()).expect_err("nothing to ask");
+    let refused = exercise(&sheet, String::new(), &[]).expect_err("nothing to ask");
     assert!(refused.contains("hint: add a question"), "{refused}");
 }

@@ -319,7 +319,7 @@ impl Answer {
             _ if is_angle || of.is_some_and(Parameter::is_angle) => String::from("rad"),
             // A moment has the dimension of an energy, and no joules.
             Some(of) if of.unit == "N m" => of.unit.clone(),
-            _ => self.dimension.spoken(),
+            _ => asked.map_or_else(|| self.dimension.spoken(), |q| q.ask.unit(&self.dimension)),
         }
     }
 

@@ -47,7 +47,8 @@ pub fn run(args: &ExportArgs) -> Result<u8, Failure> {
     let pictures = pictures(&args.scene, &worked)?;
     let pictures: Vec<_> = pictures.iter().map(html::Picture::standalone).collect();
     let solution = html::sections(&worked.solution(Detail::Normal), &pictures);
-    let exercise = exercise(&sheet, solution).map_err(refused)?;
+    let assumed = worked.told.assumed();
+    let exercise = exercise(&sheet, solution, &assumed).map_err(refused)?;
     for left_out in &exercise.left_out {
         complain(&format!(
             "{}: no question for {left_out}",

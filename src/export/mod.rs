@@ -13,7 +13,7 @@ mod variant;
 use crate::answer::Form;
 use crate::expr::{Expr, Symbol};
 use crate::figure::escape;
-use crate::formula::{latex_name, write_plain};
+use crate::formula::{Sentence, latex_name, write_plain};
 use crate::grade::believed::Believed;
 use crate::grade::sheet::{Entry, Sheet};
 use variant::{Exact, Variant};
@@ -74,8 +74,9 @@ struct Wrong {
     answer: Expr,
 }
 
-/// The questions of a sheet; `solution` is the worked solution as HTML. The words say why there are none, and what would help.
-pub fn exercise(sheet: &Sheet, solution: String) -> Result<Exercise, String> {
+/// The questions of a sheet; `solution` is the worked solution as HTML, and `assumed` what its stages suppose, to which the values
+/// of variants keep where they can. The words say why there are no questions, and what would help.
+pub fn exercise(sheet: &Sheet, solution: String, assumed: &[Sentence]) -> Result<Exercise, String> {
     let scene = &sheet.scene;
     let symbols = scene.parameters.iter().map(|p| Given {
         name: p.name.clone(),
@@ -99,7 +100,7 @@ pub fn exercise(sheet: &Sheet, solution: String) -> Result<Exercise, String> {
         let item = match &answer.form {
             Form::Value { .. } => {
                 let entry = sheet.entry(&answer.name);
-                entry.and_then(|entry| item(sheet, &entry))
+                entry.and_then(|entry| item(sheet, &entry, [&answer.assumptions, assumed]))
             }
             Form::Open(_) => Err(String::from("the laws do not determine it")),
             Form::Equation { .. } => Err(String::from("an equation has no one formula to type")),
@@ -124,7 +125,8 @@ pub fn exercise(sheet: &Sheet, solution: String) -> Result<Exercise, String> {
     }
 }
 
-fn item(sheet: &Sheet, entry: &Entry) -> Result<Item, String> {
+/// The question for an entry; `given` is what its answer rests on, and what the stages suppose.
+fn item(sheet: &Sheet, entry: &Entry, given: [&[Sentence]; 2]) -> Result<Item, String> {
     let scene = &sheet.scene;
     let Some(answer) = entry.key.reading.content.expr() else {
         return Err(String::from("its components are asked one by one"));
@@ -143,7 +145,7 @@ fn item(sheet: &Sheet, entry: &Entry) -> Result<Item, String> {
         words: entry.words.clone(),
         latex: String::new(),
         unit: String::new(),
-        variants: variant::variants(scene, answer, &wrong),
+        variants: variant::variants(scene, answer, &wrong, given),
         answer: answer.clone(),
         wrong,
     })

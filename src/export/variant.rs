@@ -5,7 +5,7 @@ use num_traits::{Signed, Zero};
 use super::{VARIANTS, Wrong};
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Point, Rational, Symbol};
-use crate::formula::write_plain;
+use crate::formula::{Sentence, write_plain};
 use crate::numeric;
 use crate::scene::Scene;
 
@@ -68,8 +68,14 @@ impl Exact {
     }
 }
 
-/// Variants for an answer; none where a symbol is an angle and a plain factor at once, which no fraction fits.
-pub(super) fn variants(scene: &Scene, answer: &Expr, wrong: &[Wrong]) -> Vec<Variant> {
+/// Variants for an answer; none where a symbol is an angle and a plain factor at once, which no fraction fits. What is
+/// `given` must hold in each; of what is `supposed`, which may be of several cases, as much holds as at any point that was looked at.
+pub(super) fn variants(
+    scene: &Scene,
+    answer: &Expr,
+    wrong: &[Wrong],
+    [given, supposed]: [&[Sentence]; 2],
+) -> Vec<Variant> {
     let mut needed = numeric::needed(scene);
     needed.add(answer);
     wrong.iter().for_each(|w| needed.add(&w.answer));
@@ -77,13 +83,26 @@ pub(super) fn variants(scene: &Scene, answer: &Expr, wrong: &[Wrong]) -> Vec<Var
         return Vec::new();
     }
     let points = (0..TRIED).map(|seed| numeric::random_point(&needed, &scene.domains, seed));
-    let mut found: Vec<Variant> = points
-        .filter_map(|p| variant(scene, &p, answer, wrong))
-        .collect();
+    let found = points.filter(|p| broken(given, p) == 0);
+    let found =
+        found.filter_map(|p| Some((broken(supposed, &p), variant(scene, &p, answer, wrong)?)));
+    let mut found: Vec<(usize, Variant)> = found.collect();
+    let least = found.iter().map(|(broken, _)| *broken).min();
+    found.retain(|(broken, _)| Some(*broken) == least);
     // Those at which most wrong answers are told apart come first.
-    found.sort_by_key(|v| v.wrong.iter().filter(|w| w.is_none()).count());
-    found.truncate(VARIANTS);
-    found
+    found.sort_by_key(|(_, v)| v.wrong.iter().filter(|w| w.is_none()).count());
+    found.into_iter().take(VARIANTS).map(|(_, v)| v).collect()
+}
+
+/// How many conditions do not hold at a point.
+fn broken(conditions: &[Sentence], at: &Point<Rational>) -> usize {
+    let doubles: Point<f64> = numeric::rounded(at);
+    let holds = |(e, is_open): &(Expr, bool)| match e.evaluate(&doubles) {
+        Some(value) => value > 0.0 || value == 0.0 && !is_open,
+        None => true,
+    };
+    let all = conditions.iter().flat_map(Sentence::conditions);
+    all.filter(|condition| !holds(condition)).count()
 }
 
 fn variant(

@@ -64,12 +64,13 @@ pub struct End {
 }
 
 /// Values a scene is shown at: those given, and for the others some at which its bodies touch and approach each other, and
-/// at which as many of its stages as are found to come to their ends.
+/// at which as many of its stages as are found come to their ends in a possible way.
 pub fn shown_at(scene: &Scene) -> Point<f64> {
     let mut shown = representative(scene).point;
     let told = |point: &Point<f64>| {
         let followed = follow::follow(scene, point);
-        followed.map_or(0, |f| f.stages.iter().filter(|s| s.is_ok()).count())
+        let is_told = |s: &&Result<Passed, _>| s.as_ref().is_ok_and(Passed::is_possible);
+        followed.map_or(0, |f| f.stages.iter().filter(is_told).count())
     };
     let mut most = if scene.stages.is_empty() {
         0

@@ -31,7 +31,7 @@ use std::collections::BTreeMap;
 
 use crate::answer::Matrix;
 use crate::derive::{Derivation, Equation};
-use crate::dimension::Dimension;
+use crate::dimension::{Dimension, System};
 use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::formula::{Symbols, is_hidden, trimmed, visible};
 use crate::numeric::{self, Answered};
@@ -325,7 +325,10 @@ pub fn answered(scene: &Scene, ask: &Ask, value: f64) -> String {
         let degrees = digits(value.to_degrees());
         return format!("{} rad ≈ {degrees}°", double(value));
     }
-    let (value, unit) = in_units_of_data(scene, &scene.dimension_of(ask), value);
+    let (value, unit) = match scene.system() {
+        System::Si => (value, scene.unit_of(ask)),
+        _ => in_units_of_data(scene, &scene.dimension_of(ask), value),
+    };
     let unit = if unit == "1" { "" } else { &*unit };
     format!("{} {unit}", double(value)).trim_end().to_owned()
 }
@@ -333,5 +336,5 @@ pub fn answered(scene: &Scene, ask: &Ask, value: f64) -> String {
 /// The SI unit of what a question asks for.
 pub fn unit_of(scene: &Scene, question: &str) -> String {
     let found = scene.question(question);
-    found.map_or_else(String::new, |q| scene.dimension_of(&q.ask).spoken())
+    found.map_or_else(String::new, |q| scene.unit_of(&q.ask))
 }

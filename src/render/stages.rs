@@ -40,11 +40,23 @@ pub fn text(scene: &Scene, followed: &Followed, at: &Point<f64>) -> String {
             Err(lost) => writeln!(out, "{} ({kind})\n  {lost}\n", stage.name),
         };
     }
+    let mut formulas = Vec::new();
     for (name, ask, value) in answers(scene, followed, at) {
         let _ = match value {
-            Ok(value) => writeln!(out, "{name} = {}", super::answered(scene, ask, value)),
-            Err(reason) => writeln!(out, "{name}: {reason}"),
+            Some(Ok(value)) => writeln!(out, "{name} = {}", super::answered(scene, ask, value)),
+            Some(Err(reason)) => writeln!(out, "{name}: {reason}"),
+            None => {
+                formulas.push(name);
+                Ok(())
+            }
         };
+    }
+    if !formulas.is_empty() {
+        let names = formulas.join(", ");
+        let _ = writeln!(
+            out,
+            "no numbers of the motion (`carom derive` tells them): {names}"
+        );
     }
     out
 }
@@ -187,12 +199,12 @@ fn breach_words(breach: &Breach) -> String {
     }
 }
 
-/// Name, dimension and value of every answer that is a number.
+/// Name, question and value of every answer, or why it is open; no value where the question is about formulas.
 fn answers<'s>(
     scene: &'s Scene,
     followed: &Followed,
     at: &Point<f64>,
-) -> Vec<(String, &'s Ask, Result<f64, String>)> {
+) -> Vec<(String, &'s Ask, Option<Result<f64, String>>)> {
     let mut out = Vec::new();
     for question in &scene.questions {
         let name = &question.name;
@@ -201,18 +213,13 @@ fn answers<'s>(
         match found {
             Ok(found) => {
                 let parts = found.components().into_iter();
-                out.extend(parts.map(|(part, v)| (format!("{name}{part}"), ask, Ok(v))));
+                out.extend(parts.map(|(part, v)| (format!("{name}{part}"), ask, Some(Ok(v)))));
             }
             Err(Unanswered::NotANumber) => {
-                let value = match ask {
-                    Ask::Value { with, .. } if with.is_empty() => {
-                        named(scene, followed, &name.as_str().into(), at)
-                    }
-                    _ => None,
-                };
-                out.extend(value.map(|value| (name.clone(), ask, Ok(value))));
+                let value = named(scene, followed, &name.as_str().into(), at);
+                out.push((name.clone(), ask, value.map(Ok)));
             }
-            Err(reason) => out.push((name.clone(), ask, Err(reason.to_string()))),
+            Err(reason) => out.push((name.clone(), ask, Some(Err(reason.to_string())))),
         }
     }
     out
@@ -238,8 +245,8 @@ pub fn json(scene: &Scene, followed: &Followed, at: &Point<f64>) -> Value {
         .collect();
     let answers = answers(scene, followed, at);
     let answers = answers.into_iter().map(|(name, ask, value)| {
-        let unit = scene.dimension_of(ask).spoken();
-        match value {
+        let unit = scene.unit_of(ask);
+        match value.unwrap_or_else(|| Err(Unanswered::NotANumber.to_string())) {
             Ok(value) => json!({"name": name, "value": value, "unit": unit}),
             Err(reason) => {
                 json!({"name": name, "value": Value::Null, "unit": unit, "reason": reason})

@@ -300,7 +300,7 @@ pub fn numbers(scene: &Scene, numbers: &[super::Number]) -> String {
         let text = match &number.value {
             Ok(value) => match &value.exact {
                 Some(exact) if scene.system() == System::Si => {
-                    let unit = scene.dimension_of(&asked.ask).spoken();
+                    let unit = scene.unit_of(&asked.ask);
                     format!("{exact} {unit} ≈ {}", super::digits(value.approximate))
                 }
                 _ => super::answered(scene, &asked.ask, value.approximate),

@@ -322,6 +322,19 @@ impl Ask {
         }
     }
 
+    /// The SI unit of what it asks for, which has this dimension, as a person says it.
+    pub fn unit(&self, dimension: &Dimension) -> String {
+        match (self, dimension.spoken()) {
+            // The square of an angular velocity is no angular acceleration.
+            (Ask::Value { formula, .. }, spoken)
+                if spoken == "rad/s²" && formula.as_symbol().is_none() =>
+            {
+                dimension.si()
+            }
+            (_, spoken) => spoken,
+        }
+    }
+
     /// Whether it asks for an angle.
     pub fn is_angle(&self) -> bool {
         matches!(self, Ask::Angle { .. } | Ask::Value { polar: Some(_), .. })

@@ -48,6 +48,7 @@ pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
     let after = unasked(scene, &before);
     let case = Case {
         active: Vec::new(),
+        idle: Vec::new(),
         when: Vec::new(),
         rubs: String::new(),
         conditions: Vec::new(),

@@ -131,6 +131,8 @@ pub struct Kept {
 pub struct Case {
     /// Names of the supports and strings that act.
     pub active: Vec<String>,
+    /// Names of those that do not act and yet do not part: nothing pulls at them or presses on them.
+    pub idle: Vec<String>,
     /// What a contact with friction does, such as "`C` slides"; empty where there is none.
     pub rubs: String,
     /// What must be ≥ 0 for it, in words and as an expression; empty where it holds on the whole domain.

@@ -27,13 +27,16 @@ pub(super) fn active(case: &Case) -> String {
     }
 }
 
-/// What each support and string does in an outcome: it pushes or pulls, or comes free or goes slack; or how a contact rubs.
+/// What each support and string does in an outcome: it pushes or pulls, or comes free or goes slack, or neither; or how a
+/// contact rubs.
 fn acting(one_sided: &[OneSided], case: &Case) -> String {
     let mut does: Vec<([&str; 2], Vec<String>)> = Vec::new();
     for o in one_sided {
         let verbs = match (case.active.contains(&o.name), o.is_string) {
             (true, true) => ["pulls", "pull"],
             (true, false) => ["pushes", "push"],
+            (false, true) if case.idle.contains(&o.name) => ["stays taut", "stay taut"],
+            (false, false) if case.idle.contains(&o.name) => ["only touches", "only touch"],
             (false, true) => ["goes slack", "go slack"],
             (false, false) => ["comes free", "come free"],
         };
@@ -573,6 +576,7 @@ pub(super) fn missing(told: &StageTold) -> Vec<Sentence> {
                 let does = match (case.active.contains(&o.name), o.is_string) {
                     (true, true) => "is taut, cannot stretch, and does not rebound",
                     (true, false) => "pushes and does not rebound",
+                    (false, true) if case.idle.contains(&o.name) => "stays taut and has no impulse",
                     (false, true) => "goes slack and has no impulse",
                     (false, false) => "is left and has no impulse",
                 };

@@ -57,7 +57,10 @@ pub fn named(
     values: &Point<f64>,
 ) -> Option<f64> {
     let question = scene.answering(name)?;
-    if let Ask::Value { formula, .. } = &question.ask {
+    if let Ask::Value { formula, with, .. } = &question.ask {
+        if !with.is_empty() {
+            return None;
+        }
         let mut values = values.clone();
         for part in formula.symbols() {
             if !values.values.contains_key(&part)

@@ -102,6 +102,11 @@ impl Scene {
         named(name).or_else(|| named(whole?))
     }
 
+    /// The SI unit of what is asked for, as a person says it.
+    pub fn unit_of(&self, ask: &Ask) -> String {
+        ask.unit(&self.dimension_of(ask))
+    }
+
     /// The dimension of what is asked for: of a formula that of the parameters and answers in it, where they have one.
     pub fn dimension_of(&self, ask: &Ask) -> Dimension {
         let formula = match ask {

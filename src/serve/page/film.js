@@ -67,6 +67,9 @@ function made(about, solved) {
     const moves = (stage.samples?.length ?? 0) > 1;
     if (stage.kind !== "impact" && !moves) { note = `${stage.name}: its course in time is not known`; break; }
     parts.push({ name: stage.name, stage: k, poses, moving: stage.moving ?? [], samples: stage.samples ?? [], time: moves ? stage.samples.at(-1).time : 0 });
+    const passing = (stage.pass_through_each_other ?? []).map((pair) => `${pair.join(" and ")} pass through each other`);
+    const [broken] = [...(stage.not_possible ?? []), ...passing];
+    if (broken) { note = `${stage.name}: not possible at these values, ${broken}`; break; }
   }
   if (!note && after.length) {
     const end = Math.max(0, solved.stages.length - 1);

@@ -73,6 +73,7 @@ pub(super) fn case(
         _ => None,
     };
     let mut conditions = Vec::new();
+    let mut idle = Vec::new();
     // Where a support needs the same, what friction does says it.
     for need in &outcome.when {
         let need = need.substitute(handed);
@@ -87,9 +88,13 @@ pub(super) fn case(
         let Some(end) = amount(&closed, &scene, active, i)? else {
             continue;
         };
-        if set.contains(&i) && is_zero(&end, &scene.domains) == Some(true) && !is_supposed {
-            // It touches and does nothing: the smaller set says the same.
-            return Ok(None);
+        if is_zero(&end, &scene.domains) == Some(true) {
+            match set.contains(&i) {
+                // It touches and does nothing: the smaller set says the same.
+                true if !is_supposed => return Ok(None),
+                true => {}
+                false => idle.push(one_sided[i].name.clone()),
+            }
         }
         let way = match &on_the_way {
             Some(values) => amount(values, &scene, active, i)?,
@@ -128,6 +133,7 @@ pub(super) fn case(
     Ok(Some(Case {
         possible,
         active: set.iter().map(|i| one_sided[*i].name.clone()).collect(),
+        idle,
         when: outcome.when.clone(),
         rubs: outcome.words.clone(),
         conditions,
