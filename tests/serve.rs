@@ -370,8 +370,47 @@ fn lines_of_a_batch_are_judged_in_order() {
         "book/falling-stick.md",
     ] {
         let line = json!({"scene": outside, "quantity": "omega", "answer": "1"}).to_string();
-        let answer = server.send("/v1/grade", "application/jsonl", line.as_bytes());
-        assert_eq!(answer.status, 404, "{outside}");
+        let lines = format!("{line}\n{{\"id\": 2, \"expected\": \"a\", \"answer\": \"a\"}}\n");
+        let answer = server.send("/v1/grade", "application/jsonl", lines.as_bytes());
+        assert_eq!(answer.status, 200);
+        let told = answer.text();
+        let [one, other] = [0, 1].map(|k| told.lines().nth(k).expect("a line for each"));
+        assert!(one.contains("the folder has no scene"), "{one}");
+        assert!(other.contains("\"verdict\":\"equivalent\""), "{other}");
+    }
+}
+
+#[test]
+fn every_command_takes_lines() {
+    let server = server();
+    let lines = format!(
+        "{{\"id\": 7, \"name\": \"{STICK}\"}}\n{{\"id\": \"b\", \"name\": \"none.json\"}}\nno line\n"
+    );
+    for command in ["derive", "solve", "verify", "solution"] {
+        let answer = server.send(
+            &format!("/v1/{command}"),
+            "application/jsonl",
+            lines.as_bytes(),
+        );
+        assert_eq!(answer.status, 200, "{command}");
+        let told = answer.text();
+        let told: Vec<Value> = told
+            .lines()
+            .map(|l| serde_json::from_str(l).expect("JSON"))
+            .collect();
+        assert_eq!(told.len(), 3, "{command}");
+        assert!(told.iter().all(|line| line["version"] == 1), "{command}");
+        assert_eq!([&told[0]["id"], &told[1]["id"]], [&json!(7), &json!("b")]);
+        assert!(
+            told[1]["error"]["message"]
+                .as_str()
+                .is_some_and(|m| m.contains("no such scene"))
+        );
+        assert!(
+            told[2]["error"]["message"]
+                .as_str()
+                .is_some_and(|m| m.contains("no JSON"))
+        );
     }
 }
 

@@ -46,12 +46,16 @@ fn post(command: &Command) -> Value {
         schema["dependentRequired"][field.name] = json!(field.needs);
     }
     let mut request = body(schema);
-    if command.name == "grade" {
-        request["content"]["application/jsonl"] = json!({"schema": {
-            "type": "string",
-            "description": "one request a line, as `carom grade --batch` reads them; one line comes back for each",
-        }});
-    }
+    let lines = match command.name {
+        "grade" => {
+            "one answer a line, as `carom grade --batch` reads them; one line comes back for each"
+        }
+        _ => {
+            "one request a line, with an \"id\" if you like; one line comes back for each, a text in \"text\""
+        }
+    };
+    request["content"]["application/jsonl"] =
+        json!({"schema": {"type": "string", "description": lines}});
     let media = match command.gives {
         Gives::Json | Gives::OwnJson => "application/json",
         Gives::Text(media) => media.split(';').next().unwrap_or(media),
@@ -60,9 +64,7 @@ fn post(command: &Command) -> Value {
     if command.fields.iter().any(|f| f.name == "format") {
         responses["200"]["content"]["text/*"] = json!({});
     }
-    if command.name == "grade" {
-        responses["200"]["content"]["application/jsonl"] = json!({});
-    }
+    responses["200"]["content"]["application/jsonl"] = json!({});
     json!({
         "operationId": command.name,
         "summary": command.what,

@@ -193,23 +193,32 @@ fn below(pointer: &str, name: &str) -> String {
     format!("{pointer}/{}", name.replace('~', "~0").replace('/', "~1"))
 }
 
-/// The scenes that lines of a batch name have to be scenes of the folder.
-pub(super) fn named_scenes_exist(lines: &str, folder: &Folder) -> Result<(), Bad> {
+/// The lines of a batch, by index, that name a scene which the folder does not have: the id of each, and that name.
+pub(super) fn absent_scenes(lines: &str, folder: &Folder) -> Vec<(usize, Value, String)> {
     #[derive(serde::Deserialize)]
     struct Line {
+        #[serde(default)]
+        id: Value,
         scene: Option<String>,
     }
     let mut last = None;
-    for (i, line) in lines.lines().enumerate() {
+    let each = lines.lines().enumerate().filter_map(|(k, line)| {
         // What cannot be read names no scene; the batch tells what is wrong with it.
-        let Ok(Line { scene: Some(name) }) = serde_json::from_str(line) else {
-            continue;
+        let Ok(Line {
+            id,
+            scene: Some(name),
+        }) = serde_json::from_str(line)
+        else {
+            return None;
         };
-        if last.as_ref() != Some(&name) && folder.find(&name).is_none() {
-            let message = format!("line {}: the folder has no scene {name}", i + 1);
-            return Err(Bad::absent("", message));
+        let is_there = last.as_ref() == Some(&name) || folder.find(&name).is_some();
+        match is_there {
+            true => {
+                last = Some(name);
+                None
+            }
+            false => Some((k, id, name)),
         }
-        last = Some(name);
-    }
-    Ok(())
+    });
+    each.collect()
 }

@@ -158,51 +158,114 @@ async fn command(
         .get(header::CONTENT_TYPE)
         .and_then(|m| m.to_str().ok());
     let lines = media.is_some_and(|m| m.contains("jsonl") || m.contains("ndjson"));
-    let answered = match lines && command.name == "grade" {
-        true => batch(&shared, body).await,
-        false => answer(&shared, command, &body).await,
+    if !lines {
+        return answer(&shared, command, request::fields(&body)).await;
+    }
+    let Ok(lines) = std::str::from_utf8(&body) else {
+        return refused(Bad::new("", "the body is not in UTF-8"));
     };
-    answered.unwrap_or_else(|bad| {
-        let pointer = Map::from_iter([("pointer".to_string(), json!(bad.pointer))]);
-        let status = match bad.is_absent {
-            true => StatusCode::NOT_FOUND,
-            false => StatusCode::BAD_REQUEST,
-        };
-        error_with(status, bad.message, pointer)
-    })
+    match command.name {
+        "grade" => grades(&shared, lines).await,
+        _ => answers(&shared, command, lines).await,
+    }
 }
 
-/// JSON lines in, one line out for each.
-async fn batch(shared: &Shared, body: Bytes) -> Result<Response, Bad> {
-    let lines = String::from_utf8(body.into());
-    let lines = lines.map_err(|_| Bad::new("", "the body is not in UTF-8"))?;
-    request::named_scenes_exist(&lines, &shared.folder)?;
+/// What is wrong with a request.
+fn refused(bad: Bad) -> Response {
+    let pointer = Map::from_iter([("pointer".to_string(), json!(bad.pointer))]);
+    let status = match bad.is_absent {
+        true => StatusCode::NOT_FOUND,
+        false => StatusCode::BAD_REQUEST,
+    };
+    error_with(status, bad.message, pointer)
+}
+
+/// Lines to grade, in one process; one line back for each.
+async fn grades(shared: &Shared, lines: &str) -> Response {
+    let absent = request::absent_scenes(lines, &shared.folder);
+    let of = |k: usize| absent.iter().find(|(line, ..)| *line == k);
+    // A line that names a file beside the scenes is not handed on.
+    let input = lines.lines().enumerate().map(|(k, line)| match of(k) {
+        Some(_) => "",
+        None => line,
+    });
     let job = Job {
         arguments: ["grade", "--batch", "--jobs=1"].map(String::from).into(),
-        input: lines,
+        input: input.map(|line| format!("{line}\n")).collect(),
         file: None,
     };
-    Ok(match shared.workshop.run(job, shared.folder.root()).await {
-        Ok(done) if done.status == Some(0) => typed("application/jsonl; charset=utf-8", done.out),
-        Ok(done) => fault_of_carom(done.said),
-        Err(why) => no_end(&why),
-    })
+    let done = match shared.workshop.run(job, shared.folder.root()).await {
+        Ok(done) if done.status == Some(0) => done,
+        Ok(done) => return fault_of_carom(done.said),
+        Err(why) => return no_end(&why),
+    };
+    let out = String::from_utf8_lossy(&done.out);
+    let told = out.lines().enumerate().map(|(k, line)| {
+        let Some((_, id, name)) = of(k) else {
+            return format!("{line}\n");
+        };
+        let mut grade: Value = serde_json::from_str(line).unwrap_or_default();
+        grade["id"] = id.clone();
+        grade["error"]["message"] = json!(format!("the folder has no scene {name}"));
+        format!("{grade}\n")
+    });
+    typed(LINES, told.collect::<String>())
+}
+
+/// A request in every line, each with an "id" of its own if it likes; one line back for each, in their order.
+async fn answers(shared: &Shared, command: &Command, lines: &str) -> Response {
+    let mut out = String::new();
+    let begun = time::Instant::now();
+    for line in lines.lines() {
+        let mut fields = request::fields(line.as_bytes());
+        let id = fields.as_mut().ok().and_then(|f| f.remove("id"));
+        // The lines before keep their answers where the whole takes too long.
+        let response = match begun.elapsed() < (WAITING - 1) * shared.workshop.longest {
+            true => answer(shared, command, fields).await,
+            false => no_end(&NoEnd::Slow),
+        };
+        let body = axum::body::to_bytes(response.into_body(), usize::MAX).await;
+        let body = body.unwrap_or_default();
+        let mut told = match serde_json::from_slice(&body) {
+            Ok(Value::Object(told)) => told,
+            _ => {
+                let text = String::from_utf8_lossy(&body);
+                Map::from_iter([
+                    ("version".to_string(), json!(VERSION)),
+                    ("text".to_string(), json!(text)),
+                ])
+            }
+        };
+        told.extend(id.map(|id| ("id".to_string(), id)));
+        out.push_str(&Value::Object(told).to_string());
+        out.push('\n');
+    }
+    typed(LINES, out)
 }
 
 /// One request, one answer.
-async fn answer(shared: &Shared, command: &Command, body: &[u8]) -> Result<Response, Bad> {
-    let fields = request::fields(body)?;
-    let scene = request::scene(&fields, &shared.folder)?;
-    let (job, gives) = request::job(command, &fields, scene)?;
+async fn answer(
+    shared: &Shared,
+    command: &Command,
+    fields: Result<Map<String, Value>, Bad>,
+) -> Response {
+    let job = fields.and_then(|fields| {
+        let scene = request::scene(&fields, &shared.folder)?;
+        request::job(command, &fields, scene)
+    });
+    let (job, gives) = match job {
+        Ok(job) => job,
+        Err(bad) => return refused(bad),
+    };
     let text = job.input.clone();
-    Ok(match shared.workshop.run(job, shared.folder.root()).await {
+    match shared.workshop.run(job, shared.folder.root()).await {
         Ok(done) if matches!(done.status, Some(0..=3)) && !done.out.is_empty() => {
             result(done, gives)
         }
         Ok(done) if done.status == Some(2) => unusable(shared, &done.said, text).await,
         Ok(done) => fault_of_carom(done.said),
         Err(why) => no_end(&why),
-    })
+    }
 }
 
 /// What a command printed; JSON gets the version, and the doubts that the command told beside it.
@@ -245,9 +308,10 @@ async fn unusable(shared: &Shared, said: &str, scene: String) -> Response {
     error_with(status, without_place(message), more)
 }
 
-/// A message without the name of standard input before it.
+/// A message without the name of standard input before it; an option is called as the field that it comes from.
 fn without_place(message: &str) -> &str {
-    message.strip_prefix("-: ").unwrap_or(message)
+    let message = message.strip_prefix("-: ").unwrap_or(message);
+    message.strip_prefix("--").unwrap_or(message)
 }
 
 fn no_end(why: &NoEnd) -> Response {
@@ -304,6 +368,7 @@ fn error_with(
 }
 
 const JSON: &str = "application/json";
+const LINES: &str = "application/jsonl; charset=utf-8";
 
 fn json_text(value: Value) -> Response {
     typed(JSON, value.to_string())

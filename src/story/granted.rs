@@ -2,7 +2,7 @@
 
 use super::StageTold;
 use crate::formula::{Sentence, listed, sentence};
-use crate::scene::StageKind;
+use crate::scene::{OneSided, StageKind, Turn};
 
 /// What is told of impacts.
 pub(crate) const NO_TIME: &str =
@@ -49,19 +49,7 @@ pub(super) fn assumed(readings: &[String], stages: &[StageTold]) -> Vec<Sentence
         let StageKind::Turn(turn) = &told.placed.kind else {
             continue;
         };
-        let body = &told.placed.scene.bodies[turn.body];
-        let about = &turn.about_name;
-        let name = &body.name;
-        let bodies = turn.bodies().into_iter();
-        let bodies = bodies.map(|b| format!("`{}`", told.placed.scene.bodies[b].name));
-        let rigid = match turn.with.is_empty() {
-            true => format!("`{name}` is rigid"),
-            false => listed(&bodies.collect::<Vec<_>>()) + " turn as one rigid body",
-        };
-        let holds = match body.is_particle() && turn.with.is_empty() {
-            true => format!(" `{name}` keeps its distance from `{about}`, which does not move"),
-            false => format!(" {rigid}, and `{about}` is frictionless and does not move"),
-        };
+        let holds = in_a_turn(stages, told, turn);
         let name = format!("`{}`", told.placed.name);
         match turns.iter_mut().find(|(h, _)| *h == holds) {
             Some((_, names)) if names.contains(&name) => {}
@@ -80,4 +68,33 @@ pub(super) fn assumed(readings: &[String], stages: &[StageTold]) -> Vec<Sentence
         }
     });
     out
+}
+
+/// What holds of the bodies of a rotation.
+fn in_a_turn(stages: &[StageTold], told: &StageTold, turn: &Turn) -> String {
+    let about = &turn.about_name;
+    let each = turn.bodies().into_iter();
+    let each: Vec<_> = each.map(|b| &told.placed.scene.bodies[b]).collect();
+    let names: Vec<String> = each.iter().map(|body| format!("`{}`", body.name)).collect();
+    let all = listed(&names);
+    let holds = match (each.iter().all(|body| body.is_particle()), names.len()) {
+        (true, 1) => format!(" {all} keeps its distance from `{about}`, which does not move"),
+        (true, _) => format!(" {all} keep their distance from `{about}`, which does not move"),
+        (false, 1) => {
+            format!(" {all} is rigid, and `{about}` is frictionless and does not move")
+        }
+        (false, _) => format!(
+            " {all} turn as one rigid body, and `{about}` is frictionless and does not move"
+        ),
+    };
+    let strings = stages.iter().filter_map(|told| match &told.placed.kind {
+        StageKind::Impact { one_sided, .. } => Some(one_sided),
+        _ => None,
+    });
+    let holds_one =
+        |o: &OneSided| o.is_string && o.bodies.iter().any(|b| turn.bodies().contains(b));
+    match strings.flatten().any(holds_one) {
+        true => holds + ", and the string stays taut all the way",
+        false => holds,
+    }
 }

@@ -86,7 +86,7 @@ export function say(error) {
 
 export function told(error) {
   if (error instanceof TypeError) return "The server does not answer.";
-  return error.hint ? `${error.message}\n${error.hint}` : error.message;
+  return error.hint ? `${error.message}. ${error.hint[0].toUpperCase()}${error.hint.slice(1)}.` : error.message;
 }
 
 // A number as people read it.

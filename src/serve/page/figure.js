@@ -4,7 +4,7 @@ import { $, ask, latest, make, markup, told } from "/ask.js";
 import { bench, remember, scene, set } from "/main.js";
 import { refuse } from "/values.js";
 
-const MOMENTS = [["before", "before"], ["during", "during"], ["after", "after"], ["all", "all"]];
+export const MOMENTS = [["before", "before"], ["during", "during"], ["after", "after"], ["all", "all"]];
 
 export function showFigure() {
   const { stages } = bench.about;

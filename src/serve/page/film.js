@@ -3,6 +3,7 @@
 
 import { $, ask, digits, latest, told } from "/ask.js";
 import { bench, scene, set } from "/main.js";
+import { measured } from "/values.js";
 
 // The longest a film takes, and how long an impact is shown, in seconds.
 const LONGEST = 8;
@@ -37,6 +38,7 @@ export async function showFilm() {
       bench.about.stages.length ? ask("solve", request, signal) : { stages: [] },
     ]));
     if (!found) return;
+    measured(found[0].parameters);
     film = made(...found);
     $("film").hidden = !film.parts.length && !film.note;
     $("film-note").textContent = film.note;

@@ -1,9 +1,9 @@
 // The page: which scene, which values, which panel; all of it stands in the link.
 
-import { $, ask, get, markup, quietly, say } from "/ask.js";
+import { $, ask, get, markup, quietly, say, told } from "/ask.js";
 import { showList } from "/list.js";
 import { showValues } from "/values.js";
-import { showFigure, redraw } from "/figure.js";
+import { MOMENTS, showFigure, redraw } from "/figure.js";
 import { showFilm } from "/film.js";
 import { showAnswers, renumber } from "/answers.js";
 import { showTry } from "/try.js";
@@ -140,10 +140,18 @@ async function follow() {
       name,
       values: Object.fromEntries(values.map(([key, value]) => [key.slice(2), value])),
       stage: state.get("stage") ?? "",
-      moment: state.get("moment") ?? "before",
+      moment: MOMENTS.some(([moment]) => moment === state.get("moment")) ? state.get("moment") : "before",
       panel: state.get("panel") ?? "answers",
     });
-    bench.original = await get(`/v1/scenes/${name.split("/").map(encodeURIComponent).join("/")}`);
+    try {
+      bench.original = await get(`/v1/scenes/${name.split("/").map(encodeURIComponent).join("/")}`);
+    } catch (error) {
+      $("list").hidden = false;
+      $("bench").hidden = true;
+      await showList();
+      $("source").textContent = error instanceof TypeError ? told(error) : `There is no scene ${name} here.`;
+      return;
+    }
     const found = await load(state.get("text"));
     if (found.faults) {
       $("title").textContent = `${name} cannot be read`;

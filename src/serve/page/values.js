@@ -4,6 +4,12 @@ import { $, digits, make, markup } from "/ask.js";
 import { bench, valuesChanged } from "/main.js";
 
 let rows = {};
+const measures = {};
+
+// What the server reads from the boxes, such as 1/3 or acos(3/5): the sliders and the degrees follow.
+export function measured(parameters) {
+  for (const p of parameters) if (rows[p.name]) measures[p.name]?.(p.value);
+}
 
 export function showValues() {
   rows = {};
@@ -49,11 +55,16 @@ function row(p) {
   const box = make("input", { type: "text", id, inputmode: "text", autocomplete: "off", spellcheck: "false", "aria-describedby": `${id}-meaning` });
   const unit = make("span", { class: "unit" });
   // An angle in radians is told in degrees as well.
-  const measure = () => {
+  const measure = (value = box.value.trim() ? Number(box.value) : NaN) => {
     slider.setAttribute("aria-valuetext", p.unit === "1" ? box.value : `${box.value} ${p.unit}`);
-    const inDegrees = p.unit === "rad" && box.value.trim() && Number.isFinite(Number(box.value));
     const words = p.unit === "1" ? "" : p.unit.replaceAll("^2", "²").replaceAll("^3", "³");
-    unit.textContent = inDegrees ? `rad ≈ ${Math.round((Number(box.value) * 1800) / Math.PI) / 10}°` : words;
+    const inDegrees = p.unit === "rad" && Number.isFinite(value);
+    unit.textContent = inDegrees ? `rad ≈ ${Math.round((value * 1800) / Math.PI) / 10}°` : words;
+  };
+  measures[p.name] = (value) => {
+    if (Number.isFinite(Number(box.value))) return;
+    slider.value = value;
+    measure(value);
   };
   const show = (value) => {
     box.value = value;
