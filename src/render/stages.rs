@@ -199,12 +199,15 @@ fn breach_words(breach: &Breach) -> String {
     }
 }
 
-/// Name, question and value of every answer, or why it is open; no value where the question is about formulas.
+/// A value, or why it is open; nothing where the question is about formulas.
+type Number = Option<Result<f64, String>>;
+
+/// Name, question and value of every answer.
 fn answers<'s>(
     scene: &'s Scene,
     followed: &Followed,
     at: &Point<f64>,
-) -> Vec<(String, &'s Ask, Option<Result<f64, String>>)> {
+) -> Vec<(String, &'s Ask, Number)> {
     let mut out = Vec::new();
     for question in &scene.questions {
         let name = &question.name;

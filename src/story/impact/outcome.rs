@@ -114,16 +114,6 @@ pub(super) fn case(
             }
         }
     }
-    conditions.sort_by(|a, b| a.1.cmp(&b.1));
-    conditions.dedup_by(|a, b| a.1 == b.1);
-    if conditions.iter().any(|(_, e)| {
-        conditions
-            .iter()
-            .any(|(_, f)| is_zero(&(e + f), &scene.domains) == Some(true))
-    }) {
-        // One condition is the opposite of another: at most a boundary is left.
-        return Ok(None);
-    }
     let Some(conditions) = independent(conditions, &scene.domains) else {
         return Ok(None);
     };
@@ -208,12 +198,22 @@ fn amount(
 /// Longest condition that is held against others, in nodes.
 const LONGEST: usize = 120;
 
-/// Conditions without those that follow from the others, the longest left away first; `None` where one of them cannot hold
-/// beside the others.
+/// Conditions without those that follow from the others, the longest left away first, none of them twice; `None` where one of
+/// them cannot hold beside the others.
 fn independent(
     mut conditions: Vec<(String, Expr)>,
     domains: &Domains,
 ) -> Option<Vec<(String, Expr)>> {
+    conditions.sort_by(|a, b| a.1.cmp(&b.1));
+    conditions.dedup_by(|a, b| a.1 == b.1);
+    let opposite = |e: &Expr| {
+        let mut others = conditions.iter();
+        others.any(|(_, f)| is_zero(&(e + f), domains) == Some(true))
+    };
+    if conditions.iter().any(|(_, e)| opposite(e)) {
+        // At most a boundary is left.
+        return None;
+    }
     let mut order: Vec<Expr> = conditions.iter().map(|(_, e)| e.clone()).collect();
     order.sort_by_key(|e| std::cmp::Reverse(e.size()));
     let short = order.iter().filter(|e| e.size() <= LONGEST);
@@ -238,8 +238,6 @@ fn independent(
 pub(super) fn fits(case: &Case, given: &[(String, Expr)], domains: &Domains) -> bool {
     let mut all: Vec<(String, Expr)> = given.to_vec();
     all.extend(case.conditions.iter().cloned());
-    all.sort_by(|a, b| a.1.cmp(&b.1));
-    all.dedup_by(|a, b| a.1 == b.1);
     has_point(&all, domains) || independent(all, domains).is_some()
 }
 
