@@ -662,6 +662,25 @@ fn numbers_tell_formulas_of_answers_and_directions_in_degrees() {
     ];
     let text = solved("cars-slide-from-a-crossing", &cars);
     assert!(text.lines().any(|l| l == "d = 2.5 m"), "{text}");
+    // At another speed than the given one nothing was followed: its square has no number either.
+    let box_ = [
+        ("m", "1"),
+        ("a", "1"),
+        ("b", "1/2"),
+        ("g", "10"),
+        ("v", "2"),
+    ];
+    let text = solved("tipping-box", &box_);
+    assert!(text.contains("omega = -1.2 rad/s"), "{text}");
+    assert!(!text.contains("omega_critical_squared ="), "{text}");
+    let none = text
+        .lines()
+        .find(|l| l.starts_with("no numbers of the motion"));
+    let none = none.expect("what has no number is named");
+    assert!(
+        none.contains("omega_critical, omega_critical_squared"),
+        "{none}"
+    );
 }
 
 #[test]
