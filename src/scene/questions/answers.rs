@@ -164,9 +164,15 @@ impl Reader<'_, '_> {
             let message = format!(
                 "a threshold of friction is one of `mu`, which is {mu} here, and not of {of}"
             );
-            let hint =
-                "let the `mu` of the contact be a parameter, and ask for the threshold of that";
-            return self.refuse(parameter, message, hint);
+            let (word, sign) = match event {
+                FrictionEvent::Slides => ("slides", "<="),
+                FrictionEvent::Sticks => ("sticks", ">="),
+                FrictionEvent::Jams => ("jams", ">="),
+            };
+            let hint = format!(
+                "let `{mu}` be a parameter, ask first \"mu_c\": {{\"threshold\": \"{mu}\", \"holds\": \"{contact} {word}\"}}, and then {{\"threshold\": \"{of}\", \"holds\": \"{mu} {sign} mu_c\"}}",
+            );
+            return self.refuse(parameter, message, &hint);
         }
         let contact = place.contact;
         Some(Ask::Friction { contact, event })
