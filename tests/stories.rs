@@ -415,6 +415,21 @@ fn roots_of_higher_degree_are_isolated_and_those_outside_the_domain_named() {
         a.discarded
     );
     assert!(said(r#""q": {"solve": "x", "holds": "x^5 + y*x = 1"}"#).contains("degree 5"));
+    // A root with a closed form stays beside factors that have none, and every such factor is isolated.
+    let a = answer(r#""q": {"solve": "x", "holds": "(1 - 3*x)*sqrt(x^3 + x^2 + 1) = 0"}"#);
+    assert_eq!(plain(&a.text), "x = 1/3");
+    let a = answer(r#""q": {"solve": "x", "holds": "(2*y - x)*sqrt(x^3 + x - 1) = 0"}"#);
+    let text = plain(&a.text);
+    assert!(
+        text.contains("x = 2*y") && text.contains("0.68232"),
+        "{text}"
+    );
+    let a = answer(r#""q": {"solve": "x", "holds": "sqrt(x^3 + x - 1)*sqrt(x^5 + x - 3) = 0"}"#);
+    let text = plain(&a.text);
+    assert!(
+        text.contains("0.68232") && text.contains("1.1329"),
+        "{text}"
+    );
 }
 
 #[test]

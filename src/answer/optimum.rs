@@ -101,6 +101,9 @@ fn reduced(of: &Expr, free: &[Symbol], domains: &mut Domains) -> Result<Reduced,
     })
 }
 
+/// Said where a derivative vanishes at what cannot be written.
+const NO_FORM: &str = "where the derivative vanishes has no closed form here";
+
 /// The largest value over one variable that may be any positive number, and where it is.
 fn over_positive(
     scene: &Scene,
@@ -128,12 +131,12 @@ fn over_positive(
     let f = tidy(&reduced.of.put(&reduced.variable, &through))?;
     let slope = tidy(&f.derivative(&root))?;
     let roots = match solve(&slope, &root, &domains) {
-        Ok(roots) => roots,
+        Ok(roots) if roots.open.is_empty() => roots,
         Err(Unsolved::Absent) => {
             return Ok(vec![at_the_rim(out, &slope, &words, &domains)]);
         }
-        Err(Unsolved::Inside) => {
-            return Err(refused("the parameter stands inside a function".into()));
+        Ok(_) | Err(Unsolved::Inside) => {
+            return Err(refused(NO_FORM.into()));
         }
         Err(Unsolved::Limit(what)) => return Err(refused(what)),
     };
@@ -243,6 +246,7 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
     let place = match (inside.as_slice(), bends) {
         ([only], Some(bends)) if bends.is_negative() => {
             let holds = bends.is_proved().then_some(true);
+            out.assumptions.extend(only.given.iter().cloned());
             match search.beyond(only, scene, &mut out)? {
                 Some(end) => {
                     let words = "the derivative vanishes beyond that end and nowhere else, and the second derivative is negative there";
@@ -261,8 +265,13 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
             None => return Ok(vec![at_the_rim(out, &search.slope, p, domains)]),
         },
         (several, _) => {
-            let several: Vec<Expr> = several.iter().map(|root| root.value.clone()).collect();
-            search.compared(&several, &mut out)?
+            let values: Vec<Expr> = several.iter().map(|root| root.value.clone()).collect();
+            let place = search.compared(&values, &mut out)?;
+            // That it is larger than at the others rests on nothing that these rest on.
+            let there = several.iter().filter(|root| root.value == place);
+            out.assumptions
+                .extend(there.flat_map(|root| root.given.clone()));
+            place
         }
     };
     let value = search.at(&place, f)?;
@@ -306,9 +315,7 @@ impl Search<'_> {
     /// Where the derivative vanishes.
     fn flat(&self, out: &mut Answer) -> Result<Vec<Root>, Refused> {
         match solve(&self.slope, self.p, self.domains) {
-            Ok(roots) if roots.open.is_none() => {
-                let given = roots.inside.iter().flat_map(|r| r.given.clone());
-                out.assumptions.extend(given);
+            Ok(roots) if roots.open.is_empty() => {
                 out.discarded = roots.discarded;
                 Ok(roots.inside)
             }

@@ -81,8 +81,8 @@ pub struct Roots {
     pub inside: Vec<Root>,
     /// The others, with the reason.
     pub discarded: Vec<Sentence>,
-    /// Coefficients, ascending, of a factor of higher degree than closed forms are given for.
-    pub open: Option<Vec<Expr>>,
+    /// Coefficients, ascending, of each factor of higher degree than closed forms are given for.
+    pub open: Vec<Vec<Expr>>,
 }
 
 /// Why an equation was not solved.
@@ -120,7 +120,7 @@ pub fn solve(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots, Unso
             found => found?,
         };
         out.discarded.extend(found.discarded);
-        out.open = out.open.or(found.open);
+        out.open.extend(found.open);
         for root in found.inside {
             if out.inside.iter().all(|known| known.value != root.value) {
                 out.inside.push(root);
@@ -204,7 +204,7 @@ pub(super) fn end_of(
     if slope.symbols().contains(symbol) {
         let roots = within_interval(&difference, symbol, domains).ok()?;
         return match roots.inside.as_slice() {
-            [root] if root.proved && roots.open.is_none() => Some((root.value.clone(), !grows)),
+            [root] if root.proved && roots.open.is_empty() => Some((root.value.clone(), !grows)),
             _ => None,
         };
     }
@@ -260,7 +260,8 @@ fn within_interval(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots
         let candidates = match closed(&mut field, &coefficients)? {
             Some(candidates) => candidates,
             None => {
-                out.open = Some(coefficients.iter().map(|c| field.expr(c)).collect());
+                let factor = coefficients.iter().map(|c| field.expr(c)).collect();
+                out.open.push(factor);
                 continue;
             }
         };

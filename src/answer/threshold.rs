@@ -5,6 +5,8 @@
 
 use std::collections::BTreeSet;
 
+use num_traits::{Signed, Zero};
+
 use super::Check;
 use super::calc::{Seen, above_zero, by_signs, essential, is_zero, sign, tidy};
 use super::inequality::{everywhere, sign_words};
@@ -12,7 +14,7 @@ use super::solve::{Roots, Unsolved, end_of, solve};
 use super::{Answer, Form, intervals, limit, undo};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, Limit, Origin};
-use crate::expr::{Expr, Node, Symbol};
+use crate::expr::{Expr, Node, Rational, Symbol};
 use crate::formula::Relation;
 use crate::formula::{Sentence, sentence};
 use crate::interval::enclosure::decimal;
@@ -71,8 +73,8 @@ pub(super) fn fill(
         }
     };
     out.discarded = roots.discarded.clone();
-    if let Some(open) = &roots.open {
-        isolate(out, parameter, &gap, open, scene);
+    if !roots.open.is_empty() {
+        isolate(out, parameter, &gap, &roots, scene);
         return;
     }
     if roots.inside.is_empty() {
@@ -442,9 +444,9 @@ fn jumps(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sentence> 
         return None;
     }
     match solve(&below, parameter, domains) {
-        Ok(poles) if poles.open.is_none() && poles.inside.is_empty() => None,
+        Ok(poles) if poles.open.is_empty() && poles.inside.is_empty() => None,
         Err(Unsolved::Absent) => None,
-        Ok(poles) if poles.open.is_none() => {
+        Ok(poles) if poles.open.is_empty() => {
             let places = poles.inside.iter().map(|r| Sentence::from(&r.value));
             let places = Sentence::join(places, " and ");
             Some(sentence!(
@@ -484,53 +486,124 @@ fn always(gap: &Expr, relation: Relation, domains: &Domains) -> Sentence {
     }
 }
 
-/// A condition of higher degree: exact isolation once all other symbols have values.
-fn isolate(out: &mut Answer, parameter: &Symbol, gap: &Expr, coefficients: &[Expr], scene: &Scene) {
+/// A condition of higher degree: the values with closed forms, and exact isolation of the others once all other symbols have
+/// values.
+fn isolate(out: &mut Answer, parameter: &Symbol, gap: &Expr, roots: &Roots, scene: &Scene) {
+    for root in &roots.inside {
+        let mut words = sentence!("{} = {}", parameter, &root.value);
+        if !root.given.is_empty() {
+            let given = Sentence::join(root.given.clone(), " and ");
+            words = sentence!("{}, given that {}", words, given);
+        }
+        if !root.proved {
+            words = sentence!("{} (not proved)", words);
+        }
+        out.text.push(words);
+    }
     let mut values = scene.values();
     values.remove(parameter);
-    let degree = coefficients.len() - 1;
-    let numbers: Option<Vec<_>> = coefficients
-        .iter()
-        .map(|c| {
-            tidy(&c.substitute(&values), &scene.domains)
-                .ok()?
-                .as_number()
-                .cloned()
-        })
-        .collect();
-    let Some(numbers) = numbers else {
-        out.text.push(sentence!("a polynomial of degree {} in {} has to vanish, which has no closed form here; with fractions as values of all other symbols its roots are enclosed", degree.to_string(), parameter));
-        return;
-    };
-    let domain = scene.domains.symbols.get(parameter);
-    let at_values = gap.substitute(&values);
-    for [low, high] in super::roots::isolate(&numbers) {
-        let words = format!(
-            "{parameter} between {} and {}",
-            decimal(&low, 12),
-            decimal(&high, 12)
-        );
-        if domain.is_some_and(|d| !d.contains(&low) && !d.contains(&high)) {
-            out.discarded
-                .push(sentence!("{}, outside the domain", words));
+    let at_values = |e: &Expr| tidy(&e.substitute(&values), &scene.domains).ok();
+    for coefficients in &roots.open {
+        let degree = (coefficients.len() - 1).to_string();
+        let numbers = coefficients
+            .iter()
+            .map(|c| at_values(c)?.as_number().cloned());
+        let Some(numbers) = numbers.collect::<Option<Vec<_>>>() else {
+            out.text.push(sentence!("a polynomial of degree {} in {} has to vanish, which has no closed form here; with fractions as values of all other symbols its roots are enclosed", degree, parameter));
             continue;
-        }
-        // Squaring may have brought the root in: the two sides must change places across it.
-        let side = |x: &crate::expr::Rational| {
-            at_values
-                .put(parameter, &Expr::from(x.clone()))
-                .evaluate(&crate::expr::Point::<f64>::default())
         };
-        match (side(&low), side(&high)) {
-            (Some(a), Some(b)) if a * b <= 0.0 => {
-                out.text.push(sentence!("{}: one root of degree {}, isolated exactly (Sturm); the sides change places there", words, degree.to_string()));
+        let bounds = bounds(parameter, scene);
+        for [low, high] in super::roots::isolate(&numbers) {
+            let words = format!(
+                "{parameter} between {} and {}",
+                decimal(&low, 12),
+                decimal(&high, 12)
+            );
+            let excluded = bounds.iter().find(|(excess, closed, _)| {
+                let excess = |x: &Rational| {
+                    let e = at_values(excess)?.put(parameter, &Expr::from(x.clone()));
+                    tidy(&e, &scene.domains).ok()?.as_number().cloned()
+                };
+                !may_keep(&numbers, [&low, &high], excess, *closed)
+            });
+            if let Some((_, _, against)) = excluded {
+                out.discarded.push(sentence!("{}, {}", words, against));
+                continue;
             }
-            _ => out.text.push(sentence!("{}: one root of degree {}, isolated exactly (Sturm); the sides do not change places there", words, degree.to_string())),
+            // Squaring may have brought the root in: the difference must change its sign across it.
+            let side = |x: &Rational| {
+                let e = gap
+                    .substitute(&values)
+                    .put(parameter, &Expr::from(x.clone()));
+                e.evaluate(&crate::expr::Point::<f64>::default())
+            };
+            let changes = match (side(&low), side(&high)) {
+                (Some(a), Some(b)) if a * b <= 0.0 => "changes its sign there",
+                (Some(_), Some(_)) => "does not change its sign there",
+                _ => "has no value beyond it",
+            };
+            out.text.push(sentence!("{}: one root of degree {}, isolated exactly (Sturm); the difference of the sides {}", words, &degree, changes));
         }
     }
     if out.text.is_empty() {
         out.text.push(Sentence::words(
             "no real root within the domain: the sides never meet",
         ));
+    }
+}
+
+/// What a parameter keeps to: something that is not negative, or positive where it is open, and the words for a value that does
+/// not keep to it.
+fn bounds(parameter: &Symbol, scene: &Scene) -> Vec<(Expr, bool, Sentence)> {
+    let value = Expr::symbol(parameter);
+    let domain = scene.domains.symbols.get(parameter).cloned();
+    let domain = domain.unwrap_or_else(Domain::positive);
+    let outside = || Sentence::words("outside the domain");
+    let low = domain.low.map(|l| (&value - &l.expr(), !l.open, outside()));
+    let high = domain
+        .high
+        .map(|h| (&h.expr() - &value, !h.open, outside()));
+    let relations = scene.domains.relations.iter();
+    let relations = relations.filter(|r| r.excess.mentions(parameter)).map(|r| {
+        let against = sentence!("against {}", super::solve::stated(r));
+        (r.excess.clone(), r.closed, against)
+    });
+    low.into_iter().chain(high).chain(relations).collect()
+}
+
+/// Whether the one root of a polynomial in (low, high] may keep to what is not to be negative, or not to be zero either where it
+/// is not closed. What has no exact value is not held against it.
+fn may_keep(
+    polynomial: &[Rational],
+    [low, high]: [&Rational; 2],
+    excess: impl Fn(&Rational) -> Option<Rational>,
+    closed: bool,
+) -> bool {
+    let (Some(at_low), Some(at_high)) = (excess(low), excess(high)) else {
+        return true;
+    };
+    let keeps = |e: &Rational| e.is_positive() || closed && e.is_zero();
+    if at_low.is_positive() == at_high.is_positive() {
+        return keeps(&at_low) || keeps(&at_high);
+    }
+    // Of what is straight there the end is known.
+    let end = low - &at_low * (high - low) / (&at_high - &at_low);
+    if excess(&end).is_none_or(|e| !e.is_zero()) {
+        return true;
+    }
+    let at = |x: &Rational| {
+        polynomial
+            .iter()
+            .rev()
+            .fold(Rational::zero(), |sum, c| sum * x + c)
+    };
+    let at_end = at(&end);
+    match at_end.is_zero() {
+        true => closed,
+        false => keeps(if (at(low) * at_end).is_negative() {
+            &at_low
+        } else {
+            &at_high
+        }),
     }
 }

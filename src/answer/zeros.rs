@@ -31,9 +31,9 @@ pub(super) fn of(e: &Expr, domains: &Domains) -> Vec<Sentence> {
             _ => None,
         };
         match solved {
-            Some(Roots {
-                inside, open: None, ..
-            }) if inside.iter().all(|r| r.proved) => {
+            Some(Roots { inside, open, .. })
+                if open.is_empty() && inside.iter().all(|r| r.proved) =>
+            {
                 let name = &symbols[0];
                 let places = inside.iter();
                 out.extend(places.map(|r| sentence!("{} = {}", name, &r.value)));
@@ -154,7 +154,7 @@ fn by_function(
     let mut wide = domains.clone();
     wide.symbols.insert(RATIO.into(), Domain { low, high });
     let found = match solve(&in_ratio, &RATIO.into(), &wide) {
-        Ok(found) if found.open.is_none() => found,
+        Ok(found) if found.open.is_empty() => found,
         Err(Unsolved::Absent) => Roots::default(),
         Ok(_) | Err(Unsolved::Inside) => return Ok(None),
         Err(other) => return Err(other),
@@ -183,7 +183,7 @@ fn by_function(
     Ok(Some(Roots {
         inside: inside.collect(),
         discarded: put_back(&found.discarded),
-        open: None,
+        open: Vec::new(),
     }))
 }
 
@@ -255,7 +255,7 @@ fn by_half(
         Err(Unsolved::Absent) => Roots::default(),
         Err(other) => return Err(other),
     };
-    if found.open.is_some() {
+    if !found.open.is_empty() {
         return Err(Unsolved::Inside);
     }
     let half_angle = &Expr::symbol(symbol) / &Expr::from(2);

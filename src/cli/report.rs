@@ -13,7 +13,7 @@ use super::{Failure, Format, complain, files, only, pretty, print, read_scene, r
 use carom::derive::{self, Derivation};
 use carom::report::{Effort, Report, Row, measure};
 use carom::scene::Scene;
-use carom::{numeric, render, story, worked};
+use carom::{numeric, render, story, verify, worked};
 
 /// Arguments of `carom report`.
 #[derive(Args)]
@@ -140,7 +140,13 @@ fn impact(
         return Ok((scene, Some(derivation)));
     }
     let scene = only(path, vec![(String::new(), scene)], stage)?;
-    let derivation = derive::derive(&scene);
+    let derivation = derive::derive(&scene).map_err(|why| why.to_string());
+    let derivation = derivation.and_then(|d| match verify::prove(&scene, &d).holds() {
+        true => Ok(d),
+        false => Err(String::from(
+            "they are refuted: `carom derive` tells what failed",
+        )),
+    });
     if let Err(why) = &derivation {
         let name = path.display();
         complain(&format!(

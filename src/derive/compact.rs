@@ -33,8 +33,20 @@ pub(super) struct Parts {
     definitions: Vec<Definition>,
     /// What the definitions stand for, in parameters alone.
     meant: BTreeMap<Symbol, Expr>,
-    /// Kinetic energy lost by all bodies, −½ P·(u⁻ + u⁺).
+    /// Kinetic energy lost by all bodies, −½ P·(u⁻ + u⁺) and the work on what moves as it must.
     lost: Option<Expr>,
+}
+
+/// The work that an impulse on the second body does on what is fixed and moves as it must, such as a wall.
+fn taken_by_walls(work: &mut Work<'_>, impulse: &[Expr; 2]) -> Result<Expr, Stop> {
+    let contact = &work.scene.contacts[0];
+    let fixed = [-1, 1].into_iter().zip(contact.bodies);
+    let fixed = fixed.filter(|(_, b)| work.scene.bodies[*b].is_fixed());
+    let taken = fixed.map(|(sign, b)| {
+        let [x, y] = work.scene.bodies[b].velocity_at(&contact.at);
+        Expr::from(sign) * (&impulse[0] * &x + &impulse[1] * &y)
+    });
+    work.tidy(&Expr::sum(taken.collect::<Vec<_>>()))
 }
 
 /// The impact of two bodies at one contact in named parts, where anything multiplied out would be long. The form is that
@@ -344,7 +356,9 @@ impl Parts {
             "speed at which the touching points approach each other along the normal, just before";
         let speed = self.named(work, "u_n", speed, words);
         let size = (Expr::one() + e) * &speed / Expr::sum(inverse_mass);
-        self.lost = Some((Expr::one() - e) * &speed * &impulse * Expr::ratio(1, 2));
+        let lost = (Expr::one() - e) * &speed * &impulse * Expr::ratio(1, 2);
+        let along = normal.each_ref().map(|n| n * &impulse);
+        self.lost = Some(lost + taken_by_walls(work, &along)?);
         let words = "impulse on the second body along the normal";
         self.define(&impulse, size, words);
         for (unknown, before, gain) in pending {
@@ -409,7 +423,8 @@ impl Parts {
             let words = format!("impulse at the contact along {}", ["x", "y"][axis]);
             self.define_unknown(work, Unknown::Contact(0, axis), sizes[axis].clone(), &words)
         });
-        self.lost = Some(-(&impulse[0] * &ux + &impulse[1] * &uy) * Expr::ratio(1, 2));
+        let lost = -(&impulse[0] * &ux + &impulse[1] * &uy) * Expr::ratio(1, 2);
+        self.lost = Some(lost + taken_by_walls(work, &impulse)?);
         self.motion = Kinematics::full(scene, &work.g);
         for (side, &i) in contact.bodies.iter().enumerate() {
             let body = &scene.bodies[i];
