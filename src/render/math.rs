@@ -331,17 +331,12 @@ pub fn vector_of(m: &Math) -> Option<Vec<(Expr, usize)>> {
     }
 }
 
-/// A bracketed vector with one positive term needs no brackets to be read right after `×`; any other does.
+/// A bracketed vector with one positive term needs no brackets to be read right after `×`, as a sum has its own; any other does.
 pub fn is_plain(inner: &[Math]) -> bool {
     match inner {
         [one] => vector_of(one).is_some_and(|v| {
             let c = components(&v);
-            c.len() == 1
-                && !c[0].0
-                && !c[0]
-                    .1
-                    .as_ref()
-                    .is_some_and(|e| matches!(e.node(), Node::Sum(_)))
+            c.len() == 1 && !c[0].0
         }),
         _ => false,
     }
