@@ -102,7 +102,7 @@ async function draw(found) {
   const parts = [];
   if (found.refusals?.length) parts.push(...found.refusals.map((why) => make("p", { class: "failed" }, `✗ ${why}.`)));
   for (const one of all) {
-    if (one.mode) parts.push(make("h3", {}, `If the contact ${one.mode}`), conditions(one, set));
+    if (one.mode) parts.push(make("h3", {}, `If ${behaves(one.mode)}`), conditions(one, set));
     parts.push(...one.answers.filter((a) => !everywhere(a)).map((a) => answer(a, set, !one.mode)));
     const defined = (one.where ?? []).filter((w) => !one.answers.some((a) => a.name === w.name));
     if (defined.length) parts.push(make("h3", {}, "where"), ...defined.map((w) => definition(w, set)));
@@ -179,6 +179,10 @@ const number = (n) => (n.value === null ? (n.reason ?? "open") : `≈ ${digits(n
 
 const letter = (name) => (letters.get(name) ? markup(letters.get(name)) : name);
 
+// What a contact does, or where its impulse lies.
+const behaves = (mode) => mode.endsWith("the cone") ? `the impulse lies ${mode}`
+  : mode === "given ratio" ? "the impulse has the given ratio" : `the contact ${mode}`;
+
 // The numbers at the values of the sliders, from the geometry alone.
 export async function renumber() {
   if (!bench.about || (!places.size && !$("numbers"))) return;
@@ -205,7 +209,7 @@ export async function renumber() {
 const modeAtValues = quietly(async () => {
   const [found, compared] = await Promise.all([last, valued((signal) => ask("compare", { ...scene(), set: set() }, signal))]).catch(() => []);
   const law = compared?.laws.find((l) => l.law === found?.hypothesis);
-  if (law && $("mode")) $("mode").textContent = `At these values the contact ${law.mode}`;
+  if (law && $("mode")) $("mode").textContent = `At these values ${behaves(law.mode)}`;
 }, 250);
 
 // The laws of friction side by side, when they are asked for.
