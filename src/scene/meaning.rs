@@ -1,6 +1,6 @@
 //! What a parameter is, where the file does not say it: that of which it is the one number, such as the mass of a body.
 
-use super::stage::{FallEnd, SlideEnd, StageKind, Until};
+use super::stage::{FallEnd, SlideEnd, Stage, StageKind, Until};
 use super::{BlowImpulse, Body, ContactLaw, KnownQuantity, Scene, Shape};
 use num_traits::{One, Signed};
 
@@ -26,6 +26,12 @@ const ALONG: [&str; 4] = [
     "velocity of {} to the left at first",
     "upward velocity of {} at first",
     "downward velocity of {} at first",
+];
+
+/// Where a body is, seen from the origin.
+const PLACED: [&str; 2] = [
+    "distance of {} to the right of the origin at first",
+    "height of {} above the origin at first",
 ];
 
 /// Gives words to the parameters that have none and stand alone for a number of a body, a contact or a motion.
@@ -73,7 +79,7 @@ fn is_told_before(scene: &Scene, name: &Symbol) -> bool {
     scene.stages.is_empty() && scene.bodies.iter().any(moves)
 }
 
-/// What a parameter is, by its first use: `mass of the rod`, `mass of body a and of body b`.
+/// What a parameter is, by its first use: `mass of the rod`, `mass of each of body a and body b`.
 fn words(uses: &[Use<'_>], name: &Symbol) -> Option<String> {
     let is_it = |e: &Expr| e.as_symbol() == Some(name) || (-e).as_symbol() == Some(name);
     let mut mine = uses.iter().filter(|(.., e)| is_it(e));
@@ -91,7 +97,12 @@ fn words(uses: &[Use<'_>], name: &Symbol) -> Option<String> {
         let body = body.map(called);
         bodies.extend(body.filter(|body| !bodies.contains(body)));
     }
-    Some(what.replace("{}", &bodies.join(" and of ")))
+    let last = bodies.pop();
+    let of = match (bodies.is_empty(), last) {
+        (false, Some(last)) => format!("each of {} and {last}", bodies.join(", ")),
+        (_, last) => last.unwrap_or_default(),
+    };
+    Some(what.replace("{}", &of))
 }
 
 /// `the rod` and `body a`.
@@ -122,14 +133,27 @@ fn uses(scene: &Scene) -> Vec<Use<'_>> {
         of_motion(scene, &stage.kind, &mut out);
     }
     // Where nothing else is told by a letter, it says where a body is.
+    let turns = |stage: &Stage| match &stage.kind {
+        StageKind::Turn(turn) => turn.about.iter().all(Expr::is_zero),
+        _ => false,
+    };
+    let turns = scene.stages.iter().any(turns);
     for body in scene
         .bodies
         .iter()
         .filter(|b| !matches!(b.shape, Shape::Fixed))
     {
         let [x, y] = &body.center;
-        out.push(("x coordinate of {} at first", Some(&body.name), x));
-        out.push(("y coordinate of {} at first", Some(&body.name), y));
+        if turns && let Some((size, None)) = polar(&body.center) {
+            out.push((
+                "distance of {} from the pivot at first",
+                Some(&body.name),
+                size,
+            ));
+        }
+        for (e, words) in [x, y].into_iter().zip(PLACED) {
+            out.push((words, Some(&body.name), e));
+        }
     }
     out
 }
@@ -253,8 +277,10 @@ fn of_motion<'s>(scene: &'s Scene, kind: &'s StageKind, out: &mut Vec<Use<'s>>) 
     match kind {
         StageKind::Turn(turn) => {
             match &turn.until {
-                Until::By(angle) => out.push(("angle of the turn of {}", name(turn.body), angle)),
-                Until::For(time) => out.push(("time of the turn of {}", name(turn.body), time)),
+                Until::By(angle) => {
+                    out.push(("angle through which {} turns", name(turn.body), angle))
+                }
+                Until::For(time) => out.push(("time for which {} turns", name(turn.body), time)),
                 _ => {}
             }
             let moment = turn.torque.iter();
@@ -275,9 +301,11 @@ fn of_motion<'s>(scene: &'s Scene, kind: &'s StageKind, out: &mut Vec<Use<'s>>) 
             let force = slide.force.iter();
             out.extend(force.map(|force| ("force along the line", None, force)));
             match &slide.until {
-                SlideEnd::Distance(way) => out.push(("way of {}", name(slide.body), way)),
+                SlideEnd::Distance(way) => {
+                    out.push(("distance that {} goes", name(slide.body), way))
+                }
                 SlideEnd::Time(time) => {
-                    out.push(("time of the motion of {}", name(slide.body), time))
+                    out.push(("time for which {} moves", name(slide.body), time))
                 }
                 _ => {}
             }
@@ -294,7 +322,7 @@ fn of_motion<'s>(scene: &'s Scene, kind: &'s StageKind, out: &mut Vec<Use<'s>>) 
             FallEnd::Range(range) => {
                 out.push(("horizontal distance that {} flies", name(fall.body), range))
             }
-            FallEnd::Time(time) => out.push(("time of the flight of {}", name(fall.body), time)),
+            FallEnd::Time(time) => out.push(("time for which {} flies", name(fall.body), time)),
             _ => {}
         },
         _ => {}

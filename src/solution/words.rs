@@ -208,13 +208,16 @@ pub fn with_symbols(scene: &Scene, text: &str) -> Vec<Inline> {
         rest = after;
         let word = whole.trim_start_matches(|c: char| c.is_ascii_digit());
         let is_factor = word.len() < whole.len();
-        let in_formula = is_factor || word == "a" && after.starts_with(')');
+        let in_formula = is_factor || word == "a" && !is_article(after);
         let symbol = symbol_in(scene, word, in_formula);
         let Some(symbol) = symbol.filter(|_| !is_unit(&words, word, after)) else {
             words.push_str(whole);
             continue;
         };
         let number = |digits: &str| digits.parse::<i64>().ok().map(Expr::from);
+        let (power, after) = raised(after);
+        rest = after;
+        let symbol = symbol.power(Expr::from(power));
         let factor = number(&whole[..whole.len() - word.len()]).unwrap_or_else(Expr::one);
         let below = after.strip_prefix('/').unwrap_or("");
         let digits = below
@@ -231,6 +234,32 @@ pub fn with_symbols(scene: &Scene, text: &str) -> Vec<Inline> {
     }
     out.push(say(words));
     out
+}
+
+/// The power behind a symbol, `^2`, and what follows.
+fn raised(after: &str) -> (i64, &str) {
+    let digits = after.strip_prefix('^').unwrap_or("");
+    let end = digits.find(|c: char| !c.is_ascii_digit());
+    let (digits, behind) = digits.split_at(end.unwrap_or(digits.len()));
+    match digits.parse() {
+        Ok(power) if !behind.starts_with(char::is_alphabetic) => (power, behind),
+        _ => (1, after),
+    }
+}
+
+/// Words that no article stands before.
+const NO_NOUNS: [&str; 20] = [
+    "above", "and", "are", "as", "at", "below", "beside", "for", "from", "in", "is", "lies", "of",
+    "off", "on", "or", "over", "to", "when", "with",
+];
+
+/// Whether an a is the article of what follows it, and not a letter.
+fn is_article(after: &str) -> bool {
+    let Some(next) = after.strip_prefix(char::is_whitespace) else {
+        return false;
+    };
+    let end = next.find(|c: char| !c.is_alphanumeric() && c != '-');
+    !NO_NOUNS.contains(&&next[..end.unwrap_or(next.len())])
 }
 
 /// Whether a word is the beginning of a unit behind a number: the m of `120 m/s`.

@@ -4,7 +4,7 @@ use super::Page;
 use super::motion::driven;
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol, dot};
-use crate::scene::{Ask, EnergyWhen, Question, Scene, StageKind};
+use crate::scene::{Ask, EnergyWhen, Question, Scene, Slide, StageKind};
 use crate::solution::known;
 use crate::solution::neat::tidied;
 use crate::solution::opening::NUMBERS;
@@ -22,6 +22,8 @@ struct End {
     steps: Vec<Line>,
     /// The answers.
     boxed: Vec<Line>,
+    /// What their letters stand for, where nothing above says it.
+    letters: Vec<(Math, &'static str)>,
     /// Their numbers.
     numbers: Vec<Inline>,
 }
@@ -96,6 +98,7 @@ impl Page<'_> {
         if case.is_some_and(|case| !case.handed.is_empty()) {
             self.solution.say("In terms of the given quantities,");
         }
+        self.meant(std::mem::take(&mut end.letters));
         let boxed = std::mem::take(&mut end.boxed);
         self.solution.push(Part::Result(boxed));
     }
@@ -170,10 +173,43 @@ impl Page<'_> {
         // What is in given quantities already stands where it was found.
         let stands = |case: &Case| !changes(case, formula) && self.stands(from, name);
         if !here.cases.get(outcome).is_some_and(stands) {
+            let lost = Self::lost_to(here, &ask);
+            end.letters
+                .extend(lost.map(|why| (Expr::symbol(name).into(), why)));
             let step = Some(id);
             end.boxed.push(Line { math, step });
         }
         end.number(self.scene, &symbol, answer);
+    }
+
+    /// What a loss of kinetic energy in a motion is called, with what it is lost to.
+    fn lost_to(told: &StageTold, ask: &Ask) -> Option<&'static str> {
+        let Ask::Energy {
+            when: EnergyWhen::Lost,
+            of: None,
+        } = ask
+        else {
+            return None;
+        };
+        let is_alone = |s: &Slide| {
+            let is_flat = s.level || s.gravity.is_none() || s.along[1].is_zero();
+            // A belt takes up energy, or gives it.
+            let is_belt = |b: usize| told.placed.scene.bodies[b].is_fixed();
+            let is_driven = (s.on.iter()).any(|on| on.force.is_some() || is_belt(on.body));
+            let is_pulled = s.force.is_some() || !s.strings.is_empty();
+            is_flat && !is_driven && !is_pulled && !s.rolling
+        };
+        Some(match &told.placed.kind {
+            StageKind::Impact { .. } => return None,
+            // Beside weight, a force and strings nothing is lost to these alone.
+            StageKind::Slide(slide) if is_alone(slide) => match (&slide.friction, &slide.spring) {
+                (Some(_), None) => "the kinetic energy lost to friction",
+                (None, Some(_)) => "the kinetic energy lost to the spring",
+                (Some(_), Some(_)) => "the kinetic energy lost to friction and to the spring",
+                (None, None) => "the kinetic energy lost",
+            },
+            _ => "the kinetic energy lost",
+        })
     }
 
     /// The energy that a motion loses, or ends with, where its energies stand nowhere above: in the speeds, and to be held against

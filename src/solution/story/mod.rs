@@ -134,7 +134,10 @@ impl Page<'_> {
         }
         if !self.told.readings.is_empty() {
             self.solution
-                .text(vec![say("The statement is read as follows:")]);
+                .text(vec![say(match self.scene.statement.as_str() {
+                    "" => "It is understood that:",
+                    _ => "The statement is read as follows:",
+                })]);
             let readings = self.readings();
             self.solution.push(Part::List(readings));
         }

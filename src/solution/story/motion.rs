@@ -600,7 +600,8 @@ impl Page<'_> {
             });
             let mass = Expr::sum(bodies.iter().map(|b| stage.scene.bodies[*b].mass.clone()));
             let [x, y] = velocity.each_ref().map(square);
-            alike.then(|| &half * mass * (x + y))
+            // Of m, M and 3 M the sum is 4 M + m.
+            alike.then(|| &half * tidied(self.scene, &mass) * (x + y))
         };
         if let (Some([_, inertia]), StageKind::Turn(turn)) = (&told.inertia, &stage.kind) {
             let by_spin = &half * inertia * square(&state.spin[turn.body]);
