@@ -514,11 +514,8 @@ fn isolate(out: &mut Answer, parameter: &Symbol, gap: &Expr, roots: &Roots, scen
         };
         let bounds = bounds(parameter, scene);
         for [low, high] in super::roots::isolate(&numbers) {
-            let words = format!(
-                "{parameter} between {} and {}",
-                decimal(&low, 12),
-                decimal(&high, 12)
-            );
+            let ends = [&low, &high].map(|end| decimal(end, 12));
+            let words = sentence!("{} between {} and {}", parameter, &ends[0], &ends[1]);
             let excluded = bounds.iter().find(|(excess, closed, _)| {
                 let excess = |x: &Rational| {
                     let e = at_values(excess)?.put(parameter, &Expr::from(x.clone()));

@@ -71,7 +71,15 @@ pub fn misplaced_one(scene: &Scene, one: Placed) -> Option<Misplaced> {
     let (what, name, at, inside, bodies) = match one {
         Placed::Contact(i) => {
             let c = scene.contacts.get(i)?;
-            if is_second_latch(scene, c) {
+            let is_on = |b: &usize| {
+                let is_off = |body| off(scene, (&c.at, true), body).is_some();
+                scene
+                    .bodies
+                    .get(*b)
+                    .is_some_and(|body| !body.is_fixed() && !is_off(body))
+            };
+            // A string leaves one of its bodies at its place and reaches the other along its line.
+            if is_second_latch(scene, c) || c.is_string && c.bodies.iter().any(is_on) {
                 return None;
             }
             (

@@ -384,10 +384,10 @@ impl Judge<'_> {
         }
     }
 
-    /// Whether the contact lies on the body.
-    fn place(&mut self, contact: &Contact, body: &Body) {
-        if body.is_particle() || touch::is_second_latch(self.scene, contact) {
-            return;
+    /// What it takes for a contact to lie on a body, at the piece of its outline where that is best known; nothing for a particle.
+    fn spot(&self, contact: &Contact, body: &Body) -> Option<Vec<(Need, decide::Decided)>> {
+        if body.is_particle() {
+            return None;
         }
         let spots = touch::spots(body, &contact.at, touch::may_lie_inside(contact));
         let mut best: Option<Vec<(Need, decide::Decided)>> = None;
@@ -415,6 +415,30 @@ impl Judge<'_> {
             };
             if best.as_ref().is_none_or(|b| rank(&needs) < rank(b)) {
                 best = Some(needs);
+            }
+        }
+        best
+    }
+
+    /// Whether the contact lies on the body.
+    fn place(&mut self, contact: &Contact, body: &Body) {
+        if body.is_particle() || touch::is_second_latch(self.scene, contact) {
+            return;
+        }
+        let best = self.spot(contact, body);
+        // A string leaves one of them at its place and reaches the other along its line.
+        let is_there = |spot: &Option<Vec<(Need, decide::Decided)>>| {
+            let mut needs = spot.iter().flatten();
+            needs.all(|(_, decided)| decided.verdict == Verdict::Everywhere)
+        };
+        if contact.is_string && !is_there(&best) {
+            let bodies = contact.bodies.map(|b| &self.scene.bodies[b]);
+            let mut others = bodies.into_iter().filter(|other| other.name != body.name);
+            if others.any(|other| !other.is_fixed() && is_there(&self.spot(contact, other))) {
+                let (string, body) = (&contact.name, &body.name);
+                let words = format!("where the string `{string}` is fastened to `{body}`");
+                self.not_judged.push(words);
+                return;
             }
         }
         let is_out_of_reach = || {
