@@ -2,7 +2,7 @@
 //!
 //! In: a text. Out: the same, byte for byte, with blanks for what is passed over: words before the box and behind it, the
 //! left side of an equation that ends in it. A sign, number or symbol that touches the box stays, and then the braces of the
-//! box are brackets. Words that could change the value are a fault.
+//! box are brackets. Words that could change the value are a fault, and so is another value beside the box.
 
 use super::fault::{Fault, Faulty};
 use super::prose::{changes, goes_on, leads};
@@ -73,6 +73,10 @@ fn around(text: &str, mut at: usize, inside: [usize; 2]) -> Faulty<String> {
         Some(first) => (first, true),
         None => (before(text, at, math)?, false),
     };
+    if beside(&text[..at], &text[inside[0]..inside[1]], &text[close..]) && !joined {
+        let fault = Fault::new("another value stands beside the box", at, close);
+        return Err(fault.hint("give one value, or each value in its own box"));
+    }
     let math = in_dollars && !text[close..].trim_start().starts_with('$');
     let right = behind(text, close, math, left < at)?;
     let soft = joined || left == at || text[left..at].contains(['<', '>', '≤', '≥']);
@@ -160,6 +164,77 @@ fn joined_boxes(text: &str, mut at: usize) -> Faulty<Option<usize>> {
     let name = named.and_then(|named| named.rsplit([' ', '$']).next());
     let begins = name.and_then(|name| text[..first].rfind(name));
     Ok(Some(begins.unwrap_or(first)))
+}
+
+/// Whether what stands before or behind a box says another value than its `inside`, or takes it back: `\boxed{2} and 3`,
+/// `\boxed{v/2} for m = M`, `\boxed{2}. Correction: 3`. What a clause behind it says of its names is none.
+fn beside(before: &str, inside: &str, behind: &str) -> bool {
+    const TAKEN_BACK: &str =
+        "actually correction corrected edit except mistake oops otherwise sorry unless wait";
+    const CLAUSES: &str = "because by from hence in since so therefore thus using where which with";
+    const CASES: &str = "for if provided when whenever while";
+    const MORE: &str = "also alternatively and another besides but could either may might or other plus second well";
+    let is_in = |list: &str, word: &str| list.split(' ').any(|w| word.eq_ignore_ascii_case(w));
+    let is_value = |text: &str| {
+        let text = ["\\text", "\\quad", "\\mathrm", "\\;", "\\,", "\\)", "\\]"]
+            .iter()
+            .fold(text.to_string(), |text, sign| text.replace(sign, " "));
+        let mut words = text.split(|c: char| !c.is_alphanumeric());
+        let name = |word: &str| word.chars().count() == 1 && !is_in("a i", word);
+        text.contains(['\\', '=']) || words.any(|w| name(w) || w.contains(char::is_numeric))
+    };
+    let words = |text: &'_ str| -> Vec<(usize, usize)> {
+        let mut out = Vec::new();
+        let mut start = None;
+        for (at, c) in text.char_indices().chain([(text.len(), ' ')]) {
+            match (c.is_alphabetic(), start) {
+                (true, None) => start = Some(at),
+                (false, Some(from)) => {
+                    out.push((from, at));
+                    start = None;
+                }
+                _ => {}
+            }
+        }
+        out
+    };
+    let word = |(from, to): (usize, usize)| &behind[from..to];
+    let all = words(behind);
+    if all.iter().any(|place| is_in(TAKEN_BACK, word(*place))) {
+        return true;
+    }
+    let last = trimmed(before);
+    let joined = |word: &str| {
+        last.strip_suffix(word)
+            .is_some_and(|rest| rest.ends_with(' ') && trimmed(rest) != rest.trim_end())
+    };
+    if !inside.contains('=') && (joined("and") || joined("or")) {
+        return true;
+    }
+    let ends = [". ", ".$", "\n", "\\\\", "&", "\\end", "\\tag"];
+    let end = ends.iter().filter_map(|end| behind.find(end)).min();
+    let sentence = &behind[..end.unwrap_or(behind.len())];
+    let semicolon = sentence
+        .find(';')
+        .filter(|at| !sentence[..*at].ends_with('\\'));
+    for place in all.into_iter().filter(|(_, to)| *to <= sentence.len()) {
+        let (said, rest) = (word(place), &sentence[place.1..]);
+        let relates = || {
+            rest.contains(['=', '<', '>', '≤', '≥']) || rest.contains("\\l") || rest.contains("\\g")
+        };
+        if semicolon.is_some_and(|at| at < place.0) || is_in(CLAUSES, said) {
+            break;
+        }
+        if is_in(CASES, said) && relates() || is_in(MORE, said) && is_value(rest) {
+            return true;
+        }
+    }
+    semicolon.is_some_and(|at| {
+        let first = words(&sentence[at..])
+            .first()
+            .map(|(from, to)| sentence[at + from..at + to].to_string());
+        !first.is_some_and(|first| is_in(CLAUSES, &first)) && is_value(&sentence[at + 1..])
+    })
 }
 
 /// The last place where one of several signs ends.
