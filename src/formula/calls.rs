@@ -246,6 +246,13 @@ impl Parser<'_> {
                         .note(Remark::Argument { long }, start, end, token.end);
                     long
                 }
+                // `\sin\frac{n\pi}{L}x`: of the fraction, or of all of it.
+                Tok::Name(_) if factors.len() == 1 && self.is_open_fraction(&factors[0].1) => {
+                    let long = !self.lexer.usual();
+                    self.lexer
+                        .note(Remark::Argument { long }, start, end, token.end);
+                    long
+                }
                 Tok::Slash if named => {
                     // sinθ/2: half of the sine, unless somebody meant the half angle.
                     let rest = &self.lexer.text[self.lexer.pos..];
@@ -288,6 +295,23 @@ impl Parser<'_> {
                 Ok(Written::new(Shape::Product(factors), start, end))
             }
             None => Err(Fault::new("an argument is missing", start, end)),
+        }
+    }
+
+    /// Whether a fraction of names holds no angle, so that it need not be all that a function is taken of.
+    fn is_open_fraction(&self, written: &Written) -> bool {
+        let Shape::Fraction(above, below) = &written.shape else {
+            return false;
+        };
+        !written.is_numeric() && !self.holds_angle(above) && !self.holds_angle(below)
+    }
+
+    fn holds_angle(&self, written: &Written) -> bool {
+        match &written.shape {
+            Shape::Product(factors) => factors.iter().any(|(_, f)| self.holds_angle(f)),
+            Shape::Sum(terms) => terms.iter().any(|(_, t)| self.holds_angle(t)),
+            Shape::Bracket(inner) => self.holds_angle(inner),
+            _ => self.has_angle(written),
         }
     }
 

@@ -3,7 +3,13 @@
 /// `{2, 3}` and `x ∈ {2, 3}` with blanks for the braces and an equals sign for that of membership, byte for byte; nothing
 /// where the text is no set.
 pub(super) fn without_braces(text: &str) -> Option<String> {
-    let text = text.replace("\\mathbb{R}", "ℝ       ");
+    // All as long as before.
+    let text = text
+        .replace("\\mathbb{R}", "ℝ       ")
+        .replace("\\left\\{", "     \\{")
+        .replace("\\right\\}", "\\}      ")
+        .replace("\\lbrace", "     \\{")
+        .replace("\\rbrace", "\\}     ");
     let (open, close) = (text.find('{')?, text.rfind('}')?);
     let inside = text.get(open + 1..close)?;
     if inside.contains(['{', '}']) || !text[close + 1..].trim().is_empty() {

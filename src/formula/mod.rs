@@ -190,9 +190,9 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     if worded && let Some(reading) = read_behind_words(text, symbols) {
         return reading.map_err(|fault| *fault);
     }
-    if usual.is_ok()
+    if let Ok(reading) = &usual
         && held.any(" ")
-        && let Some(fault) = word_between(text, symbols, held)
+        && let Some(fault) = word_between(text, symbols, held, reading)
     {
         return Err(*fault);
     }
@@ -200,12 +200,25 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
 }
 
 /// Refuses a word between formulas that no rule read: it is no product of its letters.
-fn word_between(text: &str, symbols: &Symbols, held: prose::Held) -> Option<Box<Fault>> {
+fn word_between(
+    text: &str,
+    symbols: &Symbols,
+    held: prose::Held,
+    reading: &Reading,
+) -> Option<Box<Fault>> {
     let between = |word: &str| Some((text.find(word)?, word.len()));
     let joining = held
         .joins()
         .then(|| between(" or ").or_else(|| between(" and ")));
-    let (found, hint) = match joining.flatten() {
+    // `13 m to 17 m`
+    let range = || {
+        between(" to ").filter(|_| {
+            ["t", "o"]
+                .iter()
+                .all(|name| reading.symbols().contains(*name))
+        })
+    };
+    let (found, hint) = match joining.flatten().or_else(range) {
         Some(found) => (
             found,
             "values and bounds are joined by words, as in x = 1 or x = 2",

@@ -142,8 +142,16 @@ pub(crate) fn bare_index(
             && bytes.get(at + run) != Some(&b'_');
         return Some(index(digits + usize::from(component), component));
     }
-    Some(index(run, false))
+    // In LaTeX an index without braces is one letter, as in `k_BT`; a word that somebody typed there is one all the same.
+    let word = run > 3 || WORDS.split(' ').any(|word| word == &text[at..at + run]);
+    match run > 1 && !word && text.contains(['\\', '$']) {
+        true => Some(index(1, false)),
+        false => Some(index(run, false)),
+    }
 }
+
+/// Words of two or three letters that stand as an index.
+const WORDS: &str = "avg cm com CM COM cms eff end eq ext fin in ini int kin lab max min net out pot rel res rms rod rot top tot sys th";
 
 /// Whether the text behind a raised sign makes it the sign of an exponent: `x^-2`, `x^-½`, `x^-(a+b)`, `x^-n`.
 fn starts_exponent(rest: &str) -> bool {

@@ -149,6 +149,23 @@ pub(super) fn behind_words(text: &str, known: &dyn Fn(&str) -> bool) -> Option<u
     }
 }
 
+/// Where values begin behind words that lead to them: `The solutions are 1 and -4`, `Hence x = 1 or x = 2`.
+pub(super) fn lead_to_values(text: &str, known: &dyn Fn(&str) -> bool) -> Option<usize> {
+    const VALUES: &str = "answers at masses roots solutions times values";
+    let (mut at, mut led) = (0, None);
+    for piece in text.split_inclusive(' ') {
+        let word = piece.trim_end_matches([' ', ',', ':']);
+        let plain = is_in(VALUES, word) || is_in(LEADS, word) || is_in(PLAIN, word);
+        if word.len() < 2 || !plain || known(word) || word.eq_ignore_ascii_case("and") {
+            break;
+        }
+        at += piece.len();
+        let leads = leads(word) || word.eq_ignore_ascii_case("at") || piece.contains(':');
+        led = leads.then_some(at);
+    }
+    led
+}
+
 /// A ratio of two numbers, `5:2`, `5 to 2` and `m_1:m_2 = 1:3`, with a slash for its colon and nothing moved; nothing where a
 /// colon stands for anything else.
 pub(super) fn ratio(text: &str) -> Option<String> {

@@ -1,7 +1,7 @@
 //! Several values or bounds that are said as one: alternatives, lists, sets, intervals and their unions.
 
 use super::frames::{below_each_other, without_braces};
-use super::prose::Held;
+use super::prose::{Held, lead_to_values};
 use super::{
     Content, Fault, Join, MAX_BYTES, Reading, Relation, Remark, Symbols, framed, plain_unit,
     read_either,
@@ -349,9 +349,32 @@ fn part(text: &str, [from, to]: [usize; 2], symbols: &Symbols) -> Option<Reading
         let text = relates.then(|| format!("{:at$}{inside}", ""))?;
         part(&text, [at, text.len()], symbols)
     };
+    // `$v_1 = 3$ m/s`
+    let undressed = || {
+        let text = inside.contains('$').then(|| inside.replace('$', " "))?;
+        read_either(&format!("{:from$}{text}", ""), from, symbols, 0).ok()
+    };
     read_either(&text[..to], from, symbols, 0)
         .ok()
         .or_else(bracketed)
+        .or_else(undressed)
+}
+
+/// Values with blanks for words that lead to them, byte for byte: `The solutions are 1 and 2`, `x is 1 or 2`.
+fn behind_words(text: &str, known: &dyn Fn(&str) -> bool) -> Option<String> {
+    if let Some((name, values)) = text.split_once(" is ")
+        && name.starts_with(char::is_alphabetic)
+        && name.chars().all(|c| c.is_alphanumeric() || c == '_')
+        && (known(name)
+            || name
+                .split('_')
+                .next()
+                .is_some_and(|base| base.chars().count() == 1))
+    {
+        return Some(format!("{name} =  {values}"));
+    }
+    let at = lead_to_values(text, known)?;
+    Some(format!("{:at$}{}", "", &text[at..]))
 }
 
 /// `x = 3 or x = -3`, `2, -2` and `{1, 2, 3}` as values of which each will do; `x > 1 and x < 3` as a chain; other relations
@@ -363,7 +386,10 @@ pub(super) fn values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fa
     let (start, stop) = framed(text);
     let set = without_braces(&text[start..stop]);
     let list = set.is_some();
-    let plain = set.or_else(|| below_each_other(&text[start..stop]));
+    let known = |word: &str| symbols.find(word).is_some();
+    let plain = set
+        .or_else(|| below_each_other(&text[start..stop]))
+        .or_else(|| behind_words(&text[start..stop], &known));
     let plain = plain.map(|plain| format!("{:start$}{plain}", ""));
     let (text, stop) = plain
         .as_ref()
@@ -458,11 +484,27 @@ pub(super) fn together(parts: &[Reading], said: Option<Join>) -> Option<(Content
         [a, b] if said != Some(Join::Or) => chain(a, b),
         _ => None,
     };
-    let join = said.unwrap_or(Join::And);
+    // `x < 2, x ≥ 5` are bounds of which one holds.
+    let never = said.is_none() && content.as_ref().is_some_and(is_never);
+    let content = content.filter(|_| !never);
+    let join = said.unwrap_or(if never { Join::Or } else { Join::And });
     Some((
         content.unwrap_or_else(|| Content::Joined(join, whole())),
         None,
     ))
+}
+
+/// Whether a chain of bounds says that a larger number is below a smaller one.
+fn is_never(chain: &Content) -> bool {
+    let Content::Relations(sides, signs) = chain else {
+        return false;
+    };
+    let numbers = [sides.first(), sides.last()].map(|side| side?.expr()?.as_number().cloned());
+    match numbers {
+        [Some(low), Some(high)] if signs.iter().all(|sign| sign.is_below()) => low > high,
+        [Some(high), Some(low)] if signs.iter().all(|sign| sign.turned().is_below()) => low > high,
+        _ => false,
+    }
 }
 
 /// The signs of relations that are said together.

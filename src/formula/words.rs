@@ -530,7 +530,7 @@ impl Lexer<'_> {
     }
 
     /// `v(t_1)` and `v(0)`: the value of v at a time, no product; where v or the time is declared, `v(t_1)` is one. So is
-    /// `f(x)`, a letter that is used for functions with the letter they are of. At the start of an equation `v(t) =` says what
+    /// `f(x)`, a letter that is used for functions with the letter they are of, and `U(r) = …`, of what its right side has. At the start of an equation `v(t) =` says what
     /// v is.
     fn of_time(&mut self, start: usize, at: usize, parts: &Parts) -> Option<Faulty<Tok>> {
         let inside = self.text[at..].strip_prefix('(')?;
@@ -547,12 +547,12 @@ impl Lexer<'_> {
             let end = name::tail(time, end, &mut when, self.symbols, false, &mut false);
             let alone = !(start > 0 && self.text.as_bytes()[start - 1].is_ascii_alphabetic());
             let function = matches!(&*parts.base, "f" | "g" | "h" | "F" | "G") && alone;
-            let of_place = function && matches!(time, "x" | "y" | "z");
+            let of_place = function && matches!(time, "x" | "y" | "z") || said_of(time, behind);
             if end != time.len() || when.base != "t" && !of_place {
                 return None;
             }
             let of_all = time == "t" || of_place;
-            if of_all && self.count == 1 && behind.trim_start().starts_with('=') {
+            if of_all && self.count == 1 && alone && behind.trim_start().starts_with('=') {
                 return Some(self.resolve(start, stop, parts.clone()));
             }
         }
@@ -618,6 +618,21 @@ impl Lexer<'_> {
             self.pos = start;
         }
         found
+    }
+}
+
+/// Whether a name stands on the right side of the equation that goes on with a text: `= -k/r` says of r what something is.
+fn said_of(name: &str, behind: &str) -> bool {
+    let Some(right) = behind.trim_start().strip_prefix('=') else {
+        return false;
+    };
+    match name.starts_with('\\') {
+        true => right.contains(name),
+        // No letter of a command.
+        false => right.split('\\').enumerate().any(|(i, part)| {
+            let command = part.trim_start_matches(|c: char| c.is_ascii_alphabetic());
+            (if i == 0 { part } else { command }).contains(name)
+        }),
     }
 }
 

@@ -452,7 +452,7 @@ pub(super) fn number(key: &Key, answer: &str, options: &Options) -> Option<Grade
 }
 
 /// A text with mixed numbers as sums in brackets: `(1+3/4) m` for `1 3/4 m`; nothing where there are none.
-fn mixed(text: &str) -> Option<String> {
+pub(super) fn mixed(text: &str) -> Option<String> {
     let mut out = String::new();
     let (mut rest, mut found) = (text, false);
     while let Some(c) = rest.chars().next() {
@@ -642,6 +642,11 @@ pub(super) fn ambiguity(
             if tight_root(&other, answer, right) {
                 let words = "the root sign may reach over one letter or over all of them";
                 undecide(finding, words);
+            } else if behind_fraction(&other, answer) {
+                undecide(
+                    finding,
+                    "the function may be taken of the fraction or of all behind it",
+                );
             }
             let found = Diagnosis::new("AMBIGUOUS", message, hint);
             finding.diagnosis.insert(0, found);
@@ -662,6 +667,13 @@ fn tight_root(other: &Reading, answer: &str, right: bool) -> bool {
     };
     let long = Remark::Root { long: true };
     other.notes.iter().any(|n| n.remark == long && tight(n))
+}
+
+/// Whether a reading takes a function of a fraction and the name behind it, as in `\sin\frac{n\pi}{L}x`.
+fn behind_fraction(other: &Reading, answer: &str) -> bool {
+    let long = Remark::Argument { long: true };
+    let fraction = |note: &Note| answer.get(..note.middle).is_some_and(|t| t.ends_with('}'));
+    other.notes.iter().any(|n| n.remark == long && fraction(n))
 }
 
 /// What the reader decided that a student should know about.
