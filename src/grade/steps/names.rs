@@ -97,7 +97,20 @@ pub(super) fn is_quantity_first(unit: &str) -> bool {
     let letter = power.filter_map(|p| unit.trim().strip_suffix(p)).next();
     matches!(
         letter.unwrap_or(unit.trim()),
-        "V" | "h" | "t" | "A" | "C" | "F" | "H" | "K" | "L" | "T" | "l" | "d" | "W"
+        "Ω" | "\\Omega"
+            | "V"
+            | "h"
+            | "t"
+            | "A"
+            | "C"
+            | "F"
+            | "H"
+            | "K"
+            | "L"
+            | "T"
+            | "l"
+            | "d"
+            | "W"
     )
 }
 
@@ -406,8 +419,24 @@ impl Desk<'_> {
         None
     }
 
-    /// Takes what a name is from the line further down that says it.
+    /// Takes what a name is from the line further down that says it: `V = b/2 W`, where W is no watt if `W = 6v/(5b)` is said.
     fn said_ahead(&mut self, name: &Symbol, symbols: &Symbols) -> bool {
+        let said = |name: &Symbol| self.ahead.iter().find(|(other, _)| other == name);
+        let unit = said(name).and_then(|(_, right)| {
+            let reading = formula::read(right, symbols).ok()?;
+            let (from, to) = behind(right, &reading)?;
+            Some((right.clone(), Symbol::from(&right[from..to])))
+        });
+        let own =
+            unit.filter(|(_, unit)| unit != name && !self.is_known(unit) && said(unit).is_some());
+        let symbols = match own {
+            Some((right, unit)) if self.taken_ahead(&unit, symbols) => &self.symbols(&right),
+            _ => symbols,
+        };
+        self.taken_ahead(name, symbols)
+    }
+
+    fn taken_ahead(&mut self, name: &Symbol, symbols: &Symbols) -> bool {
         let said = self.ahead.iter().find(|(other, _)| other == name);
         let value = said.and_then(
             |(_, right)| match formula::read(right, symbols).ok()?.content {
@@ -450,6 +479,8 @@ impl Desk<'_> {
         let known = self.closed.keys().chain(self.own.keys());
         let known = known.filter(|name| self.turning != Some(&***name));
         known.for_each(|name| open.declare(name));
+        // No scene has a resistance.
+        open.declare(&Symbol::from("Omega"));
         let reading = formula::read(text, &open).ok()?;
         let product = |n: &formula::Note| {
             text.get(n.start..n.end)
