@@ -202,7 +202,8 @@ fn claim(content: &Content) -> Claim<'_> {
             let name = sides
                 .first()
                 .and_then(Content::expr)
-                .and_then(Expr::as_symbol);
+                .and_then(Expr::as_symbol)
+                .filter(|name| &***name != "pi");
             let value = content.answer();
             let free = |name: &Symbol| {
                 let mut free = true;
@@ -216,7 +217,9 @@ fn claim(content: &Content) -> Claim<'_> {
                     Claim::Value(Some(name), value)
                 }
                 // `(v_x, v_y) = (3, 4)`
-                None if !std::ptr::eq(value, content) => Claim::Value(None, value),
+                None if sides[0].expr().is_none() && !std::ptr::eq(value, content) => {
+                    Claim::Value(None, value)
+                }
                 _ => Claim::Relations(sides, signs),
             }
         }
@@ -308,7 +311,8 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
             if left.expr().is_some_and(|e| {
                 let (theirs, mine) = (right.symbols(), value.symbols());
                 let free = |name: &Symbol| !theirs.contains(name) && !mine.contains(name);
-                of_two_names(e, &free) || is_size(e, &free) && !matches!(value, Content::Either(_))
+                of_two_names(e, &free, right.expr())
+                    || is_size(e, &free) && !matches!(value, Content::Either(_))
             }) =>
         {
             values(ctx, right, value)

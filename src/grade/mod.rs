@@ -393,7 +393,7 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
     if let Some(content) = read::sizes(&reading.content, names) {
         reading.content = content;
     }
-    if matches!(reading.content, Content::Relations(..)) {
+    if matches!(reading.content, Content::Relations(..) | Content::Scalar(_)) {
         read::differentials(key, &mut reading);
     }
     let mut finding = compare::contents(key, &reading, options);

@@ -159,6 +159,37 @@ pub(super) fn aligned(
     }
 }
 
+/// Whether a number is the rounding of another to the digits written, or has these digits cut off; `share` is the quotient of
+/// the two.
+pub(super) fn rounds(rounded: &Rational, share: &Expr) -> bool {
+    let Some(shares) = bounds(share) else {
+        return false;
+    };
+    if share.is_one() || shares.iter().any(|share| !share.is_positive()) {
+        return share.is_one();
+    }
+    let size = rounded.abs();
+    let Some(places) = (0..=20).find(|k| (&size * ten_to(*k)).is_integer()) else {
+        return false;
+    };
+    let mut unit = ten_to(-places);
+    // Zeros at the end of 1500 need not be digits.
+    let whole = |unit: &Rational| (&size / (unit * ratio(10, 1))).is_integer();
+    let zeros = whole(&unit);
+    while whole(&unit) && !size.is_zero() {
+        unit *= ratio(10, 1);
+    }
+    let half = &unit * ratio(1, 2);
+    shares.iter().all(|share| {
+        let exact = &size / share;
+        let off = &exact - &size;
+        let near = off.abs() <= &exact * ratio(1, 20);
+        let digit = off.abs() <= &exact * ratio(1, 5);
+        let cut = near && !off.is_negative() && off < unit;
+        off.abs() <= half && (near || digit && !zeros) || cut
+    })
+}
+
 fn most_distance([a, b]: [&Rational; 2], [low, high]: [&Rational; 2]) -> Rational {
     (b - low).abs().max((a - high).abs())
 }

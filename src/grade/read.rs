@@ -10,11 +10,12 @@ mod named;
 
 use std::collections::BTreeMap;
 
+use super::doubt::mixed;
 use super::unit::misfit;
 use super::{Key, declare};
 use crate::dimension;
 use crate::expr::{Expr, Symbol};
-use crate::formula::{self, Content, Fault, Note, Reading, Relation, Remark, Symbols};
+use crate::formula::{self, Content, Fault, Note, Reading, Relation, Remark, Shape, Symbols};
 use direction::direction;
 pub(super) use direction::{sense, with_sign};
 use measured::unit_apart;
@@ -34,7 +35,11 @@ pub(super) fn expected(text: &str, symbols: &Symbols) -> Result<Reading, Fault> 
     let reading = formula::read(text, symbols).or_else(|fault| {
         match formula::read(text, &symbols.clone().with_lists()) {
             Ok(reading) if vector(&reading) => Ok(reading),
-            _ => Err(fault),
+            // `2\frac{3}{4}` of an author is a number.
+            _ => match mixed(text) {
+                Some(sum) if text.contains("frac") => formula::read(&sum, symbols),
+                _ => Err(fault),
+            },
         }
     })?;
     // `3 i + 4 j`: two letters i and j in every term are the directions.
@@ -296,12 +301,14 @@ fn mended(key: &Key, text: &str, fault: Fault) -> Result<Reading, Fault> {
     let named_quantity = measured && left.is_some();
     let known = |name: &Symbol| declared(key, name) || strange(name);
     // `v = \sqrt{2gh} = 14 m/s`: the number at the end is the answer.
-    if measured && let Some(at) = text.rfind(['=', '≈']) {
-        let sign = text[at..].chars().next().map_or(1, char::len_utf8);
+    let signs = ["=", "≈", "\\approx"].map(|sign| Some((text.rfind(sign)?, sign.len())));
+    if measured && let Some((at, sign)) = signs.into_iter().flatten().max() {
         let last = format!("{}{}", " ".repeat(at + sign), &text[at + sign..]);
         if let Ok(reading) = formula::read(&last, &key.readable)
             && reading.symbols().is_empty()
-            && (text[..at].contains(['=', '≈'])
+            && (["=", "≈", "\\approx"]
+                .iter()
+                .any(|sign| text[..at].contains(sign))
                 || is_size(&text[..at])
                 || computes(&text[..at], &open))
         {
@@ -329,7 +336,8 @@ fn with_middle(key: &Key, text: &str, last: Reading, name: Option<Symbol>) -> Re
     let Some(name) = asked.or(name) else {
         return last;
     };
-    let pieces: Vec<&str> = text.split(['=', '≈']).collect();
+    let plain = text.replace("\\approx", "≈");
+    let pieces: Vec<&str> = plain.split(['=', '≈']).collect();
     let number = |piece: &&str| {
         let reading = formula::read(piece, &key.readable).ok()?;
         let plain = matches!(reading.content, Content::Scalar(_) | Content::Quantity(_));
@@ -385,8 +393,8 @@ pub(super) fn differentials(key: &Key, reading: &mut Reading) {
     }
     for name in mine.iter().filter(|name| !known.contains(*name)) {
         let dotted = match name.split_once('\'') {
-            Some((base, "")) => format!("{base}_dot"),
-            Some((base, "'")) => format!("{base}_ddot"),
+            Some((base, "" | "(t)")) => format!("{base}_dot"),
+            Some((base, "'" | "'(t)")) => format!("{base}_ddot"),
             _ => continue,
         };
         if known.contains(&*dotted) {
@@ -473,5 +481,41 @@ fn worded(key: &Key, text: &str, reading: Reading) -> Result<Reading, Fault> {
             return Err(*fault.hint(hint));
         }
     }
+    if is_other_word(key, text) {
+        let fault = Fault::new("a word is no product of its letters", 0, text.len());
+        return Err(*fault.hint("write * between the factors of a product"));
+    }
     Ok(reading)
+}
+
+/// Whether letters behind a number and a space are those of the key in another order, with a vowel among them: `12 arcs` for
+/// `12 cars` are words.
+fn is_other_word(key: &Key, text: &str) -> bool {
+    let Some((before, run)) = text.trim().rsplit_once(' ') else {
+        return false;
+    };
+    let numbered = before.ends_with(|c: char| c.is_ascii_digit());
+    let word = run.len() > 2
+        && run.bytes().all(|b| b.is_ascii_lowercase())
+        && run.contains(['a', 'e', 'i', 'o', 'u']);
+    if !numbered || !word {
+        return false;
+    }
+    let sorted = |word: &str| {
+        let mut letters: Vec<char> = word.chars().collect();
+        letters.sort_unstable();
+        letters
+    };
+    let theirs = key.reading.written.iter().map(|side| match &side.shape {
+        Shape::Product(factors) => factors
+            .iter()
+            .filter_map(|(_, factor)| match &factor.shape {
+                Shape::Symbol(name) => Some(&**name),
+                _ => None,
+            })
+            .collect(),
+        _ => String::new(),
+    });
+    let mut theirs = theirs.collect::<Vec<String>>().into_iter();
+    theirs.any(|theirs| theirs != run && sorted(&theirs) == sorted(run))
 }

@@ -167,7 +167,10 @@ pub(super) fn as_asked(key: &Key, reading: &mut Reading) -> Option<String> {
     if quantity.unit.dimension == asked {
         return None;
     }
-    let (words, unit) = MEANT.iter().find_map(|(word, meant)| {
+    // `5 ms` says what it means.
+    let alone = quantity.unit_text.trim() == "ms";
+    let meanings = MEANT.iter().filter(|(word, _)| !alone || *word != "ms");
+    let (words, unit) = meanings.into_iter().find_map(|(word, meant)| {
         let text = formula::plain_unit(&with_word(&quantity.unit_text, word, meant)?)?;
         let unit = dimension::unit(&text).ok()?;
         (unit.dimension == asked).then(|| (format!("{word} stands for {meant}"), unit))

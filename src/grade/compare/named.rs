@@ -6,7 +6,7 @@ use super::{Context, Finding, chain, chain_apart, kind, quotient, values};
 use crate::dimension::{self, Dimension};
 use crate::domain::Sample;
 use crate::expr::{Expr, Function, Node, Symbol, ratio};
-use crate::formula::{self, Content, Reading, Relation};
+use crate::formula::{self, Content, Quantity, Reading, Relation};
 use crate::interval::{Interval, Outcome, evaluate};
 
 /// Points at which an equation is tried before its solutions are compared.
@@ -132,14 +132,28 @@ fn nameless(
     signs: &[Relation],
 ) -> Option<Finding> {
     let plain = ctx.plain();
+    let sides = &in_unit_of_last(expected, sides);
     let (first, others) = sides.split_first()?;
     let mut finding = values(&plain, expected, first);
     // `KE = mv²/2`: letters that stand nowhere else are a name of the value.
-    if let [name, value] = sides
+    if let [name, value] = &sides[..]
         && name.expr().is_some_and(|e| is_word(ctx, e, expected))
         && strangers(ctx, std::slice::from_ref(value)).is_empty()
     {
         finding = values(&plain, expected, value);
+    }
+    // `10/2 = 5 m`, `2√3 ≈ 3.46 cm`: what leads to the quantity at the end.
+    if let Some((last @ Content::Quantity(_), before)) = sides.split_last()
+        && matches!(expected, Content::Quantity(_))
+        && signs
+            .iter()
+            .all(|sign| matches!(sign, Relation::Equal | Relation::Approximately))
+        && before.iter().all(|side| close(ctx, side, last))
+    {
+        let last = values(&plain, expected, last);
+        if last.is_equivalent() {
+            return Some(last);
+        }
     }
     let right = finding.is_equivalent();
     let constant = |side: &Content| side.expr().is_some_and(Expr::is_constant);
@@ -162,13 +176,34 @@ fn nameless(
     }
 }
 
-/// Whether a side behind ≈ is the expected value with its factor rounded: to two digits a number is at most 1/20 off.
-fn close(ctx: &Context, expected: &Content, side: &Content) -> bool {
-    let pair = side.expr().zip(expected.expr());
-    pair.and_then(|(side, expected)| is_close(ctx, expected, side)) == Some(true)
+/// The sides before a quantity at the end, with its unit behind their bare numbers where a quantity is expected.
+fn in_unit_of_last(expected: &Content, sides: &[Content]) -> Vec<Content> {
+    let (Content::Quantity(_), Some(Content::Quantity(last))) = (expected, sides.last()) else {
+        return sides.to_vec();
+    };
+    let measured = |side: &Content| match side {
+        Content::Scalar(e) if e.is_constant() => {
+            let quantity = Quantity::of(e.clone(), last.unit.clone(), &last.unit_text);
+            Content::Quantity(Box::new(quantity))
+        }
+        other => other.clone(),
+    };
+    sides.iter().map(measured).collect()
 }
 
-/// The same of two expressions; nothing where their quotient is no number.
+/// Whether a side behind ≈ is the expected value with its factor rounded, or cut, to the digits written.
+fn close(ctx: &Context, expected: &Content, side: &Content) -> bool {
+    let (Some(rounded), Some(exact)) = (side.expr(), expected.expr()) else {
+        return false;
+    };
+    let factor = match side {
+        Content::Quantity(q) => q.written.split_number().0,
+        _ => rounded.split_number().0,
+    };
+    quotient(rounded, exact, &ctx.plain()).is_some_and(|share| number::rounds(&factor, &share))
+}
+
+/// Whether two expressions are at most 1/20 apart; nothing where their quotient is no number.
 pub(super) fn is_close(ctx: &Context, exact: &Expr, rounded: &Expr) -> Option<bool> {
     let share = quotient(rounded, exact, &ctx.plain())?;
     number::within(&share, &Expr::one(), &Tolerance::Relative(ratio(1, 20)))
@@ -179,7 +214,7 @@ pub(super) fn is_close(ctx: &Context, exact: &Expr, rounded: &Expr) -> Option<bo
 /// is made of two names.
 fn is_word(ctx: &Context, e: &Expr, expected: &Content) -> bool {
     let free = |name: &Symbol| !declared_symbol(ctx, name);
-    if of_two_names(e, &free) {
+    if of_two_names(e, &free, expected.expr()) {
         return true;
     }
     let Node::Product(parts) = e.node() else {
@@ -221,10 +256,25 @@ fn usual(name: &str) -> Option<Dimension> {
     Some(Dimension::new(mass, length, time))
 }
 
-/// Whether a formula is the difference, the sum or the quotient of two names, as in `E_1 − E_2` and `K_2/K_1`.
-pub(super) fn of_two_names(e: &Expr, free: &dyn Fn(&Symbol) -> bool) -> bool {
-    let name = |e: &Expr| e.as_symbol().is_some_and(free);
-    let pair = |parts: &[Expr], turned: &dyn Fn(&Expr) -> Expr| matches!(parts, [a, b] if name(a) && name(&turned(b)) || name(&turned(a)) && name(b));
+/// Whether a formula is the difference, the sum or the quotient of two names of one letter, as in `E_1 − E_2` and `K_2/K_1`; a
+/// number may be the quotient of any two, as in `h/l = 2/3`.
+pub(super) fn of_two_names(e: &Expr, free: &dyn Fn(&Symbol) -> bool, value: Option<&Expr>) -> bool {
+    let name = |e: &Expr| e.as_symbol().cloned().filter(free);
+    let letter = |name: &Symbol| {
+        let name = name
+            .strip_prefix("Delta")
+            .unwrap_or(name)
+            .trim_start_matches('_');
+        let base = name.split(['_', '\'']).next().unwrap_or_default();
+        base.trim_end_matches(|c: char| c.is_ascii_digit())
+            .to_string()
+    };
+    let number = matches!(e.node(), Node::Product(_)) && value.is_some_and(Expr::is_constant);
+    let alike = |a: &Expr, b: &Expr| match (name(a), name(b)) {
+        (Some(a), Some(b)) => number || letter(&a) == letter(&b),
+        _ => false,
+    };
+    let pair = |parts: &[Expr], turned: &dyn Fn(&Expr) -> Expr| matches!(parts, [a, b] if alike(a, &turned(b)) || alike(&turned(a), b));
     match e.node() {
         Node::Sum(parts) => pair(parts, &|b| -b) || pair(parts, &Expr::clone),
         Node::Product(parts) => pair(parts, &|b| b.powi(-1)),
