@@ -139,6 +139,8 @@ impl Room {
 
 /// What a line through the letters of a label costs.
 const THROUGH: f64 = 40.0;
+/// What it costs to stand so close behind another label that both read as a product.
+const AS_ONE: f64 = 5.0;
 /// Rounds in which every label may move again.
 const ROUNDS: usize = 3;
 
@@ -185,7 +187,12 @@ pub fn place(wishes: &[Wish], walls: &[(Pair, Pair, f64)], kept: &[Room]) -> Vec
                 }
                 let wide = place.room.grown(1.5);
                 let shared: f64 = others.iter().map(|other| wide.overlap(other)).sum();
-                let total = cost + if shared > 0.0 { 400.0 + shared } else { 0.0 };
+                let total = cost
+                    + match shared > 0.0 {
+                        true => 400.0 + shared,
+                        false if others.iter().any(|other| reads_on(&wide, other)) => AS_ONE,
+                        false => 0.0,
+                    };
                 if !beaten(total) {
                     best = Some((place.room, total));
                 }
@@ -205,6 +212,14 @@ pub fn place(wishes: &[Wish], walls: &[(Pair, Pair, f64)], kept: &[Room]) -> Vec
         done.push(room);
     }
     done
+}
+
+/// Whether a label stands on the line of another one, less than a space from it.
+fn reads_on(room: &Room, other: &Room) -> bool {
+    let between = |[a, b]: [&Room; 2]| b.low[0] - a.high[0];
+    let gap = between([room, other]).max(between([other, room]));
+    let level = (room.middle()[1] - other.middle()[1]).abs();
+    gap < 4.0 && level < 0.5 * room.extent()[1].min(other.extent()[1])
 }
 
 /// A thin line from a label to its point, where it had to go far.
@@ -363,6 +378,17 @@ mod tests {
         for (i, a) in rooms.iter().enumerate() {
             assert!(rooms[..i].iter().all(|b| a.overlap(b) == 0.0), "label {i}");
         }
+    }
+
+    #[test]
+    fn two_labels_do_not_read_as_a_product() {
+        let wish = |text: &str, x: f64| Wish {
+            label: Label::words(text),
+            size: 16.0,
+            spot: Spot::point([x, 0.0], [0.0, 1.0], 3.0),
+        };
+        let rooms = place(&[wish("2l", 0.0), wish("ω⁻", 18.0)], &[], &[]);
+        assert!(!reads_on(&rooms[0].grown(1.5), &rooms[1]), "{rooms:?}");
     }
 
     #[test]

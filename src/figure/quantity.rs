@@ -19,12 +19,13 @@ pub(super) fn vector_name(name: &str, latex: Option<&str>) -> Label {
     label
 }
 
-/// The index of a body's quantities: nothing for the only one, else its center's name or its own.
+/// The index of a body's quantities: nothing for the only one, else its own letter, its center's name, or its own.
 pub(super) fn index(stage: &Stage, body: usize) -> String {
     if stage.movable().len() == 1 {
         return String::new();
     }
     match center_name(stage, body) {
+        _ if stage.scene.bodies[body].is_lettered() => stage.scene.bodies[body].name.clone(),
         Some(label) => label.text().chars().map(plain_digit).collect(),
         None => stage.scene.bodies[body].name.clone(),
     }

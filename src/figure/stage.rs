@@ -303,11 +303,12 @@ pub fn center_name(stage: &Stage, body: usize) -> Option<Label> {
     if scene.bodies[body].mass.is_zero() {
         return None;
     }
-    match extended.len() {
-        1 => Some(Label::latex("G")),
-        _ => extended
-            .iter()
-            .position(|i| *i == body)
-            .map(|k| Label::latex(&format!("G_{{{}}}", k + 1))),
-    }
+    // Bodies A and B have G_A and G_B, as their velocities in the text have their letters.
+    let lettered = extended.iter().all(|i| scene.bodies[*i].is_lettered());
+    let each = extended.iter().position(|i| *i == body)?;
+    Some(Label::latex(&match extended.len() {
+        1 => String::from("G"),
+        _ if lettered => format!("G_{{{}}}", scene.bodies[body].name),
+        _ => format!("G_{{{}}}", each + 1),
+    }))
 }

@@ -206,6 +206,21 @@ fn a_pulley_of_a_string_stands_on_a_support_where_no_hinge_tells_of_it() {
 }
 
 #[test]
+fn what_belongs_to_a_body_that_is_a_letter_has_that_letter() {
+    let scene = crate::scene::read(
+        r#"{"parameters": {"m": {"unit": "kg"}, "r": {"unit": "m"}, "v": {"unit": "m/s"}}, "points": {"C": ["r", 0]}, "bodies": {
+            "A": {"shape": "disk", "radius": "r", "mass": "m", "center": [0, 0], "velocity": ["v", 0]},
+            "B": {"shape": "disk", "radius": "r", "mass": "2*m", "center": ["2*r", 0]}},
+        "contacts": {"C": {"bodies": ["A", "B"], "at": "C", "normal": "x", "law": "frictionless", "restitution": 1}},
+        "questions": {"E": {"energy": "after"}}}"#,
+    );
+    let scene = scene.expect("a scene");
+    let marked: String = all(&scene).into_iter().map(|d| d.alternative).collect();
+    assert!(marked.contains("G_A") && marked.contains("v_B"), "{marked}");
+    assert!(!marked.contains("G₁"), "{marked}");
+}
+
+#[test]
 fn a_scene_is_drawn_at_values_that_keep_to_its_relations() {
     let (mut seen, mut faults) = (0, Vec::new());
     for (name, scene) in scenes() {

@@ -96,6 +96,11 @@ impl Body {
         matches!(self.shape, Shape::Fixed)
     }
 
+    /// Whether its name is a letter.
+    pub fn is_lettered(&self) -> bool {
+        self.name.len() == 1 && self.name.chars().all(char::is_alphabetic)
+    }
+
     /// What a sentence calls it: `the bar`, `ball 1`, `body A`.
     pub fn called(&self) -> String {
         let name = self.name.replace('_', " ");
