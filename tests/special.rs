@@ -213,6 +213,16 @@ fn solutions_keep_to_relations() {
         rooted.contains("given 5*l > d, so that x < 2*l"),
         "{rooted}"
     );
+    // A root that is enclosed only.
+    let question = r#""it": {"solve": "e", "holds": "(1 - 3*e)*sqrt(e^3 + e - 1) = 0"}"#;
+    let enclosed = said(&asked_where(r#""e < 1/2""#, question).expect("an answer"));
+    assert!(enclosed.contains("e = 1/3"), "{enclosed}");
+    assert!(
+        enclosed.contains("e between 0.68") && enclosed.contains("against e < 1/2"),
+        "{enclosed}"
+    );
+    let within = said(&asked_where(r#""e < 7/10""#, question).expect("an answer"));
+    assert!(!within.contains("against"), "{within}");
 }
 
 #[test]

@@ -503,6 +503,7 @@ fn isolate(out: &mut Answer, parameter: &Symbol, gap: &Expr, roots: &Roots, scen
     let mut values = scene.values();
     values.remove(parameter);
     let at_values = |e: &Expr| tidy(&e.substitute(&values), &scene.domains).ok();
+    let bounds = bounds(parameter, scene);
     for coefficients in &roots.open {
         let degree = (coefficients.len() - 1).to_string();
         let numbers = coefficients
@@ -512,7 +513,6 @@ fn isolate(out: &mut Answer, parameter: &Symbol, gap: &Expr, roots: &Roots, scen
             out.text.push(sentence!("a polynomial of degree {} in {} has to vanish, which has no closed form here; with fractions as values of all other symbols its roots are enclosed", degree, parameter));
             continue;
         };
-        let bounds = bounds(parameter, scene);
         for [low, high] in super::roots::isolate(&numbers) {
             let ends = [&low, &high].map(|end| decimal(end, 12));
             let words = sentence!("{} between {} and {}", parameter, &ends[0], &ends[1]);
@@ -602,5 +602,32 @@ fn may_keep(
         } else {
             &at_high
         }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::ratio;
+
+    #[test]
+    fn an_enclosed_root_is_held_against_an_end_exactly() {
+        // 2 x − 1, and a root a little below 1/2, against x ≤ 1/2 and x < 1/2.
+        let half = ratio(1, 2);
+        let near = half.clone() - ratio(1, 1000);
+        let keeps = |root: &Rational, closed: bool| {
+            let excess = |x: &Rational| Some(ratio(1, 2) - x);
+            let polynomial = [-root.clone(), ratio(1, 1)];
+            may_keep(
+                &polynomial,
+                [&ratio(49, 100), &ratio(51, 100)],
+                excess,
+                closed,
+            )
+        };
+        assert!(keeps(&half, true) && !keeps(&half, false));
+        assert!(keeps(&near, true) && keeps(&near, false));
+        let beyond = half + ratio(1, 1000);
+        assert!(!keeps(&beyond, true) && !keeps(&beyond, false));
     }
 }

@@ -5,7 +5,7 @@
 //! box are brackets. Words that could change the value are a fault, and so is another value beside the box.
 
 use super::fault::{Fault, Faulty};
-use super::prose::{changes, goes_on, leads};
+use super::prose::{changes, goes_on, is_in, leads};
 use super::several::MOST;
 use super::{name, plain_unit};
 
@@ -166,75 +166,75 @@ fn joined_boxes(text: &str, mut at: usize) -> Faulty<Option<usize>> {
     Ok(Some(begins.unwrap_or(first)))
 }
 
+/// Words that take back what was said.
+const TAKEN_BACK: &str =
+    "actually correction corrected edit except mistake oops otherwise sorry unless wait";
+/// Words with which a clause begins: what it says of its names is no other value.
+const CLAUSES: &str = "because by from hence in since so therefore thus using where which with";
+/// Words that lead to a case.
+const CASES: &str = "for if provided when whenever while";
+/// Words that lead to another value.
+const MORE: &str =
+    "also alternatively and another besides but could either may might or other plus second well";
+
 /// Whether what stands before or behind a box says another value than its `inside`, or takes it back: `\boxed{2} and 3`,
-/// `\boxed{v/2} for m = M`, `\boxed{2}. Correction: 3`. What a clause behind it says of its names is none.
+/// `\boxed{v/2} for m = M`, `\boxed{2}. Correction: 3`.
 fn beside(before: &str, inside: &str, behind: &str) -> bool {
-    const TAKEN_BACK: &str =
-        "actually correction corrected edit except mistake oops otherwise sorry unless wait";
-    const CLAUSES: &str = "because by from hence in since so therefore thus using where which with";
-    const CASES: &str = "for if provided when whenever while";
-    const MORE: &str = "also alternatively and another besides but could either may might or other plus second well";
-    let is_in = |list: &str, word: &str| list.split(' ').any(|w| word.eq_ignore_ascii_case(w));
-    let is_value = |text: &str| {
-        let text = ["\\text", "\\quad", "\\mathrm", "\\;", "\\,", "\\)", "\\]"]
-            .iter()
-            .fold(text.to_string(), |text, sign| text.replace(sign, " "));
-        let mut words = text.split(|c: char| !c.is_alphanumeric());
-        let name = |word: &str| word.chars().count() == 1 && !is_in("a i", word);
-        text.contains(['\\', '=']) || words.any(|w| name(w) || w.contains(char::is_numeric))
-    };
-    let words = |text: &'_ str| -> Vec<(usize, usize)> {
-        let mut out = Vec::new();
-        let mut start = None;
-        for (at, c) in text.char_indices().chain([(text.len(), ' ')]) {
-            match (c.is_alphabetic(), start) {
-                (true, None) => start = Some(at),
-                (false, Some(from)) => {
-                    out.push((from, at));
-                    start = None;
-                }
-                _ => {}
-            }
-        }
-        out
-    };
-    let word = |(from, to): (usize, usize)| &behind[from..to];
-    let all = words(behind);
-    if all.iter().any(|place| is_in(TAKEN_BACK, word(*place))) {
+    let ends = [". ", ".$", "\n", "\\\\", "&", "\\end", "\\tag"];
+    let end = ends.iter().filter_map(|end| behind.find(end)).min();
+    let (sentence, further) = behind.split_at(end.unwrap_or(behind.len()));
+    let mut all = words(sentence).chain(words(further));
+    if all.any(|(word, _)| is_in(TAKEN_BACK, word)) {
         return true;
     }
     let last = trimmed(before);
     let joined = |word: &str| {
-        last.strip_suffix(word)
-            .is_some_and(|rest| rest.ends_with(' ') && trimmed(rest) != rest.trim_end())
+        let rest = last.strip_suffix(word);
+        rest.is_some_and(|rest| rest.ends_with(' ') && trimmed(rest) != rest.trim_end())
     };
     if !inside.contains('=') && (joined("and") || joined("or")) {
         return true;
     }
-    let ends = [". ", ".$", "\n", "\\\\", "&", "\\end", "\\tag"];
-    let end = ends.iter().filter_map(|end| behind.find(end)).min();
-    let sentence = &behind[..end.unwrap_or(behind.len())];
-    let semicolon = sentence
-        .find(';')
-        .filter(|at| !sentence[..*at].ends_with('\\'));
-    for place in all.into_iter().filter(|(_, to)| *to <= sentence.len()) {
-        let (said, rest) = (word(place), &sentence[place.1..]);
-        let relates = || {
-            rest.contains(['=', '<', '>', '≤', '≥']) || rest.contains("\\l") || rest.contains("\\g")
-        };
-        if semicolon.is_some_and(|at| at < place.0) || is_in(CLAUSES, said) {
-            break;
-        }
-        if is_in(CASES, said) && relates() || is_in(MORE, said) && is_value(rest) {
-            return true;
-        }
-    }
-    semicolon.is_some_and(|at| {
-        let first = words(&sentence[at..])
-            .first()
-            .map(|(from, to)| sentence[at + from..at + to].to_string());
-        !first.is_some_and(|first| is_in(CLAUSES, &first)) && is_value(&sentence[at + 1..])
+    let semicolon = sentence.find(';');
+    let semicolon = semicolon.filter(|at| !sentence[..*at].ends_with('\\'));
+    let (near, apart) = sentence.split_at(semicolon.unwrap_or(sentence.len()));
+    let mut near = words(near).take_while(|(word, _)| !is_in(CLAUSES, word));
+    let another = |(word, at): (&str, usize)| {
+        let rest = &sentence[at + word.len()..];
+        is_in(CASES, word) && relates(rest) || is_in(MORE, word) && says_value(rest)
+    };
+    let begins_clause = words(apart)
+        .next()
+        .is_some_and(|(word, _)| is_in(CLAUSES, word));
+    near.any(another) || !begins_clause && says_value(apart.trim_start_matches(';'))
+}
+
+/// The words of a text, each with the byte where it begins.
+fn words(text: &str) -> impl Iterator<Item = (&str, usize)> {
+    let mut end = 0;
+    let pieces = text.split_inclusive(|c: char| !c.is_alphabetic());
+    pieces.filter_map(move |piece| {
+        let at = end;
+        end += piece.len();
+        let word = piece.trim_end_matches(|c: char| !c.is_alphabetic());
+        (!word.is_empty()).then_some((word, at))
     })
+}
+
+/// Whether a text holds a relation.
+fn relates(text: &str) -> bool {
+    text.contains(['=', '<', '>', '≤', '≥']) || text.contains("\\l") || text.contains("\\g")
+}
+
+/// Whether a text holds a number, a name of one letter or a formula.
+fn says_value(text: &str) -> bool {
+    const DRESS: [&str; 7] = ["\\text", "\\quad", "\\mathrm", "\\;", "\\,", "\\)", "\\]"];
+    let bare = DRESS
+        .iter()
+        .fold(text.to_string(), |text, sign| text.replace(sign, " "));
+    let mut words = bare.split(|c: char| !c.is_alphanumeric());
+    let name = |word: &str| word.chars().count() == 1 && !is_in("a i", word);
+    bare.contains(['\\', '=']) || words.any(|w| name(w) || w.contains(char::is_numeric))
 }
 
 /// The last place where one of several signs ends.
@@ -333,15 +333,12 @@ fn checked(words: &str, [from, to]: [usize; 2]) -> Faulty<()> {
 /// Whether a word says that something is not so, wherever it stands.
 fn is_wrong(word: &str) -> bool {
     const WORDS: &str = "wrong incorrect incorrectly wrongly mistaken false untrue";
-    WORDS.split(' ').any(|w| word.eq_ignore_ascii_case(w))
+    is_in(WORDS, word)
 }
 
 fn is_denial(word: &str) -> bool {
     const WORDS: &str = "not never cannot no impossible neither";
-    is_wrong(word)
-        || WORDS.split(' ').any(|w| word.eq_ignore_ascii_case(w))
-        || word.ends_with("n't")
-        || word.ends_with("n’t")
+    is_wrong(word) || is_in(WORDS, word) || word.ends_with("n't") || word.ends_with("n’t")
 }
 
 /// Where the formula ends that begins with a box, and whether what touches it is a unit, a relation or the like, which needs

@@ -66,7 +66,8 @@ const PLAIN: &str = "a after an and angular answer asked at ball before block bo
     velocities velocity wanted we which with afterward afterwards as because independent motion move moves moving since \
     speeds this together travel travels us when where";
 
-fn is_in(list: &str, word: &str) -> bool {
+/// Whether a word is one of a list with blanks between.
+pub(super) fn is_in(list: &str, word: &str) -> bool {
     list.split(' ')
         .any(|known| word.eq_ignore_ascii_case(known))
 }

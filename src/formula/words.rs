@@ -530,8 +530,8 @@ impl Lexer<'_> {
     }
 
     /// `v(t_1)` and `v(0)`: the value of v at a time, no product; where v or the time is declared, `v(t_1)` is one. So is
-    /// `f(x)`, a letter that is used for functions with the letter they are of, and `U(r) = …`, of what its right side has. At the start of an equation `v(t) =` says what
-    /// v is.
+    /// `f(x)`, a letter that is used for functions with the letter they are of, and `U(r) = …`, of what its right side has. At
+    /// the start of an equation `v(t) =` says what v is.
     fn of_time(&mut self, start: usize, at: usize, parts: &Parts) -> Option<Faulty<Tok>> {
         let inside = self.text[at..].strip_prefix('(')?;
         let (inside, behind) = inside.split_once(')')?;

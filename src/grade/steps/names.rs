@@ -95,23 +95,10 @@ pub(super) fn in_unit(text: &str, symbols: &Symbols) -> Option<Reading> {
 pub(super) fn is_quantity_first(unit: &str) -> bool {
     let power = ["²", "^2", "^{2}"].into_iter();
     let letter = power.filter_map(|p| unit.trim().strip_suffix(p)).next();
-    matches!(
-        letter.unwrap_or(unit.trim()),
-        "Ω" | "\\Omega"
-            | "V"
-            | "h"
-            | "t"
-            | "A"
-            | "C"
-            | "F"
-            | "H"
-            | "K"
-            | "L"
-            | "T"
-            | "l"
-            | "d"
-            | "W"
-    )
+    let letter = letter.unwrap_or(unit.trim());
+    "Ω \\Omega V h t A C F H K L T l d W"
+        .split(' ')
+        .any(|own| own == letter)
 }
 
 /// What stands below alone: I in `F R/I`.
