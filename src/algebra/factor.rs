@@ -85,7 +85,7 @@ fn divisor(p: &Poly, fuel: &Fuel) -> Option<(Poly, Poly)> {
             return found;
         }
     }
-    difference_of_powers(p, &variables)
+    linear(p, &variables).or_else(|| difference_of_powers(p, &variables))
 }
 
 /// Splits a x²ᵏ + b xᵏ + c whose discriminant is a square.
@@ -106,6 +106,63 @@ fn split_quadratic(p: &Poly, v: usize, k: usize, fuel: &Fuel) -> Option<(Poly, P
     }
     let q = p.try_div(&g)?;
     (!q.is_constant()).then_some((g, q))
+}
+
+/// A factor a x − b y of a polynomial in x and y whose terms are all of one degree, or a x − b of one in x alone: a divides the
+/// first coefficient and b the last one.
+fn linear(p: &Poly, variables: &[usize]) -> Option<(Poly, Poly)> {
+    let (v, other) = match variables {
+        [v] => (*v, Poly::one()),
+        [v, w] => (*v, Poly::var(*w)),
+        _ => return None,
+    };
+    let degree = p.degree(v);
+    let is_even = |i| match variables {
+        [v, w] => exponent(p.mono(i), *v) + exponent(p.mono(i), *w) == degree,
+        _ => true,
+    };
+    if degree < 3 || !(0..p.len()).all(is_even) {
+        return None;
+    }
+    let parts = p.by_power(v).into_iter();
+    let coefficients: Vec<Int> = parts
+        .map(|part| {
+            if part.is_zero() {
+                Int::zero()
+            } else {
+                part.coeff(0).clone()
+            }
+        })
+        .collect();
+    let first = divisors(coefficients.last()?)?;
+    let last = divisors(coefficients.first()?)?;
+    for a in &first {
+        for b in last.iter().flat_map(|b| [b.clone(), -b.clone()]) {
+            let (mut value, mut power) = (Int::zero(), Int::one());
+            // Σ cₖ bᵏ aⁿ⁻ᵏ, from the highest power of b down.
+            for c in coefficients.iter().rev() {
+                value = &(&value * &b) + &(c * &power);
+                power = &power * a;
+            }
+            if value.is_zero() {
+                let factor = Poly::var(v).scale(a).sub(&other.scale(&b));
+                let (_, _, factor) = factor.split();
+                return p.try_div(&factor).map(|q| (factor, q));
+            }
+        }
+    }
+    None
+}
+
+/// Most that a coefficient may be whose divisors are tried.
+const MOST_DIVIDED: i64 = 1_000;
+
+/// The positive divisors of a number that is not zero and not too large.
+fn divisors(value: &Int) -> Option<Vec<Int>> {
+    let size = num_traits::ToPrimitive::to_i64(&num_traits::Signed::abs(value).to_bigint())?;
+    let is_small = (1..=MOST_DIVIDED).contains(&size);
+    let all = (1..=size).filter(|d| size % d == 0);
+    is_small.then(|| all.map(Int::from).collect())
 }
 
 /// Tries the rational roots x = ± (coefficient of the last over the first term): enough for xⁿ − aⁿ and its like.

@@ -8,7 +8,7 @@ pub use crate::algebra::tidy;
 use crate::algebra::{self, Field, Sign};
 use crate::domain::{Domains, roles, samples, samples_until};
 use crate::equality;
-use crate::expr::{Expr, Function, Node, Point};
+use crate::expr::{Expr, Function, Node, Point, Symbol};
 use crate::formula::Sentence;
 use crate::interval::{Interval, Outcome, evaluate};
 
@@ -74,6 +74,26 @@ pub fn shorter(e: &Expr, domains: &Domains) -> Expr {
     } else {
         e.clone()
     }
+}
+
+/// Whether a parameter stands under a root.
+pub fn has_root(e: &Expr, p: &Symbol) -> bool {
+    e.parts().any(|part| match part.node() {
+        Node::Power(base, k) => {
+            let is_whole = k.as_number().is_some_and(|k| k.is_integer());
+            !is_whole && base.mentions(p)
+        }
+        _ => false,
+    })
+}
+
+/// The square of what is nowhere negative, where squaring frees a parameter of its roots.
+pub fn square(e: &Expr, p: &Symbol, domains: &Domains) -> Option<Expr> {
+    has_root(e, p).then_some(())?;
+    let square = tidy(&e.powi(2), domains).ok()?;
+    let is_free = !has_root(&square, p);
+    let is_never_negative = || matches!(sign(e, domains), Seen::Proved(s) if s.is_not_negative());
+    (is_free && is_never_negative()).then_some(square)
 }
 
 /// Whether the expression is zero on the whole domain: yes by its normal form, no by a point at which it is not; `None`

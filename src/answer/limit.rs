@@ -8,7 +8,7 @@
 use num_traits::Signed;
 
 use super::Check;
-use super::calc::{Seen, in_bars, is_zero, sign, tidy};
+use super::calc::{Seen, in_bars, is_zero, sign, square, tidy};
 use super::powers::{self, Found, Tends, by_powers, not_zero};
 use super::solve::{stated, within};
 use super::taylor::{Side, Taylor, rooted};
@@ -65,13 +65,22 @@ fn found(of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) ->
     if let Some(arcs) = of_arcs(of, parameter, to, domains) {
         return Some(arcs);
     }
-    match to {
+    let own = match to {
         Some(to) => by_taylor(of, parameter, to, domains).or_else(|| {
             let at_root = to.is_zero() && side(parameter, to, domains) == Side::Above;
             at_root.then(|| by_powers(of, parameter, false, domains))?
         }),
         None => dying(of, parameter, domains).or_else(|| by_powers(of, parameter, true, domains)),
-    }
+    };
+    own.or_else(|| {
+        let square = square(of, parameter, domains)?;
+        let found = found(&square, parameter, to, domains)?;
+        let tends = match found.tends {
+            Tends::To(value) => Tends::To(tidy(&value.sqrt(), domains).ok()?),
+            tends => tends,
+        };
+        Some(Found { tends, ..found })
+    })
 }
 
 /// A formula without the first bars in it, where what stands in them has a sign in the end.

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use super::calc::{Seen, by_signs, constant, essential, is_zero, sign, tidy};
+use super::calc::{Seen, by_signs, constant, essential, has_root, is_zero, sign, square, tidy};
 use super::solve::{Root, Unsolved, end_of, solve, stated};
 use super::{Answer, Check, Form, ROOT, Refused};
 use crate::algebra::Sign;
@@ -119,17 +119,14 @@ fn over_positive(
     let tidy = |e: &Expr| tidy(e, &domains).map_err(|s| refused(s.to_string()));
     let put = |e: &Expr, x: Expr| e.put(&root, &x);
     // Where it stands under a root, its root makes a fraction of polynomials of the formula.
-    let has_root = reduced.of.parts().any(|part| match part.node() {
-        Node::Power(base, k) => {
-            let whole = k.as_number().is_some_and(|k| k.is_integer());
-            !whole && base.symbols().contains(&reduced.variable)
-        }
-        _ => false,
-    });
-    let power = if has_root { 2 } else { 1 };
+    let power = if has_root(&reduced.of, &reduced.variable) {
+        2
+    } else {
+        1
+    };
     let through = Expr::symbol(ROOT).powi(power);
     let f = tidy(&reduced.of.put(&reduced.variable, &through))?;
-    let slope = tidy(&f.derivative(&root))?;
+    let slope = tidy(&of_square(&f, &root, &domains).derivative(&root))?;
     let roots = match solve(&slope, &root, &domains) {
         Ok(roots) if roots.open.is_empty() => roots,
         Err(Unsolved::Absent) => {
@@ -229,7 +226,8 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
     let search = Search {
         name: &name,
         f,
-        slope: tidy(&f.derivative(p), domains).map_err(|s| refused(s.to_string()))?,
+        slope: tidy(&of_square(f, p, domains).derivative(p), domains)
+            .map_err(|s| refused(s.to_string()))?,
         p,
         domain: (domains.symbols.get(p).cloned()).unwrap_or_else(Domain::positive),
         domains,
@@ -289,7 +287,7 @@ struct Search<'a> {
     /// The question.
     name: &'a str,
     f: &'a Expr,
-    /// Its derivative.
+    /// Its derivative, or that of its square where that has no root and the same sign.
     slope: Expr,
     p: &'a Symbol,
     domain: Domain,
@@ -518,6 +516,11 @@ fn tidy_under_roots(e: &Expr, domains: &Domains) -> Expr {
         }
         _ => e,
     }
+}
+
+/// What rises and falls with a formula: its square where that frees the parameter of roots, otherwise the formula.
+fn of_square(f: &Expr, p: &Symbol, domains: &Domains) -> Expr {
+    square(f, p, domains).unwrap_or_else(|| f.clone())
 }
 
 /// A divisor with the parameter in it that is not known to keep one sign.

@@ -9,20 +9,41 @@ use crate::scene::direction;
 /// The angle of a vector, counterclockwise from x and up to whole turns: a multiple of π/2, the angle of the body or a
 /// multiple of π/2 from it, else an arc tangent; `None` where no sign decides the quadrant.
 pub(super) fn bearing(r: &Vector, angle: &Expr, domains: &Domains) -> Option<Expr> {
+    let quarter = Expr::ratio(1, 2) * Expr::pi();
+    aligned(r, angle, domains).or_else(|| match sign(&r[1], domains) {
+        // Above, whichever side it is on.
+        Seen::Proved(Sign::Positive) => Some(quarter.clone() + upright(r)),
+        _ => Some(from_below(r, domains)? - &quarter),
+    })
+}
+
+/// The angle of a vector from x as a multiple of π/2, the angle of the body or a multiple of π/2 from it.
+pub(super) fn aligned(r: &Vector, angle: &Expr, domains: &Domains) -> Option<Expr> {
     let quarters = (0..4).map(|k| Expr::ratio(k, 2) * Expr::pi());
     let from_body = quarters.clone().map(|q| angle + &q);
-    for phi in from_body.chain(quarters) {
-        let n = direction(&phi);
-        if is_zero(&cross(&n, r), domains) == Some(true)
+    from_body.chain(quarters).find(|phi| {
+        let n = direction(phi);
+        is_zero(&cross(&n, r), domains) == Some(true)
             && sign(&dot(&n, r), domains) == Seen::Proved(Sign::Positive)
-        {
-            return Some(phi);
-        }
+    })
+}
+
+/// The angle of a vector from straight below, counterclockwise and within half a turn, as an arc tangent; `None` where no sign
+/// decides the quadrant.
+pub(super) fn from_below(r: &Vector, domains: &Domains) -> Option<Expr> {
+    let quarter = Expr::ratio(1, 2) * Expr::pi();
+    if sign(&r[1], domains) == Seen::Proved(Sign::Negative) {
+        return Some(upright(r));
     }
     let slope = Expr::call(Function::Atan, &r[1] / &r[0]);
     match sign(&r[0], domains) {
-        Seen::Proved(Sign::Positive) => Some(slope),
-        Seen::Proved(Sign::Negative) => Some(&slope + &Expr::pi()),
+        Seen::Proved(Sign::Positive) => Some(slope + quarter),
+        Seen::Proved(Sign::Negative) => Some(slope - quarter),
         _ => None,
     }
+}
+
+/// The angle of a line from the vertical, counterclockwise and within a quarter of a turn.
+fn upright(r: &Vector) -> Expr {
+    -Expr::call(Function::Atan, &r[0] / &r[1])
 }

@@ -1,6 +1,6 @@
 //! How high a rotation gets under its weight: where it comes to rest, and whether it gets over the highest place.
 
-use super::super::bearing::bearing;
+use super::super::bearing::{aligned, from_below};
 use super::super::{half, tidied};
 use super::{inertia_about, sense};
 use crate::algebra::Sign;
@@ -29,14 +29,21 @@ pub(super) fn swung(stage: &Stage, turn: &Turn, spin: &Expr, r: &Vector) -> Opti
     let angle = &stage.scene.bodies[turn.body].angle;
     let half_turn = Expr::pi();
     // From straight below, in the sense of the rotation, within half a turn either way.
-    let begins = &Expr::from(way) * &(&bearing(r, angle, domains)? + &half(&half_turn));
-    let within = |e: &Expr| {
-        let gaps = [e + &half_turn, &half_turn - e];
-        gaps.iter()
-            .all(|gap| matches!(sign(gap, domains), Seen::Proved(s) if s.is_not_negative()))
+    let begins = match aligned(r, angle, domains) {
+        None => Expr::from(way) * from_below(r, domains)?,
+        Some(bearing) => {
+            let begins = &Expr::from(way) * &(bearing + half(&half_turn));
+            let within = |e: &Expr| {
+                let gaps = [e + &half_turn, &half_turn - e];
+                gaps.iter()
+                    .all(|gap| matches!(sign(gap, domains), Seen::Proved(s) if s.is_not_negative()))
+            };
+            let mut turns = [0, -2, 2]
+                .map(|k| &begins + &(Expr::from(k) * Expr::pi()))
+                .into_iter();
+            turns.find(within)?
+        }
     };
-    let turns = [0, -2, 2].map(|k| &begins + &(Expr::from(k) * Expr::pi()));
-    let begins = turns.into_iter().find(within)?;
     let [_, y] = highest(stage, turn, spin, r);
     let length = dot(r, r).sqrt();
     // The cosine less what it loses on the way up reads better than one fraction.
