@@ -22,6 +22,9 @@ use crate::expr::{Expr, Function, Int, Node, Rational, Symbol, Table};
 /// Highest multiple of an angle that is written out where no other multiple asks for it.
 const MOST_WRITTEN_OUT: i64 = 8;
 
+/// Largest common denominator of exponents with symbols.
+const MOST_EXPONENT_PARTS: i64 = 12;
+
 /// What a variable of the polynomials stands for.
 #[derive(Clone, Debug)]
 pub(crate) enum Kind {
@@ -87,6 +90,8 @@ pub struct Field {
     /// domain, and by [`Field::suppose`].
     pub(crate) supposed: Vec<(Poly, bool)>,
     pub(crate) complete: bool,
+    /// What exponents with symbols are multiplied by to be free of fractions: b^(n/2) stands for bⁿ too where both occur.
+    pub(crate) exponent_parts: i64,
     /// Values of the generators at fixed points of the domain, made when first needed.
     pub(crate) samples: RefCell<Vec<Vec<f64>>>,
     /// At which of these points what is supposed holds, found when first needed.
@@ -117,6 +122,7 @@ impl Field {
             assumed: Vec::new(),
             supposed: Vec::new(),
             complete: true,
+            exponent_parts: 1,
             samples: RefCell::default(),
             held: OnceCell::new(),
             halved: RefCell::default(),
@@ -160,6 +166,7 @@ impl Field {
         for e in exprs {
             found.collect(e);
         }
+        self.exponent_parts = self.exponent_parts.lcm(&found.exponent_parts.max(1));
         let relations = self.relations(&found.names());
         for relation in &relations {
             found.collect(&relation.excess);
@@ -613,6 +620,8 @@ struct Found {
     others: Vec<Expr>,
     /// Different exponents of the exponential function.
     exponents: Vec<Expr>,
+    /// The least common denominator of the numbers in exponents with symbols; 0 where there are none.
+    exponent_parts: i64,
 }
 
 impl Found {
@@ -620,6 +629,20 @@ impl Found {
     fn names(&self) -> BTreeSet<Symbol> {
         let names = self.symbols.keys().chain(self.angles.keys());
         names.cloned().collect()
+    }
+
+    fn note_parts(&mut self, exponent: &Expr) {
+        let terms = match exponent.node() {
+            Node::Sum(terms) => terms.as_slice(),
+            _ => std::slice::from_ref(exponent),
+        };
+        for term in terms {
+            let parts = term.split_number().0.denom().as_i64();
+            let common = parts.map(|parts| self.exponent_parts.max(1).lcm(&parts));
+            if let Some(common) = common.filter(|common| *common <= MOST_EXPONENT_PARTS) {
+                self.exponent_parts = common;
+            }
+        }
     }
 
     fn collect(&mut self, e: &Expr) {
@@ -632,6 +655,9 @@ impl Found {
             Node::Power(base, exponent) => {
                 self.collect(base);
                 self.collect(exponent);
+                if exponent.as_number().is_none() {
+                    self.note_parts(exponent);
+                }
             }
             Node::Call(Function::Sin | Function::Cos | Function::Tan, argument) => {
                 match angle(argument) {

@@ -180,6 +180,10 @@ impl Field {
                 }
             }
         };
+        self.rational_power(base, &exponent)
+    }
+
+    fn rational_power(&mut self, base: Element, exponent: &Rational) -> Result<Element, Stop> {
         let k = exponent.numer().as_i64().ok_or(Stop::TooLarge("degree"))?;
         let n = exponent.denom().as_i64().filter(|n| *n <= 1_000);
         let n = n.ok_or(Stop::TooLarge("degree"))?;
@@ -260,23 +264,26 @@ impl Field {
         Ok(Some(total))
     }
 
-    /// A power with symbols above. Of something positive, what is whole in the exponent comes apart: b b^(n − 1) is bⁿ, and
-    /// b^(2 n) the square of bⁿ.
+    /// A power with symbols above. Of something positive, what is a number in the exponent comes apart: b b^(n − 1) is bⁿ,
+    /// b^(2 n) the square of bⁿ and, where b^(n/2) occurs too, bⁿ the square of that.
     fn power_of_symbols(&mut self, base: Element, exponent: Element) -> Result<Element, Stop> {
-        let constant = exponent.num.terms().find(|(mono, _)| mono_is_one(mono));
+        let parts = self.integer(self.exponent_parts);
+        let multiple = self.mul(&exponent, &parts)?;
+        if !multiple.den.is_one() || self.sign_of(&base) != Some(Sign::Positive) {
+            return Ok(self.opaque_power(base, exponent));
+        }
+        let constant = multiple.num.terms().find(|(mono, _)| mono_is_one(mono));
         let constant = constant.map_or_else(Int::zero, |(_, value)| value.clone());
-        let rest = exponent.num.sub(&Poly::constant(constant.clone()));
+        let rest = multiple.num.sub(&Poly::constant(constant.clone()));
         let content = match rest.leading_is_negative() {
             true => -rest.content(),
             false => rest.content(),
         };
         let small = |k: &Int| k.as_i64().filter(|k| k.abs() <= MOST_POWER);
-        let whole = [small(&constant), small(&content)];
-        let is_whole = exponent.den.is_one() && self.sign_of(&base) == Some(Sign::Positive);
-        let ([Some(constant), Some(times)], true) = (whole, is_whole) else {
+        let (Some(_), Some(times)) = (small(&constant), small(&content)) else {
             return Ok(self.opaque_power(base, exponent));
         };
-        let rest = Element::from_poly(rest.div_int(&content));
+        let rest = self.div(&Element::from_poly(rest.div_int(&content)), &parts)?;
         let power = match base.as_number().map(root_of_number) {
             Some((root, k)) => {
                 let power = self.opaque_power(self.number(&root), rest);
@@ -287,7 +294,8 @@ impl Field {
                 self.pow(&power, times)?
             }
         };
-        let apart = self.pow(&base, constant)?;
+        let constant = Rational::new(constant, Int::from(self.exponent_parts));
+        let apart = self.rational_power(base, &constant)?;
         self.mul(&power, &apart)
     }
 

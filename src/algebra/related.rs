@@ -134,7 +134,31 @@ impl Field {
             closed: *closed,
         });
         let all: Vec<Related> = all.collect();
-        self.eliminated(p, &all, &[], &mut Search::new(self, p))
+        self.by_conjugates(p)
+            .or_else(|| self.eliminated(p, &all, &[], &mut Search::new(self, p)))
+    }
+
+    /// The sign of a multiple of q q̄ where q = A + B v is supposed positive, q̄ = A − B v and v² is known: with sinα > μ cosα,
+    /// sin²α − μ² cos²α is positive, which as 1 − (1 + μ²) cos²α has no factors.
+    fn by_conjugates(&self, p: &Poly) -> Option<Sign> {
+        self.supposed.iter().find_map(|(q, closed)| {
+            q.variables().into_iter().find_map(|v| {
+                let (2, square) = self.gens[v].relation.as_ref()? else {
+                    return None;
+                };
+                let parts = q.by_power(v);
+                let [a, b] = parts.as_slice() else {
+                    return None;
+                };
+                let turned = b.mul(b).ok()?.mul(square).ok()?;
+                let norm = a.mul(a).ok()?.sub(&turned);
+                let rest = p.try_div(&norm).filter(|_| !norm.is_constant())?;
+                let conjugate = a.sub(&b.mul(&Poly::var(v)).ok()?);
+                let sign = self.by_coefficients(&conjugate, &[])?;
+                let sign = sign.times(Sign::made(true, !closed));
+                Some(sign.times(self.sign_poly(&rest)?))
+            })
+        })
     }
 
     /// A relation A v + B > 0 with A > 0 makes v = (δ − B)/A with a positive δ, which takes the place of v: a sign that

@@ -3,6 +3,8 @@
 //! In: expressions and domains. Out: expressions a person would write, signs that are proved or said to be seen only, conditions
 //! for a sign. It knows nothing of mechanics.
 
+use num_integer::Integer;
+
 use super::Check;
 pub use crate::algebra::tidy;
 use crate::algebra::{self, Field, Sign};
@@ -295,14 +297,19 @@ pub fn essential(e: &Expr, domains: &Domains) -> Expr {
     let mut minus = false;
     let mut rest = Vec::new();
     for f in tidied.factors() {
-        // One over a quantity has its sign.
+        // An odd power of a quantity, and one over it, has its sign.
+        let is_odd = |k: &Expr| {
+            let k = k.as_number().filter(|k| k.is_integer());
+            k.is_some_and(|k| k.numer().is_odd())
+        };
         let f = match f.node() {
-            Node::Power(base, k) if *k == Expr::from(-1) => base,
+            Node::Power(base, k) if is_odd(k) => base,
             _ => f,
         };
         match sign(f, domains) {
             Seen::Proved(Sign::Positive) => {}
             Seen::Proved(Sign::Negative) => minus = !minus,
+            Seen::Proved(Sign::Zero) => return Expr::zero(),
             _ => rest.push(f.clone()),
         }
     }
@@ -335,7 +342,7 @@ pub(super) fn decisive(e: &Expr, domains: &Domains, open: bool) -> Expr {
     let e = essential(e, domains);
     // A root that has a value is positive where what stands under it is; so is the square of what is not negative.
     let square = |e: &Expr| match e.node() {
-        Node::Power(base, k) if *k == Expr::from(2) => Some(base.clone()),
+        Node::Power(base, k) if k.as_number().is_some_and(|k| k.is_integer()) => Some(base.clone()),
         _ => None,
     };
     let is_size =

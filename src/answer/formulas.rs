@@ -398,9 +398,8 @@ impl Work<'_> {
         let to = to.map(|t| self.put(t, &[])).transpose()?;
         let domains = &self.scene.domains;
         limit::fill(&mut out, &value, parameter, to.as_ref(), domains);
-        if let Some(formula) = out.formula() {
-            out.dimension = self.dimension_of(formula)?;
-        }
+        // A limit of 0 has no dimension of its own.
+        out.dimension = self.dimension_of(&value)?;
         Ok(out)
     }
 

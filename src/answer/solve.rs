@@ -27,6 +27,17 @@ pub struct Root {
 }
 
 impl Root {
+    /// A value that solves without conditions.
+    pub(super) fn sure(value: Expr) -> Root {
+        Root {
+            value,
+            proved: true,
+            given: Vec::new(),
+            needs: Vec::new(),
+            other: None,
+        }
+    }
+
     /// A formula with the value in it.
     pub fn put_in(&self, e: &Expr, symbol: &Symbol) -> Expr {
         let e = e.put(symbol, &self.value);
@@ -148,7 +159,9 @@ fn solve_without_bars(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Ro
             let seen = sign(&excess, here);
             match seen {
                 Seen::Proved(Sign::Negative) | Seen::Negative => {}
-                Seen::Proved(Sign::Zero | Sign::NotPositive) if !relation.closed => {}
+                // It may lie just at the end of what is wanted, and nowhere else.
+                Seen::Proved(Sign::NotPositive) => {}
+                Seen::Proved(Sign::Zero) if !relation.closed => {}
                 _ => {
                     let sure = match seen {
                         Seen::Proved(s) => {
@@ -239,13 +252,7 @@ fn within_interval(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots
     let mut out = Roots::default();
     if has_zero {
         if domain.contains(&crate::expr::ratio(0, 1)) {
-            out.inside.push(Root {
-                value: Expr::zero(),
-                proved: true,
-                given: Vec::new(),
-                needs: Vec::new(),
-                other: None,
-            });
+            out.inside.push(Root::sure(Expr::zero()));
         } else {
             let outside = within(&domain, symbol);
             out.discarded.push(sentence!(
@@ -398,8 +405,9 @@ pub(super) fn placed(
         let at_end = seen == Seen::Proved(Sign::NotNegative) && limit.open;
         if seen == Seen::Mixed || at_end {
             let need = decisive(&gap, &domains, limit.open);
-            domains = domains.given(&need, !limit.open);
-            needs.push((need, !limit.open));
+            let closed = !limit.open && !divides(&need, value, &domains);
+            domains = domains.given(&need, closed);
+            needs.push((need, closed));
         }
         let how = if seen == Seen::Proved(Sign::NotPositive) && !limit.open {
             " or just at its end"
@@ -423,6 +431,17 @@ pub(super) fn placed(
         needs.remove(0);
     }
     Ok(needs)
+}
+
+/// Whether a value is divided by this, or its opposite, but for factors that are positive.
+fn divides(divisor: &Expr, value: &Expr, domains: &Domains) -> bool {
+    value.parts().any(|part| match part.node() {
+        Node::Power(base, k) if k.is_negative() => {
+            let core = essential(base, domains);
+            core == *divisor || -core == *divisor
+        }
+        _ => false,
+    })
 }
 
 /// Whether one need follows from another.
@@ -481,11 +500,8 @@ fn take(
         return;
     }
     let mut root = Root {
-        value,
         proved: false,
-        given: Vec::new(),
-        needs: Vec::new(),
-        other: None,
+        ..Root::sure(value)
     };
     let real = real(&root.value, whole).into_iter();
     real.for_each(|need| root.rests_on(need));

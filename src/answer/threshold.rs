@@ -8,9 +8,9 @@ use std::collections::BTreeSet;
 use num_traits::{Signed, Zero};
 
 use super::Check;
-use super::calc::{Seen, above_zero, by_signs, essential, is_zero, sign, tidy};
+use super::calc::{Seen, above_zero, by_signs, essential, is_zero, keeps_to, sign, tidy};
 use super::inequality::{everywhere, sign_words};
-use super::solve::{Roots, Unsolved, end_of, solve};
+use super::solve::{Root, Roots, Unsolved, end_of, solve};
 use super::{Answer, Form, intervals, limit, undo};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, Limit, Origin};
@@ -104,6 +104,10 @@ pub(super) fn fill(
         return;
     }
     sides(out, parameter, &gap, relation, &roots, domains);
+    if let ([root], false) = (roots.inside.as_slice(), out.range.is_empty()) {
+        let words = otherwise(parameter, &gap, relation, root, domains);
+        out.text.extend(words);
+    }
     if rooted {
         for check in out.checks.iter_mut().filter(|c| c.kind == "sign") {
             let under = "what stands under the root has opposite signs";
@@ -111,6 +115,40 @@ pub(super) fn fill(
             check.words = check.words.replace(plain, under);
         }
     }
+}
+
+/// What is so where the one value does not lie within the range of the parameter: always or never, where that is proved.
+fn otherwise(
+    parameter: &Symbol,
+    gap: &Expr,
+    relation: Relation,
+    root: &Root,
+    domains: &Domains,
+) -> Option<Sentence> {
+    let [(need, closed)] = root.needs.as_slice() else {
+        return None;
+    };
+    let beyond = domains.given(&-need, !closed);
+    let turned = if relation.is_below() {
+        -gap
+    } else {
+        gap.clone()
+    };
+    let strict = matches!(relation, Relation::Less | Relation::Greater);
+    let how = match keeps_to(&turned, !strict, &beyond)? {
+        true => "holds for every",
+        false => "holds for no",
+    };
+    let instead = match closed {
+        true => Sentence::positive(&-need),
+        false => Sentence::not_negative(&-need),
+    };
+    Some(sentence!(
+        "where {} instead, it {} {}",
+        instead,
+        how,
+        parameter
+    ))
 }
 
 /// What stands under the root where a difference is a root, but for positive factors: it is there, and not negative, just
@@ -353,7 +391,7 @@ fn exists(out: &mut Answer, roots: &Roots, domains: &Domains) -> Domains {
             continue;
         };
         let at_end = Expr::from(low.value.clone());
-        let lost = |r: &super::solve::Root| tidy(&r.value.put(&symbol, &at_end), &domains).is_err();
+        let lost = |r: &Root| tidy(&r.value.put(&symbol, &at_end), &domains).is_err();
         if low.open || low.of_pi || !roots.inside.iter().any(lost) {
             continue;
         }

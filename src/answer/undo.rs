@@ -1,4 +1,4 @@
-//! Inequalities in which the parameter stands inside an arc or in an exponent, without that function.
+//! Inequalities in which the parameter stands inside an arc, in an exponent or under one, without that function.
 //!
 //! In: a difference of two sides. Out: another one with the same sign, such as `X − cos θ` for `θ − acos X`, or
 //! `n ln e + ln 10` for `10 eⁿ − 1`; and what must hold for that.
@@ -24,7 +24,10 @@ pub(super) fn outermost(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Op
     use Function::{Acos, Asin, Atan};
     let part = gap.parts().find(|part| match part.node() {
         Node::Call(Asin | Acos | Atan, inside) => inside.mentions(parameter),
-        Node::Power(base, k) => k.mentions(parameter) && !base.mentions(parameter),
+        Node::Power(base, k) => match k.mentions(parameter) {
+            true => !base.mentions(parameter),
+            false => base.mentions(parameter) && k.as_number().is_none(),
+        },
         _ => false,
     })?;
     let at = |value: i64| tidy(&gap.replace(part, &Expr::from(value)), domains).ok();
@@ -41,6 +44,15 @@ pub(super) fn outermost(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Op
         Node::Call(function, inside) => {
             let value = arc_taken(*function, &target, domains)?;
             (*function != Acos, inside - &value, domains.clone(), vec![])
+        }
+        Node::Power(base, k) if base.mentions(parameter) => {
+            let seen = |e: &Expr| sign(e, domains);
+            let positive = |e: &Expr| seen(e) == Seen::Proved(Sign::Positive);
+            if seen(base).side() != Some(true) || !positive(k) || !positive(&target) {
+                return None;
+            }
+            let value = target.power(k.powi(-1));
+            (true, base - &value, domains.clone(), vec![])
         }
         Node::Power(base, k) => {
             let (domains, given) = without_ends(base, domains);

@@ -1,18 +1,21 @@
 //! Where an expression vanishes, told factor by factor; and equations for an angle.
 //!
-//! In: an expression and the domains. Out: places in words, or values of an angle. An angle is solved for through the tangent
-//! of its half, which makes sines and cosines fractions.
+//! In: an expression and the domains. Out: places in words, or values of an angle. An angle is solved for through one of its
+//! functions where only that stands, through its tangent where sine and cosine stand in products of even degree, else
+//! through the tangent of its half, which makes sines and cosines fractions.
 
 use std::collections::BTreeMap;
 
 use num_integer::Integer;
 
-use super::calc::{is_zero, sign, tidy};
+use super::calc::{essential, has_root, is_zero, sign, tidy};
 use super::solve::{Root, Roots, Unsolved, placed, placing, real, solve};
 use crate::domain::{Domain, Domains, Limit};
 use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
 use crate::formula::{Sentence, sentence};
 
+/// The tangent of the angle.
+const TANGENT: &str = "\u{1}tangent";
 /// The tangent of half the angle.
 const HALF: &str = "\u{1}half";
 /// The cosine or sine of the angle.
@@ -87,6 +90,10 @@ pub(super) fn angle(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Root
         let found = match by(Function::Cos)? {
             Some(found) => Some(found),
             None => by(Function::Sin)?,
+        };
+        let found = match found {
+            Some(found) => Some(found),
+            None => by_tangent(&base, symbol, &domain, domains)?,
         };
         let found = match found {
             Some(found) => found,
@@ -218,7 +225,7 @@ fn in_one(e: &Expr, symbol: &Symbol, function: Function, x: &Expr) -> Option<Exp
 /// The first of the angles a person knows by heart, between two multiples of π, of which something holds.
 fn by_heart(range: &[Rational; 2], holds: impl Fn(&Expr) -> bool) -> Option<Expr> {
     for n in -11..=11i64 {
-        for d in [1, 2, 3, 4, 6] {
+        for d in [1, 2, 3, 4, 6, 12] {
             let turn = ratio(n, d);
             if turn < range[0] || range[1] < turn {
                 continue;
@@ -230,6 +237,73 @@ fn by_heart(range: &[Rational; 2], holds: impl Fn(&Expr) -> bool) -> Option<Expr
         }
     }
     None
+}
+
+/// The same through the tangent, where the domain lies between two right angles and no root of 1 + tan² is left: as in
+/// V² sin2α = g d, or y = d tanα − g d²/(2 V² cos²α).
+fn by_tangent(
+    e: &Expr,
+    symbol: &Symbol,
+    domain: &Domain,
+    domains: &Domains,
+) -> Result<Option<Roots>, Unsolved> {
+    // Each end as a tangent; the inner `None` is infinite.
+    let end = |limit: &Option<Limit>| match limit {
+        Some(l) if l.value == ratio(0, 1) => Some(Some(Limit::number(ratio(0, 1), l.open))),
+        Some(l) if l.of_pi && [ratio(1, 2), ratio(-1, 2)].contains(&l.value) => Some(None),
+        _ => None,
+    };
+    let (Some(low), Some(high)) = (end(&domain.low), end(&domain.high)) else {
+        return Ok(None);
+    };
+    let t = Expr::symbol(TANGENT);
+    let cos = (Expr::one() + t.powi(2)).power(Expr::ratio(-1, 2));
+    let Some(turned) = replaced(e, symbol, &[&t * &cos, cos, t]) else {
+        return Ok(None);
+    };
+    let mut wide = domains.clone();
+    wide.symbols.insert(TANGENT.into(), Domain { low, high });
+    let turned = essential(&turned, &wide);
+    if has_root(&turned, &TANGENT.into()) {
+        return Ok(None);
+    }
+    let found = match solve(&turned, &TANGENT.into(), &wide) {
+        Ok(found) if found.open.is_empty() => found,
+        Err(Unsolved::Absent) => Roots::default(),
+        Ok(_) | Err(Unsolved::Inside) => return Ok(None),
+        Err(other) => return Err(other),
+    };
+    let of_angle = Expr::call(Function::Tan, Expr::symbol(symbol));
+    let back = BTreeMap::from([(Symbol::from(TANGENT), of_angle)]);
+    let put_back = |all: &[Sentence]| all.iter().map(|s| s.put_in(&back)).collect();
+    let range = [ratio(-1, 2), ratio(1, 2)];
+    let inside = found.inside.iter().map(|root| {
+        let same = |angle: &Expr| {
+            let gap = angle.sin() - &root.value * &angle.cos();
+            is_zero(&gap, domains) == Some(true)
+        };
+        let arc = || Expr::call(Function::Atan, root.value.clone());
+        Root {
+            value: by_heart(&range, same).unwrap_or_else(arc),
+            given: put_back(&root.given),
+            ..root.clone()
+        }
+    });
+    let mut inside: Vec<Root> = inside.collect();
+    // A right angle has no tangent.
+    for (end, sign) in [(&domain.low, -1), (&domain.high, 1)] {
+        let is_right = |l: &Limit| l.of_pi && l.value == ratio(sign, 2) && !l.open;
+        let right = end.as_ref().is_some_and(is_right);
+        let value = Expr::ratio(sign, 2) * Expr::pi();
+        if right && is_zero(&e.put(symbol, &value), domains) == Some(true) {
+            inside.push(Root::sure(value));
+        }
+    }
+    Ok(Some(Roots {
+        inside,
+        discarded: put_back(&found.discarded),
+        open: Vec::new(),
+    }))
 }
 
 /// The same through the tangent of half the angle.
@@ -288,13 +362,7 @@ fn by_half(
         let straight = end.as_ref().is_some_and(is_straight);
         let value = Expr::from(sign) * Expr::pi();
         if straight && is_zero(&e.put(symbol, &value), domains) == Some(true) {
-            out.inside.push(Root {
-                value,
-                proved: true,
-                given: Vec::new(),
-                needs: Vec::new(),
-                other: None,
-            });
+            out.inside.push(Root::sure(value));
         }
     }
     Ok(out)
@@ -331,18 +399,24 @@ fn half(end: &Limit, is_low: bool) -> Option<Option<Limit>> {
 
 /// Sines and cosines of the angle as fractions of the tangent of its half; `None` where the angle stands elsewhere too.
 fn swap(e: &Expr, symbol: &Symbol, t: &Expr, below: &Expr) -> Option<Expr> {
-    if !e.symbols().contains(symbol) {
+    let [twice, rest] = [Expr::from(2) * t.clone(), Expr::one() - t.powi(2)];
+    replaced(e, symbol, &[&twice / below, &rest / below, twice / rest])
+}
+
+/// An expression with these for sine, cosine and tangent of an angle; `None` where the angle stands elsewhere too.
+fn replaced(e: &Expr, symbol: &Symbol, by: &[Expr; 3]) -> Option<Expr> {
+    if !e.mentions(symbol) {
         return Some(e.clone());
     }
     match e.node() {
         Node::Call(f, argument) if argument.as_symbol() == Some(symbol) => match f {
-            Function::Sin => Some(&(Expr::from(2) * t.clone()) / below),
-            Function::Cos => Some(&(Expr::one() - t.powi(2)) / below),
-            Function::Tan => Some(&(Expr::from(2) * t.clone()) / &(Expr::one() - t.powi(2))),
+            Function::Sin => Some(by[0].clone()),
+            Function::Cos => Some(by[1].clone()),
+            Function::Tan => Some(by[2].clone()),
             _ => None,
         },
         Node::Symbol(_) | Node::Number(_) | Node::Call(..) => None,
-        _ => e.try_map_parts(|part| swap(part, symbol, t, below)),
+        _ => e.try_map_parts(|part| replaced(part, symbol, by)),
     }
 }
 

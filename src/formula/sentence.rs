@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use num_traits::Signed;
+use num_traits::{Signed, Zero};
 
 use super::write_plain;
 use crate::expr::{Expr, Node, Symbol};
@@ -208,9 +208,10 @@ fn beyond_zero(e: &Expr, [sign, turned]: [&str; 2]) -> Sentence {
             &(constant * &Expr::from(factor.recip()))
         )
     };
+    let is_scaled = |side: &Expr| !side.is_constant() && !side.split_number().0.is_zero();
     match (kept.is_constant(), taken.is_constant()) {
-        (true, false) => solved(&taken, turned, &kept),
-        (false, true) => solved(&kept, sign, &taken),
+        (true, _) if is_scaled(&taken) => solved(&taken, turned, &kept),
+        (_, true) if is_scaled(&kept) => solved(&kept, sign, &taken),
         _ => sentence!("{}{}{}", &gathered(&kept), sign, &gathered(&taken)),
     }
 }

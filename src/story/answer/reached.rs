@@ -48,7 +48,10 @@ impl Need {
             origin,
             ..
         } = &self.relation;
-        let there = excess.substitute(with);
+        let there = match with.keys().any(|name| excess.mentions(name)) {
+            true => essential(&excess.substitute(with), domains),
+            false => excess.clone(),
+        };
         let told = match origin.so_that() {
             Some(so_that) if there != *excess => {
                 sentence!(
@@ -166,13 +169,15 @@ pub(in crate::story) fn needs(
     earlier: &[Answer],
 ) -> Vec<Need> {
     let all = used(&scene.questions, question).into_iter().flat_map(|q| {
+        let own = of_value(q, &world.known, earlier);
         if q.ask.formulas().is_empty() {
-            return of_stages(scene, stages, world, q, earlier);
+            let led = of_stages(scene, stages, world, q, earlier).into_iter();
+            return led.chain(own).collect::<Vec<Need>>();
         }
         let fixed = fixed(q, &world.known);
         let all = needs(scene, stages, world, q, earlier).into_iter();
         let all = all.map(|need| need.put(&fixed, &scene.domains));
-        all.chain(of_value(q, &world.known, earlier)).collect()
+        all.chain(own).collect()
     });
     open(all, &scene.domains)
 }
@@ -398,11 +403,12 @@ fn holds_on(
     relation != formula::Relation::Equal && calc::keeps_to(&there, true, &domains) == Some(true)
 }
 
-/// The questions whose answers the formulas of a question use by name.
+/// The questions whose answers a question uses by name, in its formulas or in what is put in.
 fn used<'a>(questions: &'a [Question], question: &Question) -> Vec<&'a Question> {
     let before = questions.iter().take_while(|q| q.name != question.name);
-    let symbols = question.ask.formulas().into_iter().flat_map(Expr::symbols);
-    let names: BTreeSet<Symbol> = symbols.collect();
+    let put_in = question.ask.with().iter().map(|(_, value)| value);
+    let all = question.ask.formulas().into_iter().chain(put_in);
+    let names: BTreeSet<Symbol> = all.flat_map(Expr::symbols).collect();
     let is_used = |q: &&Question| {
         names.iter().any(|name| {
             let part = name.strip_prefix(q.name.as_str());

@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 
 use super::{put, rests_on, supposed, unanswered, ways};
 use crate::algebra::Sign;
-use crate::answer::calc::{Seen, is_zero, sign, tidy};
+use crate::answer::calc::{Seen, at_least_zero, is_zero, keeps_to, sign, tidy};
 use crate::answer::{Answer, Check, Form, Refused, dimension_of};
 use crate::domain::Domains;
 use crate::expr::{Expr, Node, Symbol};
@@ -20,8 +20,8 @@ use crate::story::{StageTold, State, through};
 const NO_LAW: &str =
     "what one turn hands on to the next grows neither by a constant nor by a constant factor";
 
-/// Longest ratio that is written out where it is no ratio of powers, in nodes.
-const LONGEST_RATIO: usize = 40;
+/// Longest ratio of one turn to the one before that is taken for a law, in nodes.
+const LONGEST_RATIO: usize = 60;
 
 /// What is asked of the turns.
 struct Asked<'a> {
@@ -141,11 +141,15 @@ impl Asked<'_> {
         let mut out = Answer::blank(question, &question.name, self.words());
         out.text = self.reasons(&Symbol::from(question.name.as_str()), &general, &law);
         out.dimension = dimension_of(scene, &law.value, &question.name)?;
-        out.form = Form::value(law.value);
         out.assumptions = law.given.into_iter().collect();
         for i in mine {
-            granted(&told[i], &mut out.assumptions);
+            granted(&told[i], &one.domains, &mut out.assumptions);
+            let conditions = told[i].cases.iter().flat_map(|case| &case.conditions);
+            let needed = told[i].needs.iter().chain(conditions.map(|(_, e)| e));
+            let needed = needed.map(|need| (law.value.clone(), need.clone(), true));
+            out.needs.extend(needed);
         }
+        out.form = Form::value(law.value);
         let words =
             "by induction: the first turn begins so, and each hands on what the next begins with";
         out.checks.push(Check::new("identity", words, Some(true)));
@@ -278,8 +282,41 @@ struct Law {
     given: Option<Sentence>,
 }
 
-/// The law of a sequence by its terms from 0 on, at least three, if it is one of those known here.
+/// The law of a sequence by its terms from 0 on, at least three, if it or that of the squares is one of those known here:
+/// friction takes the same from v² each time.
 fn law(terms: &[Expr], number: &Symbol, domains: &Domains) -> Result<Law, Sentence> {
+    let plain = plain_law(terms, number, domains);
+    let is_short = |law: &Law| !matches!(&law.by, By::Sum(ratio) if ratio.has_root());
+    if plain.as_ref().is_ok_and(is_short) {
+        return plain;
+    }
+    let is_on = |side: bool| {
+        let mut all = terms.iter();
+        all.all(|term| sign(term, domains).side() == Some(side))
+    };
+    if let Some(squares) = without_roots(terms, domains)
+        && let Ok(law) = plain_law(&squares, number, domains)
+        && (is_on(true) || is_on(false))
+    {
+        let root = law.value.sqrt();
+        return Ok(Law {
+            value: if is_on(true) { root } else { -root },
+            by: By::Nothing,
+            given: law.given,
+        });
+    }
+    plain
+}
+
+/// The squares, where none of them has a root.
+fn without_roots(terms: &[Expr], domains: &Domains) -> Option<Vec<Expr>> {
+    let squares = terms.iter().map(|term| tidy(&term.powi(2), domains).ok());
+    squares
+        .map(|square| square.filter(|e| !e.has_root()))
+        .collect()
+}
+
+fn plain_law(terms: &[Expr], number: &Symbol, domains: &Domains) -> Result<Law, Sentence> {
     let n = Expr::symbol(number);
     let no_law = || Sentence::words(NO_LAW);
     let is = |e: &Expr| is_zero(e, domains) == Some(true);
@@ -309,29 +346,37 @@ fn law(terms: &[Expr], number: &Symbol, domains: &Domains) -> Result<Law, Senten
             given: None,
         });
     }
+    let is_positive = |e: &Expr| sign(e, domains) == Seen::Proved(Sign::Positive);
+    let doubtful = |ratio: &Expr| {
+        sentence!(
+            "its powers are taken of what is positive, and {} is not known to be",
+            ratio
+        )
+    };
+    if !is(first) {
+        let ratio = tidied(second / first)?;
+        let mut pairs = terms.windows(2);
+        if pairs.all(|pair| is(&(&pair[1] - &(&ratio * &pair[0])))) {
+            if !is_positive(&ratio) {
+                return Err(doubtful(&ratio));
+            }
+            return Ok(Law {
+                value: &tidied(first.clone())? * &raised(&ratio, &n, domains),
+                by: By::Factor(ratio),
+                given: None,
+            });
+        }
+    }
     if is(step) {
         return Err(no_law());
     }
     let ratio = tidied(next / step)?;
-    if !goes_on(&ratio) {
+    // Any three terms go on so with some ratio; a law has a short one.
+    if !goes_on(&ratio) || ratio.size() > LONGEST_RATIO {
         return Err(no_law());
     }
-    let is_positive = |e: &Expr| sign(e, domains) == Seen::Proved(Sign::Positive);
     if !is_positive(&ratio) {
-        return Err(match ratio.size() > LONGEST_RATIO {
-            true => "the ratio of one turn to the one before is not known to be positive".into(),
-            false => sentence!(
-                "its powers are taken of what is positive, and {} is not known to be",
-                &ratio
-            ),
-        });
-    }
-    if is(&(second - &(&ratio * first))) {
-        return Ok(Law {
-            value: &tidied(first.clone())? * &raised(&ratio, &n),
-            by: By::Factor(ratio),
-            given: None,
-        });
+        return Err(doubtful(&ratio));
     }
     let gap = &Expr::one() - &ratio;
     let given = match is_positive(&gap) || is_positive(&-&gap) {
@@ -346,8 +391,8 @@ fn law(terms: &[Expr], number: &Symbol, domains: &Domains) -> Result<Law, Senten
     // a + c (1 − rⁿ) may be a multiple of 1 − rⁿ⁺¹.
     let later = (0..=1).find(|j| is(&(&(&whole * &ratio.powi(*j)) - &factor)));
     let value = match later {
-        Some(j) => &whole * &(&Expr::one() - &raised(&ratio, &(&n + &Expr::from(j)))),
-        None => first + &(&factor * &(&Expr::one() - &raised(&ratio, &n))),
+        Some(j) => &whole * &(&Expr::one() - &raised(&ratio, &(&n + &Expr::from(j)), domains)),
+        None => first + &(&factor * &(&Expr::one() - &raised(&ratio, &n, domains))),
     };
     Ok(Law {
         value,
@@ -356,16 +401,20 @@ fn law(terms: &[Expr], number: &Symbol, domains: &Domains) -> Result<Law, Senten
     })
 }
 
-/// A power of what is positive, which may be a power itself.
-fn raised(ratio: &Expr, exponent: &Expr) -> Expr {
+/// A power of what is positive, which may be a power itself or the root of something without roots.
+fn raised(ratio: &Expr, exponent: &Expr, domains: &Domains) -> Expr {
+    let times = |k: &Expr| {
+        Expr::sum(match exponent.node() {
+            Node::Sum(terms) => terms.iter().map(|term| k * term).collect(),
+            _ => vec![k * exponent],
+        })
+    };
     match ratio.node() {
-        Node::Power(base, k) if k.as_number().is_some() => {
-            let whole = Expr::sum(match exponent.node() {
-                Node::Sum(terms) => terms.iter().map(|term| k * term).collect(),
-                _ => vec![k * exponent],
-            });
-            base.power(whole)
-        }
+        Node::Power(base, k) if k.as_number().is_some() => base.power(times(k)),
+        _ if ratio.has_root() => match tidy(&ratio.powi(2), domains) {
+            Ok(square) if !square.has_root() => square.power(times(&Expr::ratio(1, 2))),
+            _ => ratio.power(exponent.clone()),
+        },
         _ => ratio.power(exponent.clone()),
     }
 }
@@ -459,7 +508,7 @@ fn by_two(terms: &[Expr], ratios: &[Expr], number: &Symbol, domains: &Domains) -
         (is_zero(&(&steps[2] - &third), domains) == Some(true)).then(|| {
             let sum = |p: &Expr, r: &Expr| {
                 let one = Expr::one();
-                p * &(&(&one - &raised(r, &n)) / &(&one - r))
+                p * &(&(&one - &raised(r, &n, domains)) / &(&one - r))
             };
             Expr::sum([first.clone(), sum(&p, r), sum(&q, s)])
         })
@@ -488,20 +537,21 @@ fn is_same(a: &State, b: &State, domains: &Domains) -> bool {
     a.part == b.part && pairs.all(|(a, b)| is_zero(&(a - b), domains) == Some(true))
 }
 
-/// What a stage of a turn rests on.
-fn granted(told: &StageTold, out: &mut Vec<Sentence>) {
-    let needs = told.needs.iter().map(Sentence::not_negative);
+/// What a stage of a turn rests on, without what holds on the domain.
+fn granted(told: &StageTold, domains: &Domains, out: &mut Vec<Sentence>) {
+    let needs = told.needs.iter().map(|need| at_least_zero(need, domains));
     let cases = told.cases.iter().flat_map(rests_on);
     let given = told.given.iter().map(supposed);
-    for one in told
-        .assumptions
-        .iter()
-        .cloned()
-        .chain(needs)
-        .chain(cases)
-        .chain(given)
-    {
-        if !out.contains(&one) {
+    let all = told.assumptions.iter().cloned();
+    for one in all.chain(needs).chain(cases).chain(given) {
+        let holds = |(e, open): (Expr, bool)| keeps_to(&e, !open, domains) == Some(true);
+        let is_sure = one.condition().is_some() && one.conditions().all(holds);
+        // The same may be told with its reason.
+        let words = one.to_string();
+        let is_told = out
+            .iter()
+            .any(|known| known.to_string().starts_with(&words));
+        if !is_sure && !is_told {
             out.push(one);
         }
     }

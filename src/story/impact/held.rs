@@ -100,6 +100,9 @@ fn keeps(stage: &Stage, held: &Held, told: &mut StageTold) -> Result<(), Refused
             }
             _ => {
                 let need = essential(&excess, &domains);
+                if need.is_zero() {
+                    continue;
+                }
                 let words = format!("{} does not {}", held.what, held.does[0]);
                 if alone {
                     let needed = Sentence::not_negative(&need);
