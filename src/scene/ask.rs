@@ -96,6 +96,8 @@ pub enum Ask {
         body: usize,
         /// The point.
         about: Vector,
+        /// The body whose center of mass it is, wherever that is by then.
+        center_of: Option<usize>,
         /// At the end of the stage; else at its beginning.
         at_end: bool,
     },

@@ -293,6 +293,13 @@ impl Scene {
         all.next().map(|(name, _)| name.as_str())
     }
 
+    /// Where hinges, contacts and blows act.
+    pub fn acting_at(&self) -> impl Iterator<Item = &Vector> {
+        let hinges = self.hinges.iter().map(|h| &h.at);
+        let contacts = self.contacts.iter().map(|c| &c.at);
+        hinges.chain(contacts).chain(self.blows.iter().map(|b| &b.at))
+    }
+
     /// The system of units that its data are in.
     pub fn system(&self) -> System {
         let given = self.parameters.iter().filter(|p| p.value.is_some());

@@ -190,24 +190,51 @@ impl InStage<'_> {
             Ask::AngularMomentum {
                 body,
                 about,
+                center_of,
                 at_end,
             } => {
-                let about = pair(course, about)?;
-                let state = &self.state(*at_end).bodies[*body];
+                let bodies = &self.state(*at_end).bodies;
+                let about = match center_of {
+                    Some(other) => {
+                        let [x, y] = bodies[*other].center.clone();
+                        [x?, y?]
+                    }
+                    None => pair(course, about)?,
+                };
+                let state = &bodies[*body];
                 let moment = angular_momentum(&course.solids[*body], state, about);
                 Ok(Answer::Scalar(moment?))
             }
             Ask::Velocity {
                 body,
-                point: Some((name, _)),
+                point: Some((name, at)),
                 along,
-            } if matches!(self.passed.what, What::Motion(_)) => {
+            } if self.is_carried(name, at) => {
                 let state = &self.passed.after.bodies[*body];
                 let velocity = carried(course, self.scene, state, *body, name)?;
                 component(course, velocity, along.as_ref())
             }
             ask => about_end(course, self.passed, ask),
         }
+    }
+
+    /// Whether a point of a body is asked for where the body has carried it: in a motion always, in an impact unless something
+    /// acts at the place that the file gives.
+    fn is_carried(&self, name: &str, at: &Vector) -> bool {
+        if matches!(self.passed.what, What::Motion(_)) {
+            return true;
+        }
+        let is_named = self.scene.points.iter().any(|p| p.name == name);
+        let Ok(at) = pair(&self.course, at) else {
+            return false;
+        };
+        let is_there = |place: &Vector| {
+            pair(&self.course, place).is_ok_and(|[x, y]| {
+                let size = 1.0 + at[0].abs() + at[1].abs();
+                (x - at[0]).hypot(y - at[1]) <= 1e-9 * size
+            })
+        };
+        is_named && !self.stage.scene.acting_at().any(is_there)
     }
 
     fn moved(&self) -> Result<&Moved, Unanswered> {

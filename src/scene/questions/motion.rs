@@ -3,6 +3,7 @@
 use super::{answers, impact, told, turn};
 use crate::scene::fault::Fault;
 use crate::scene::formulas::{Quantity, Symbols};
+use crate::scene::place_file::PositionFile;
 use crate::scene::question_file::QuestionFile;
 use crate::scene::record::Text;
 use crate::scene::resolve::Resolver;
@@ -264,9 +265,16 @@ impl Asked<'_, '_> {
         let Some(about) = &self.q.about else {
             return self.lacks("an angular momentum needs the point `about` which it is meant");
         };
+        let center_of = match about {
+            PositionFile::Name(name) if self.base.find_point(&name.text).is_none() => {
+                self.base.find_body(&name.text)
+            }
+            _ => None,
+        };
         Some(Ask::AngularMomentum {
             body: self.base.moving(self.subject)?,
             about: self.base.position(about)?,
+            center_of,
             at_end: self.at_end(),
         })
     }

@@ -202,8 +202,11 @@ fn one(
         Ask::AngularMomentum {
             body,
             about,
+            center_of,
             at_end,
         } => each_outcome(stages, stage, *at_end, |told, state| {
+            let about = center_of.map_or(about, |b| &state.center[b]);
+            let about = (about, *center_of);
             motion::angular_momentum(question, (told, state), (*body, about), *at_end)
         }),
         Ask::Share {

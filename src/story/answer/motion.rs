@@ -345,14 +345,18 @@ pub(super) fn position(
 pub(super) fn angular_momentum(
     question: &Question,
     (told, state): (&StageTold, &State),
-    (body, about): (usize, &Vector),
+    (body, (about, center_of)): (usize, (&Vector, Option<usize>)),
     at_end: bool,
 ) -> Result<Answer, Refused> {
     let (_, when, granted) = end(told, at_end);
     let (b, stage) = (&told.placed.scene.bodies[body], &told.placed.name);
     let arm = minus(&state.center[body], about);
     let h = &(&b.mass * &cross(&arm, &state.velocity[body])) + &(&b.inertia * &state.spin[body]);
-    let place = match told.placed.scene.named_at(about) {
+    let named = match center_of {
+        Some(other) => Some(told.placed.scene.bodies[other].name.as_str()),
+        None => told.placed.scene.named_at(about),
+    };
+    let place = match named {
         Some(name) if name == b.name => String::from("its center of mass"),
         Some(name) => format!("`{name}`"),
         None => String::from("the point given"),
