@@ -313,7 +313,7 @@ fn zeros_of(p: &Poly, v: usize, (low, high): (EndOf, EndOf)) -> Option<Vec<[Rati
         }
     }
     // Narrow, so that no two touch and ends are no zeros of others.
-    let width = ratio(1, 1 << 20);
+    let width = ratio(1, 1 << 40);
     let mut found: Vec<[Rational; 2]> = Vec::new();
     'next: for mut pair in single {
         let rising = value(&p, &pair[0]).is_negative();

@@ -13,7 +13,6 @@ mod intervals;
 pub mod limit;
 mod optimum;
 mod powers;
-mod roots;
 pub mod solve;
 mod taylor;
 mod threshold;

@@ -3,18 +3,17 @@
 //! In: both sides in parameters alone. Out: the value at which they meet, on which side of it the inequality holds, and how
 //! that is known; or that it always or never holds, with the reason.
 
+use std::cmp::Ordering;
 use std::collections::BTreeSet;
-
-use num_traits::{Signed, Zero};
 
 use super::Check;
 use super::calc::{Seen, above_zero, by_signs, essential, is_zero, keeps_to, sign, tidy};
 use super::inequality::{everywhere, sign_words};
 use super::solve::{Root, Roots, Unsolved, end_of, solve};
 use super::{Answer, Form, intervals, limit, undo};
-use crate::algebra::Sign;
+use crate::algebra::{Cell, Field, Sign};
 use crate::domain::{Domain, Domains, Limit, Origin};
-use crate::expr::{Expr, Node, Rational, Symbol};
+use crate::expr::{Expr, Node, Rational, Symbol, ratio};
 use crate::formula::Relation;
 use crate::formula::{Sentence, sentence};
 use crate::interval::enclosure::decimal;
@@ -542,27 +541,44 @@ fn isolate(out: &mut Answer, parameter: &Symbol, gap: &Expr, roots: &Roots, scen
     values.remove(parameter);
     let at_values = |e: &Expr| tidy(&e.substitute(&values), &scene.domains).ok();
     let bounds = bounds(parameter, scene);
+    let beside = ratio(1, 1 << 40);
     for coefficients in &roots.open {
         let degree = (coefficients.len() - 1).to_string();
-        let numbers = coefficients
-            .iter()
-            .map(|c| at_values(c)?.as_number().cloned());
-        let Some(numbers) = numbers.collect::<Option<Vec<_>>>() else {
+        let terms = coefficients.iter().zip(0..);
+        let terms = terms.map(|(c, k)| {
+            Some(Expr::from(at_values(c)?.as_number()?.clone()) * Expr::symbol(parameter).powi(k))
+        });
+        let polynomial = terms.collect::<Option<Vec<_>>>().map(Expr::sum);
+        let Some((polynomial, found)) =
+            polynomial.and_then(|p| Some((p.clone(), roots_of(&p, &p, parameter)?)))
+        else {
             out.text.push(sentence!("a polynomial of degree {} in {} has to vanish, which has no closed form here; with fractions as values of all other symbols its roots are enclosed", degree, parameter));
             continue;
         };
-        for [low, high] in super::roots::isolate(&numbers) {
-            let ends = [&low, &high].map(|end| decimal(end, 12));
-            let words = sentence!("{} between {} and {}", parameter, &ends[0], &ends[1]);
-            let excluded = bounds.iter().find(|(excess, closed, _)| {
-                let excess = |x: &Rational| {
-                    let e = at_values(excess)?.put(parameter, &Expr::from(x.clone()));
-                    tidy(&e, &scene.domains).ok()?.as_number().cloned()
-                };
-                !may_keep(&numbers, [&low, &high], excess, *closed)
-            });
+        // What has no exact sign at the roots is not held against them.
+        let bounds = bounds.iter().filter_map(|(excess, closed, against)| {
+            Some((
+                roots_of(&polynomial, &at_values(excess)?, parameter)?,
+                closed,
+                against,
+            ))
+        });
+        let bounds: Vec<_> = bounds.collect();
+        for (i, root) in found.into_iter().enumerate() {
+            let [low, high] = root.around;
+            let ends = [&low, &high].map(|end| decimal(end, 15));
+            let words = match low == high {
+                true => sentence!("{} = {}", parameter, &Expr::from(low.clone())),
+                false => sentence!("{} between {} and {}", parameter, &ends[0], &ends[1]),
+            };
+            let excluded = bounds
+                .iter()
+                .find(|(roots, closed, _)| match roots[i].signs[1] {
+                    Some(sign) => sign.is_lt() || sign.is_eq() && !**closed,
+                    None => false,
+                });
             if let Some((_, _, against)) = excluded {
-                out.discarded.push(sentence!("{}, {}", words, against));
+                out.discarded.push(sentence!("{}, {}", words, *against));
                 continue;
             }
             // Squaring may have brought the root in: the difference must change its sign across it.
@@ -572,12 +588,17 @@ fn isolate(out: &mut Answer, parameter: &Symbol, gap: &Expr, roots: &Roots, scen
                     .put(parameter, &Expr::from(x.clone()));
                 e.evaluate(&crate::expr::Point::<f64>::default())
             };
-            let changes = match (side(&low), side(&high)) {
+            let changes = match (side(&(low - &beside)), side(&(high + &beside))) {
                 (Some(a), Some(b)) if a * b <= 0.0 => "changes its sign there",
                 (Some(_), Some(_)) => "does not change its sign there",
                 _ => "has no value beyond it",
             };
-            out.text.push(sentence!("{}: one root of degree {}, isolated exactly (Sturm); the difference of the sides {}", words, &degree, changes));
+            out.text.push(sentence!(
+                "{}: one root of degree {}, isolated exactly; the difference of the sides {}",
+                words,
+                &degree,
+                changes
+            ));
         }
     }
     if out.text.is_empty() {
@@ -606,66 +627,40 @@ fn bounds(parameter: &Symbol, scene: &Scene) -> Vec<(Expr, bool, Sentence)> {
     low.into_iter().chain(high).chain(relations).collect()
 }
 
-/// Whether the one root of a polynomial in (low, high] may keep to what is not to be negative, or not to be zero either where it
-/// is not closed. What has no exact value is not held against it.
-fn may_keep(
-    polynomial: &[Rational],
-    [low, high]: [&Rational; 2],
-    excess: impl Fn(&Rational) -> Option<Rational>,
-    closed: bool,
-) -> bool {
-    let (Some(at_low), Some(at_high)) = (excess(low), excess(high)) else {
-        return true;
-    };
-    let keeps = |e: &Rational| e.is_positive() || closed && e.is_zero();
-    if at_low.is_positive() == at_high.is_positive() {
-        return keeps(&at_low) || keeps(&at_high);
-    }
-    // Of what is straight there the end is known.
-    let end = low - &at_low * (high - low) / (&at_high - &at_low);
-    if excess(&end).is_none_or(|e| !e.is_zero()) {
-        return true;
-    }
-    let at = |x: &Rational| {
-        polynomial
-            .iter()
-            .rev()
-            .fold(Rational::zero(), |sum, c| sum * x + c)
-    };
-    let at_end = at(&end);
-    match at_end.is_zero() {
-        true => closed,
-        false => keeps(if (at(low) * at_end).is_negative() {
-            &at_low
-        } else {
-            &at_high
-        }),
-    }
+/// The real roots of a polynomial in one symbol, each a fraction or between two, with the sign of another formula there.
+fn roots_of(polynomial: &Expr, other: &Expr, name: &Symbol) -> Option<Vec<Cell>> {
+    let mut domains = Domains::default();
+    domains.symbols.insert(name.clone(), Domain::real());
+    let mut field = Field::new(&domains);
+    field.prepare([polynomial, other]);
+    let elements = [field.element(polynomial).ok()?, field.element(other).ok()?];
+    let mut cells = field.signs_along(name, &elements)?;
+    cells.retain(|cell| cell.single && cell.signs[0].is_some_and(Ordering::is_eq));
+    Some(cells)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::expr::ratio;
 
     #[test]
-    fn an_enclosed_root_is_held_against_an_end_exactly() {
-        // 2 x − 1, and a root a little below 1/2, against x ≤ 1/2 and x < 1/2.
-        let half = ratio(1, 2);
-        let near = half.clone() - ratio(1, 1000);
-        let keeps = |root: &Rational, closed: bool| {
-            let excess = |x: &Rational| Some(ratio(1, 2) - x);
-            let polynomial = [-root.clone(), ratio(1, 1)];
-            may_keep(
-                &polynomial,
-                [&ratio(49, 100), &ratio(51, 100)],
-                excess,
-                closed,
-            )
+    fn roots_are_held_against_an_end_exactly() {
+        let x = Expr::symbol("x");
+        let left = Expr::from(ratio(1, 2)) - &x;
+        let signs = |p: Expr| {
+            let roots = roots_of(&p, &left, &"x".into()).expect("decided");
+            roots
+                .iter()
+                .flat_map(|root| root.signs[1])
+                .collect::<Vec<_>>()
         };
-        assert!(keeps(&half, true) && !keeps(&half, false));
-        assert!(keeps(&near, true) && keeps(&near, false));
-        let beyond = half + ratio(1, 1000);
-        assert!(!keeps(&beyond, true) && !keeps(&beyond, false));
+        let near = |k: i64| &left * Expr::from(1000) + Expr::from(k);
+        assert_eq!(signs(left.clone()), [Ordering::Equal]);
+        assert_eq!(signs(near(1)), [Ordering::Less]);
+        assert_eq!(signs(near(-1)), [Ordering::Greater]);
+        let square = x.powi(2);
+        let quartic = (&square + Expr::one()) * (&square - Expr::from(2));
+        assert_eq!(signs(quartic), [Ordering::Greater, Ordering::Less]);
+        assert!(signs(square + Expr::one()).is_empty());
     }
 }
