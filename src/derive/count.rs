@@ -3,13 +3,11 @@
 //! Where the scene has rational points, the rank is that of the exact matrix at one rational point of the domain. A point can only lower the rank, so "of full
 //! rank" and "determined" are proved by it; where the rank falls short, further points are tried, and the largest stands.
 
-use num_traits::Zero;
-
 use super::{Stop, Work};
 use crate::algebra;
 
 use crate::domain::{Coordinate, roles, samples};
-use crate::expr::rows::reduce;
+use crate::expr::rows::Echelon;
 use crate::expr::{Expr, Point, Rational, Vector, ratio};
 use crate::laws::{self, Direction, Geometry, Kinematics, Law, Linear, Place, Unknown};
 use crate::scene::{ContactLaw, Scene};
@@ -54,32 +52,30 @@ pub fn count(scene: &Scene) -> Result<Counting, Stop> {
     let system = system_balances(scene);
     let mut best: Option<Counting> = None;
     for attempt in 0..4 {
-        let Some(rows) = rational_rows(scene, &unknowns, laws.iter(), attempt, false) else {
+        let Some(rows) = rational_rows(scene, &unknowns, laws.iter(), attempt) else {
             continue;
         };
-        let mut echelon = eliminate(rows, unknowns.len());
-        if echelon.conflict.is_some()
-            && let Some(rows) = rational_rows(scene, &unknowns, laws.iter(), attempt, true)
-        {
-            echelon = eliminate(rows, unknowns.len());
-        }
-        let conflict = echelon.conflict.clone().unwrap_or_default();
+        let echelon = Echelon::of(&rows, unknowns.len());
         let rank = echelon.pivots.len();
         let full = rank == unknowns.len().min(laws.len());
         let rank_with_system = if system.is_empty() || full && rank == unknowns.len() {
             rank
         } else {
-            rational_rows(scene, &unknowns, laws.iter().chain(&system), attempt, false)
-                .map_or(rank, |rows| eliminate(rows, unknowns.len()).pivots.len())
+            rational_rows(scene, &unknowns, laws.iter().chain(&system), attempt)
+                .map_or(rank, |rows| Echelon::of(&rows, unknowns.len()).pivots.len())
         };
+        let open = unknowns.iter().zip(&echelon.unique);
+        let open = open.filter(|(_, unique)| !**unique);
         let counting = Counting {
             equations: laws.len(),
             unknowns: unknowns.len(),
             rank,
-            open: echelon.open.iter().map(|&i| unknowns[i]).collect(),
+            open: open.map(|(u, _)| *u).collect(),
             contradictory: echelon.conflict.is_some(),
-            conflict: conflict
+            conflict: echelon
+                .conflict
                 .iter()
+                .flatten()
                 .map(|&i| laws::describe(scene, &laws[i]))
                 .collect(),
             rank_with_system,
@@ -176,7 +172,6 @@ fn rational_rows<'a>(
     unknowns: &[Unknown],
     laws: impl Iterator<Item = &'a Law>,
     attempt: usize,
-    remember: bool,
 ) -> Option<Vec<Vec<Rational>>> {
     let point = exact_point(scene, attempt)?;
     let value = |e: &Expr| e.evaluate(&point).ok_or(());
@@ -188,15 +183,7 @@ fn rational_rows<'a>(
             laws::equation(scene, &g, &motion, law, vector).ok()
         })
         .collect();
-    let linear = linear?;
-    let memory = if remember { linear.len() } else { 0 };
-    Some(
-        linear
-            .iter()
-            .enumerate()
-            .map(|(i, row)| dense(row, unknowns, i, memory))
-            .collect(),
-    )
+    Some(linear?.iter().map(|row| dense(row, unknowns)).collect())
 }
 
 /// The sample point of the scene's domain with this number, exact.
@@ -212,56 +199,14 @@ fn exact_point(scene: &Scene, number: usize) -> Option<Point<Rational>> {
     (!sample.coordinates.values().any(is_round)).then(|| sample.fractions())
 }
 
-/// Coefficients, right side, and `memory` columns that remember which equations were combined.
-fn dense(
-    linear: &Linear<Rational>,
-    unknowns: &[Unknown],
-    row: usize,
-    memory: usize,
-) -> Vec<Rational> {
-    let mut out = vec![ratio(0, 1); unknowns.len() + 1 + memory];
+/// Coefficients and right side.
+fn dense(linear: &Linear<Rational>, unknowns: &[Unknown]) -> Vec<Rational> {
+    let mut out = vec![ratio(0, 1); unknowns.len() + 1];
     for (unknown, k) in &linear.terms {
         if let Some(i) = unknowns.iter().position(|u| u == unknown) {
             out[i] = k.clone();
         }
     }
     out[unknowns.len()] = linear.known.clone();
-    if memory > 0 {
-        out[unknowns.len() + 1 + row] = ratio(1, 1);
-    }
     out
-}
-
-struct Echelon {
-    pivots: Vec<usize>,
-    open: Vec<usize>,
-    /// Rows of which a combination reads 0 = 1, if there is one and the rows remember.
-    conflict: Option<Vec<usize>>,
-}
-
-/// Gauss-Jordan elimination; an unknown is determined when its row holds no other unknown.
-fn eliminate(mut rows: Vec<Vec<Rational>>, n: usize) -> Echelon {
-    let pivots = reduce(&mut rows, n);
-    let pivots: Vec<usize> = pivots.iter().map(|[_, column]| *column).collect();
-    let free: Vec<usize> = (0..n).filter(|c| !pivots.contains(c)).collect();
-    let mut open = free.clone();
-    for (r, &column) in pivots.iter().enumerate() {
-        if free.iter().any(|&c| !rows[r][c].is_zero()) {
-            open.push(column);
-        }
-    }
-    open.sort_unstable();
-    // Behind the right side, `dense` leaves room for which rows were combined.
-    let clash = rows[pivots.len()..].iter().find(|row| !row[n].is_zero());
-    let conflict = clash.map(|row| {
-        (n + 1..row.len())
-            .filter(|&j| !row[j].is_zero())
-            .map(|j| j - n - 1)
-            .collect()
-    });
-    Echelon {
-        pivots,
-        open,
-        conflict,
-    }
 }

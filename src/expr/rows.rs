@@ -2,8 +2,8 @@
 
 use num_traits::Zero;
 
-use super::Rational;
 use super::number::{product, sum};
+use super::{Rational, ratio};
 
 /// Brings rows to their reduced echelon form in the first `n` columns (Gauss and Jordan), whatever stands behind these
 /// included. Gives, for each row from the first on, where it stood before and the column of its pivot; the other rows are left
@@ -36,4 +36,53 @@ pub fn reduce(rows: &mut [Vec<Rational>], n: usize) -> Vec<[usize; 2]> {
         pivots.push([order[top], column]);
     }
     pivots
+}
+
+/// What equations say of their unknowns.
+pub struct Echelon {
+    /// For each independent row where it stood before, and the column of its pivot.
+    pub pivots: Vec<[usize; 2]>,
+    /// A value of each unknown, zero where it is open.
+    pub values: Vec<Rational>,
+    /// Whether each unknown has no other value.
+    pub unique: Vec<bool>,
+    /// Rows of which a combination reads 0 = 1, if there is one.
+    pub conflict: Option<Vec<usize>>,
+}
+
+impl Echelon {
+    /// Of rows with `n` coefficients and their right side.
+    pub fn of(rows: &[Vec<Rational>], n: usize) -> Echelon {
+        let mut reduced = rows.to_vec();
+        let pivots = reduce(&mut reduced, n);
+        let rank = pivots.len();
+        let clash = |row: &&Vec<Rational>| !row[n].is_zero();
+        // Which rows were combined is asked only where they clash: then each carries along what it is made of.
+        let conflict = reduced[rank..].iter().find(clash).map(|_| {
+            let made = |i| (0..rows.len()).map(move |j| ratio(i64::from(i == j), 1));
+            let marked = rows.iter().enumerate();
+            let marked = marked.map(|(i, row)| row.iter().cloned().chain(made(i)).collect());
+            let mut marked: Vec<Vec<Rational>> = marked.collect();
+            reduce(&mut marked, n);
+            let clash = marked[rank..].iter().find(clash);
+            let of = |row: &Vec<Rational>| {
+                (0..rows.len())
+                    .filter(|j| !row[n + 1 + j].is_zero())
+                    .collect()
+            };
+            clash.map(of).unwrap_or_default()
+        });
+        let mut values = vec![ratio(0, 1); n];
+        let mut unique = vec![false; n];
+        for (row, &[_, column]) in reduced.iter().zip(&pivots) {
+            values[column] = row[n].clone();
+            unique[column] = (0..n).all(|c| c == column || row[c].is_zero());
+        }
+        Echelon {
+            pivots,
+            values,
+            unique,
+            conflict,
+        }
+    }
 }
