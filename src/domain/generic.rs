@@ -1,6 +1,6 @@
 //! A point in general position, in doubles: what vanishes there is taken to vanish everywhere while planning.
 
-use super::{Domain, Domains};
+use super::Domains;
 use crate::expr::{Point, Symbol};
 
 /// Values of symbols in general position inside the domains; the golden ratio keeps them apart.
@@ -37,7 +37,9 @@ fn at_fractions<'a>(
 ) -> Point<f64> {
     let mut point = Point::default();
     for name in names {
-        let value = within(domains.symbols.get(name), next());
+        let share = next();
+        let domain = domains.symbols.get(name).cloned().unwrap_or_default();
+        let value = domain.at(share, 0.6 + share, 0.6 + share);
         point.values.insert(name.clone(), value);
     }
     for [a, b] in &domains.unit_vectors {
@@ -46,13 +48,4 @@ fn at_fractions<'a>(
         point.values.insert(b.clone(), sin);
     }
     point
-}
-
-fn within(domain: Option<&Domain>, fraction: f64) -> f64 {
-    match domain.map(Domain::bounds).unwrap_or_default() {
-        [Some(low), Some(high)] => low + fraction * (high - low),
-        [Some(low), None] => low + 0.6 + fraction,
-        [None, Some(high)] => high - 0.6 - fraction,
-        [None, None] => 0.6 + fraction,
-    }
 }

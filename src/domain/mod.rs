@@ -188,6 +188,22 @@ impl Domain {
         [&self.low, &self.high].map(|end| end.as_ref().map(Limit::approximate))
     }
 
+    /// The number at a share of the way between two ends, `step` away from the only one, or `free` where there is none.
+    pub fn at(&self, share: f64, step: f64, free: f64) -> f64 {
+        match self.bounds() {
+            [Some(low), Some(high)] => low + share * (high - low),
+            [Some(low), None] => low + step,
+            [None, Some(high)] => high - step,
+            [None, None] => free,
+        }
+    }
+
+    /// Whether a double lies between the ends, these included.
+    pub fn admits(&self, x: f64) -> bool {
+        let [low, high] = self.bounds();
+        low.is_none_or(|low| low <= x) && high.is_none_or(|high| x <= high)
+    }
+
     /// Whether it lies within another bounded interval, ends included.
     pub fn lies_within(&self, outer: &Domain) -> bool {
         match [self.bounds(), outer.bounds()] {

@@ -73,11 +73,10 @@ pub type Signs = BTreeMap<Symbol, bool>;
 /// Signs of symbols and of the cosines and sines in `atoms`, as far as the domains tell.
 pub fn signs(domains: &Domains, atoms: &Atoms) -> Signs {
     let mut out = Signs::new();
-    let side = |l: &Option<Limit>| l.as_ref().map(Limit::approximate);
     for (name, domain) in &domains.symbols {
-        match (side(&domain.low), side(&domain.high)) {
-            (Some(low), _) if low >= 0.0 => out.insert(name.clone(), true),
-            (_, Some(high)) if high <= 0.0 => out.insert(name.clone(), false),
+        match domain.bounds() {
+            [Some(low), _] if low >= 0.0 => out.insert(name.clone(), true),
+            [_, Some(high)] if high <= 0.0 => out.insert(name.clone(), false),
             _ => None,
         };
     }

@@ -184,7 +184,7 @@ fn choices(scene: &Scene, parameter: &Parameter, earlier: usize) -> Vec<f64> {
         .filter(|v| lies_in(*v, &domain))
         .collect();
     if fitting.is_empty() {
-        vec![middle(&domain)]
+        vec![domain.at(0.4, 1.0, 1.0)]
     } else {
         fitting
     }
@@ -216,17 +216,6 @@ pub fn fits(scene: &Scene, parameter: &Parameter, point: &Point<f64>) -> bool {
 fn lies_in(value: f64, domain: &Domain) -> bool {
     domain.low.as_ref().is_none_or(|l| value > l.approximate())
         && domain.high.as_ref().is_none_or(|h| value < h.approximate())
-}
-
-fn middle(domain: &Domain) -> f64 {
-    match (&domain.low, &domain.high) {
-        (Some(low), Some(high)) => {
-            low.approximate() + 0.4 * (high.approximate() - low.approximate())
-        }
-        (Some(low), None) => low.approximate() + 1.0,
-        (None, Some(high)) => high.approximate() - 1.0,
-        (None, None) => 1.0,
-    }
 }
 
 /// How badly the scene would look; infinite where it has no place at all.

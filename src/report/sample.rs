@@ -3,7 +3,7 @@
 //! In: a scene and a seed. Out: exact points, the same for the same seed on every machine. Plain parameters are doubles,
 //! so they are no source of error; an angle is a rational point of the unit circle.
 
-use crate::domain::{Domain, Limit};
+use crate::domain::Domain;
 use crate::expr::number::from_f64;
 use crate::expr::{Point, Rational, Symbol};
 use crate::numeric::points::{Needed, circle_point, keeps, needed};
@@ -118,15 +118,11 @@ impl<'a> Sampler<'a> {
                 None if angle => Domain::first_quadrant(),
                 _ => self.domain(name),
             };
-            let ends = [&domain.low, &domain.high].map(|l| l.as_ref().map(Limit::approximate));
-            let value = match ends {
-                [Some(low), Some(high)] => low + (high - low) * share,
-                [Some(low), None] => low + size,
-                [None, Some(high)] => high - size,
-                [None, None] if angle => std::f64::consts::PI * (2.0 * share - 1.0),
-                [None, None] => sign * size,
+            let free = match angle {
+                true => std::f64::consts::PI * (2.0 * share - 1.0),
+                false => sign * size,
             };
-            draft.push((name.clone(), value));
+            draft.push((name.clone(), domain.at(share, size, free)));
         }
         for pair in &self.scene.domains.unit_vectors {
             let t = 3.0 * (2.0 * rng.unit() - 1.0);

@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 
 use crate::answer::Check;
-use crate::domain::{Domain, Domains, Limit};
+use crate::domain::Domains;
 use crate::expr::{Expr, Point, Symbol};
 use crate::numeric::follow::integrated;
 use crate::numeric::points;
@@ -33,7 +33,7 @@ pub(super) fn points_of(
     let bearing = domains.relations_of(&names);
     names.extend(bearing.iter().flat_map(|r| r.excess.symbols()));
     let value = move |name: &Symbol, k: usize, seed: u64| {
-        let domain = domains.symbols.get(name);
+        let domain = domains.symbols.get(name).cloned().unwrap_or_default();
         let prime = f64::from(PRIMES[k % PRIMES.len()]);
         let fraction =
             (0.618_033_988_75 * (k + 1) as f64 + prime.sqrt() * seed as f64).fract() * 0.9 + 0.05;
@@ -45,15 +45,12 @@ pub(super) fn points_of(
                 10f64.powf(6.0 * part - 3.0)
             }
         };
-        let low = domain.and_then(|d| d.low.as_ref()).map(Limit::approximate);
-        let high = domain.and_then(|d| d.high.as_ref()).map(Limit::approximate);
-        match (low, high) {
-            (Some(low), Some(high)) if size <= 1.0 => low + fraction * size * (high - low),
-            (Some(low), Some(high)) => high - fraction / size * (high - low),
-            (Some(low), None) => low + (0.3 + 2.0 * fraction) * size,
-            (None, Some(high)) => high - (0.3 + 2.0 * fraction) * size,
-            (None, None) => (4.0 * fraction - 2.0) * size,
-        }
+        let share = match size <= 1.0 {
+            true => fraction * size,
+            false => 1.0 - fraction / size,
+        };
+        let step = (0.3 + 2.0 * fraction) * size;
+        domain.at(share, step, (4.0 * fraction - 2.0) * size)
     };
     let all = (1..=DRAWS).filter_map(move |seed| {
         let mut point = Point::<f64>::default();
@@ -67,9 +64,8 @@ pub(super) fn points_of(
                 continue;
             };
             *across = (1.0 - along * along).sqrt().copysign(*across);
-            let ends = domains.symbols.get(b).map(Domain::bounds);
-            let [low, high] = ends.unwrap_or_default();
-            if low.is_some_and(|low| *across < low) || high.is_some_and(|high| *across > high) {
+            let domain = domains.symbols.get(b);
+            if domain.is_some_and(|domain| !domain.admits(*across)) {
                 return None;
             }
         }

@@ -1,7 +1,6 @@
 //! Families that run towards a point at which something vanishes: an answer, the approach, or the arm of an impulse.
 
 use super::{Draft, Family, Level, Sampler, approach, put, steps};
-use crate::domain::Limit;
 use crate::expr::Symbol;
 use crate::numeric::{Given, answers, rounded, solve_f64};
 
@@ -165,9 +164,7 @@ impl Sampler<'_> {
     }
 
     fn inside(&self, name: &Symbol, value: f64) -> bool {
-        let domain = self.domain(name);
-        let ends = [&domain.low, &domain.high].map(|l| l.as_ref().map(Limit::approximate));
-        ends[0].is_none_or(|low| value >= low) && ends[1].is_none_or(|high| value <= high)
+        self.domain(name).admits(value)
     }
 
     /// A root of the target along one parameter, by scanning its domain and halving.
@@ -178,12 +175,11 @@ impl Sampler<'_> {
         target: &dyn Fn(&Given<f64>, &Draft) -> Option<f64>,
     ) -> Option<f64> {
         let domain = self.domain(parameter);
-        let [low, high] = [&domain.low, &domain.high].map(|l| l.as_ref().map(Limit::approximate));
-        let grid: Vec<f64> = match (low, high) {
-            (Some(low), Some(high)) => (0..=24)
+        let grid: Vec<f64> = match domain.bounds() {
+            [Some(low), Some(high)] => (0..=24)
                 .map(|k| low + (high - low) * f64::from(k) / 24.0)
                 .collect(),
-            (Some(low), None) => (-16..=16)
+            [Some(low), None] => (-16..=16)
                 .map(|k| low + 2f64.powf(f64::from(k) / 4.0))
                 .collect(),
             _ => (-16..=16).map(|k| f64::from(k) / 2.0 + 0.013).collect(),

@@ -2,7 +2,6 @@
 
 use super::Seen;
 use super::asked::Asked;
-use crate::domain::Limit;
 use crate::expr::{Expr, Point, Symbol};
 use crate::numeric::Answer as Found;
 use crate::numeric::follow::{self, Breach, Followed, What};
@@ -169,12 +168,9 @@ impl Asked<'_> {
     /// Whether a parameter may have a value, the others as they are.
     pub fn admits(&self, seen: &Seen, parameter: &Symbol, value: f64) -> bool {
         let domains = &self.scene.domains;
-        let within = domains.symbols.get(parameter).is_none_or(|domain| {
-            let end = |limit: &Option<Limit>| limit.as_ref().map(Limit::approximate);
-            end(&domain.low).is_none_or(|low| low <= value)
-                && end(&domain.high).is_none_or(|high| value <= high)
-        });
-        within && keeps(domains, &moved(&seen.point, &[(parameter.clone(), value)]))
+        let domain = domains.symbols.get(parameter);
+        domain.is_none_or(|domain| domain.admits(value))
+            && keeps(domains, &moved(&seen.point, &[(parameter.clone(), value)]))
     }
 }
 
