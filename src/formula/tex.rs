@@ -5,7 +5,7 @@ use super::fault::{Fault, Faulty, SETS, is_invisible};
 use super::lexer::{Before, Lexer, Tok};
 use super::name;
 use super::pair::Pair;
-use super::symbols::{Parts, letters_at};
+use super::symbols::{Parts, among, letters_at};
 use super::words::function;
 
 /// Words that a condition begins with.
@@ -404,6 +404,11 @@ fn nearest_command(word: &str) -> Option<Tok> {
     function(&word.to_ascii_lowercase())
 }
 
+/// Commands that only decorate.
+const DECORATION: &str = "left right big Big bigg Bigg bigl bigr Bigl Bigr biggl biggr Biggl Biggr displaystyle textstyle \
+    scriptstyle quad qquad limits thinspace medspace thickspace negthinspace negmedspace negthickspace \
+    enspace it rm bf sf nonumber mathstrut underline";
+
 /// Length of a command that only decorates, without its backslash.
 pub(super) fn decoration(rest: &str) -> Option<usize> {
     let first = rest.chars().next()?;
@@ -414,43 +419,7 @@ pub(super) fn decoration(rest: &str) -> Option<usize> {
         return Some(1);
     }
     let length = letters_at(rest);
-    let known = matches!(
-        &rest[..length],
-        "left"
-            | "right"
-            | "big"
-            | "Big"
-            | "bigg"
-            | "Bigg"
-            | "bigl"
-            | "bigr"
-            | "Bigl"
-            | "Bigr"
-            | "biggl"
-            | "biggr"
-            | "Biggl"
-            | "Biggr"
-            | "displaystyle"
-            | "textstyle"
-            | "scriptstyle"
-            | "quad"
-            | "qquad"
-            | "limits"
-            | "thinspace"
-            | "medspace"
-            | "thickspace"
-            | "negthinspace"
-            | "negmedspace"
-            | "negthickspace"
-            | "enspace"
-            | "it"
-            | "rm"
-            | "bf"
-            | "sf"
-            | "nonumber"
-            | "mathstrut"
-            | "underline"
-    );
+    let known = among(DECORATION, &rest[..length]);
     // The number of an equation.
     if matches!(&rest[..length], "tag" | "label") {
         let group = rest[length..].strip_prefix('{')?;

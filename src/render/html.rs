@@ -86,11 +86,7 @@ pub fn page(s: &Solution, pictures: &[Picture]) -> String {
 
 /// The same as one of several: HTML in front of the title, and at the end.
 pub fn page_among(s: &Solution, pictures: &[Picture], above: &str, below: &str) -> String {
-    let title = if s.title.is_empty() {
-        "Worked solution"
-    } else {
-        &s.title
-    };
+    let title = s.heading();
     let mut body = String::new();
     if !s.source.is_empty() {
         body.push_str(&format!("<p class=\"source\">{}</p>\n", escape(&s.source)));

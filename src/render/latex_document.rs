@@ -8,11 +8,7 @@ use crate::solution::{Inline, Line, Math, Part, Solution};
 
 /// A document that compiles on its own and holds its pictures.
 pub fn document(s: &Solution, pictures: &[Picture]) -> String {
-    let title = if s.title.is_empty() {
-        "Worked solution"
-    } else {
-        &s.title
-    };
+    let title = s.heading();
     format!(
         "\\documentclass[11pt]{{article}}\n\
          \\usepackage[T1]{{fontenc}}\n\
@@ -46,11 +42,7 @@ const LINE: usize = 80;
 
 /// The text alone, to be put into a document that loads amsmath and amssymb, and tikz where there are pictures.
 pub fn fragment(s: &Solution, pictures: &[Picture]) -> String {
-    let title = if s.title.is_empty() {
-        "Worked solution"
-    } else {
-        &s.title
-    };
+    let title = s.heading();
     let body = body(s, pictures);
     // The document around it may say how a wide formula is made to fit.
     let fitted = match body.contains("\\fitted") {

@@ -10,11 +10,7 @@ use crate::solution::{Inline, Line, Part, Solution};
 /// The whole solution; `pictures` are linked by their file names.
 pub fn solution(s: &Solution, pictures: &[(Picture, String)]) -> String {
     let mut blocks: Vec<String> = Vec::new();
-    let title = if s.title.is_empty() {
-        "Worked solution"
-    } else {
-        &s.title
-    };
+    let title = s.heading();
     blocks.push(format!("# {}", text(title)));
     if !s.source.is_empty() {
         blocks.push(format!("*{}*", text(&s.source)));

@@ -85,6 +85,14 @@ pub struct Solution {
 }
 
 impl Solution {
+    /// What stands above it.
+    pub fn heading(&self) -> &str {
+        match self.title.is_empty() {
+            true => "Worked solution",
+            false => &self.title,
+        }
+    }
+
     /// Lets the text begin with why its result cannot happen.
     pub fn begin_with(&mut self, refusal: &str) {
         let first = Section {
