@@ -249,8 +249,8 @@ impl Work<'_> {
     }
 
     pub(super) fn moving(&self, of: Option<usize>) -> Vec<usize> {
-        let moves = |b: &usize| of.is_none_or(|o| o == *b) && !self.scene.bodies[*b].is_fixed();
-        (0..self.scene.bodies.len()).filter(moves).collect()
+        let all = self.scene.moving();
+        all.filter(|b| of.is_none_or(|o| o == *b)).collect()
     }
 
     /// Kinetic energy \[J\] as a sum; `None` where a velocity is not determined.

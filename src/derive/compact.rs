@@ -575,13 +575,8 @@ impl Parts {
         meaning: &str,
     ) -> Expr {
         let symbol = Expr::symbol(work.names.plain(unknown));
-        if work.names.is_reversed(unknown) {
-            self.define(&symbol, -value, meaning);
-            -symbol
-        } else {
-            self.define(&symbol, value, meaning);
-            symbol
-        }
+        self.define(&symbol, work.names.signed(unknown, value), meaning);
+        work.names.signed(unknown, symbol)
     }
 
     fn define(&mut self, symbol: &Expr, value: Expr, meaning: &str) {

@@ -150,7 +150,7 @@ impl Work<'_> {
             .collect();
         pairs.iter().any(|pair| {
             let both = |b: &usize| pair.iter().all(|c| c.bodies.contains(b));
-            let mut moving = (0..scene.bodies.len()).filter(|b| !scene.bodies[*b].is_fixed());
+            let mut moving = scene.moving();
             moving.any(|b| both(&b) && self.reaches(pair, &scene.bodies[b]))
         })
     }

@@ -139,9 +139,7 @@ fn count_symbolically(scene: &Scene, laws: &[Law], unknowns: &[Unknown]) -> Resu
 
 /// Balances of all movable bodies together: combinations of those of the single bodies.
 fn system_balances(scene: &Scene) -> Vec<Law> {
-    let system: Vec<usize> = (0..scene.bodies.len())
-        .filter(|&b| !scene.bodies[b].is_fixed())
-        .collect();
+    let system: Vec<usize> = scene.moving().collect();
     if system.len() < 2 {
         return Vec::new();
     }

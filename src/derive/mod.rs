@@ -86,10 +86,7 @@ impl Derivation {
     /// The motion just after and the impulses that are determined, each by the symbol that stands for it.
     pub fn motion_by_name(&self) -> impl Iterator<Item = (Unknown, Symbol, Expr)> {
         self.motion.iter().map(|(unknown, value)| {
-            let value = match self.names.is_reversed(*unknown) {
-                true => -value,
-                false => value.clone(),
-            };
+            let value = self.names.signed(*unknown, value.clone());
             (*unknown, Symbol::from(self.names.plain(*unknown)), value)
         })
     }

@@ -57,6 +57,19 @@ impl Names {
         self.reversed.contains(&unknown)
     }
 
+    /// What an unknown is, from the value of its symbol, or the other way round.
+    pub fn signed(&self, unknown: Unknown, value: Expr) -> Expr {
+        match self.is_reversed(unknown) {
+            true => -value,
+            false => value,
+        }
+    }
+
+    /// An unknown by its symbol.
+    pub fn symbol(&self, unknown: Unknown) -> Expr {
+        self.signed(unknown, Expr::symbol(self.plain(unknown)))
+    }
+
     /// A symbol near `wanted` that nothing else uses.
     pub fn fresh(&mut self, wanted: &str) -> String {
         let mut name = wanted.to_string();

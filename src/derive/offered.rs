@@ -61,9 +61,7 @@ pub(super) fn candidate_laws(
 /// Connected systems of movable bodies: all of them in small scenes; else single bodies, the two sides of every joint of
 /// the tree, and whole components.
 fn systems(scene: &Scene, reduction: &Reduction) -> Vec<Vec<usize>> {
-    let free: Vec<usize> = (0..scene.bodies.len())
-        .filter(|&b| !scene.bodies[b].is_fixed())
-        .collect();
+    let free: Vec<usize> = scene.moving().collect();
     let mut edges: Vec<[usize; 2]> = scene.hinges.iter().map(|h| h.bodies).collect();
     edges.extend(scene.contacts.iter().map(|c| c.bodies));
     let mut systems: Vec<Vec<usize>> = free.iter().map(|&b| vec![b]).collect();

@@ -411,8 +411,7 @@ impl<'a> Work<'a> {
     /// The value of the symbol of an unknown that has one, to be written when it is shown.
     fn solved(&self, unknown: Unknown) -> Solved {
         match self.parts.as_ref().and_then(|p| p.closed(unknown)) {
-            Some(closed) if self.names.is_reversed(unknown) => Solved::Written(-closed),
-            Some(closed) => Solved::Written(closed),
+            Some(closed) => Solved::Written(self.names.signed(unknown, closed)),
             None => Solved::Closed(self.symbol_element(unknown, &self.values[&unknown])),
         }
     }
@@ -478,11 +477,7 @@ impl<'a> Work<'a> {
         for unknown in long {
             let value = self.symbol_value(unknown, &self.values[&unknown]);
             let symbol = Expr::symbol(self.names.plain(unknown));
-            let signed = if self.names.is_reversed(unknown) {
-                -&symbol
-            } else {
-                symbol.clone()
-            };
+            let signed = self.names.signed(unknown, symbol.clone());
             // A symbol is within every limit.
             if let (Ok(element), Some(name)) = (self.field.element(&signed), symbol.as_symbol()) {
                 let meaning = String::from("as solved above");

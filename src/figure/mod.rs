@@ -248,8 +248,7 @@ fn is_readable(scene: &Scene) -> bool {
 
 /// The pictures a scene has, in order.
 pub fn kinds(scene: &Scene) -> Vec<Which> {
-    let movable = (0..scene.bodies.len()).filter(|i| !scene.bodies[*i].is_fixed());
-    let mut movable: Vec<usize> = movable.collect();
+    let mut movable: Vec<usize> = scene.moving().collect();
     let touched = |i: &usize| {
         let hinges = scene.hinges.iter().map(|h| &h.bodies);
         let mut joints = hinges.chain(scene.contacts.iter().map(|c| &c.bodies));

@@ -112,9 +112,7 @@ impl Stage<'_> {
 
     /// Movable bodies.
     pub fn movable(&self) -> Vec<usize> {
-        (0..self.scene.bodies.len())
-            .filter(|i| !self.scene.bodies[*i].is_fixed())
-            .collect()
+        self.scene.moving().collect()
     }
 
     /// How far a particle is drawn from its place, so that it is seen beside what it touches.

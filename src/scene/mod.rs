@@ -264,6 +264,11 @@ impl Scene {
         !self.bodies[b].is_fixed() && (!self.bodies[b].mass.is_zero() || self.takes_part(b))
     }
 
+    /// The bodies that can move.
+    pub fn moving(&self) -> impl Iterator<Item = usize> + Clone {
+        (0..self.bodies.len()).filter(|b| !self.bodies[*b].is_fixed())
+    }
+
     /// Positions of its points relative to one another, r_{B/C} from C to B \[m\], none where there are many; G is the center
     /// of mass of the one body that can move.
     pub fn arms(&self) -> Vec<(String, Vector)> {
@@ -297,7 +302,9 @@ impl Scene {
     pub fn acting_at(&self) -> impl Iterator<Item = &Vector> {
         let hinges = self.hinges.iter().map(|h| &h.at);
         let contacts = self.contacts.iter().map(|c| &c.at);
-        hinges.chain(contacts).chain(self.blows.iter().map(|b| &b.at))
+        hinges
+            .chain(contacts)
+            .chain(self.blows.iter().map(|b| &b.at))
     }
 
     /// The system of units that its data are in.

@@ -55,9 +55,7 @@ impl Writer<'_> {
     pub(super) fn angular_momentum(&mut self, system: &[usize], about: Place) {
         let o = words::point(self.scene, about);
         let index = match about {
-            Place::Center(_) if self.scene.bodies.iter().filter(|b| !b.is_fixed()).count() == 1 => {
-                String::from("G")
-            }
+            Place::Center(_) if self.scene.moving().count() == 1 => String::from("G"),
             // Of two balances about one point the second says whose it is.
             _ => match (
                 self.told.insert(Symbol::from(format!("H about {o}"))),

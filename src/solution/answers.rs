@@ -214,9 +214,8 @@ impl Writer<'_> {
     }
 
     fn energy(&mut self, when: EnergyWhen, of: Option<usize>, answers: &[Answer]) {
-        let moving: Vec<usize> = (0..self.scene.bodies.len())
-            .filter(|b| of.is_none_or(|o| o == *b) && !self.scene.bodies[*b].is_fixed())
-            .collect();
+        let moving = self.scene.moving();
+        let moving: Vec<usize> = moving.filter(|b| of.is_none_or(|o| o == *b)).collect();
         let half = Expr::ratio(1, 2);
         let (mut before, mut after) = (Vec::new(), Vec::new());
         for &b in &moving {

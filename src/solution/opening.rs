@@ -18,9 +18,7 @@ pub(super) const NUMBERS: &str = "In numbers: ";
 impl Solution {
     /// Explains the letter of a center of mass where the text uses it, and the values that numbers were found with.
     pub(super) fn explain(&mut self, scene: &Scene) {
-        let moving: Vec<usize> = (0..scene.bodies.len())
-            .filter(|b| !scene.bodies[*b].is_fixed())
-            .collect();
+        let moving: Vec<usize> = scene.moving().collect();
         let uses = |math: &[Math]| uses_center(math);
         let used = self
             .sections

@@ -50,7 +50,7 @@ impl Writer<'_> {
 
     /// Says why nothing changes these, and what they are. An axis along which no body moves is told once for all.
     pub(super) fn keeps(&mut self, blocks: &[&Block]) {
-        let bodies = self.scene.bodies.iter().filter(|b| !b.is_fixed()).count();
+        let bodies = self.scene.moving().count();
         let mut rest = blocks.to_vec();
         // Of what earlier stages leave open there is nothing to tell.
         rest.retain(|block| {

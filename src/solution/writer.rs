@@ -214,12 +214,7 @@ impl<'a> Writer<'a> {
         if self.zero.contains(&u) {
             return Expr::zero();
         }
-        let symbol = Expr::symbol(self.d.names.plain(u));
-        if self.d.names.is_reversed(u) {
-            -symbol
-        } else {
-            symbol
-        }
+        self.d.names.symbol(u)
     }
 
     /// An affine form in the symbols of its unknowns, untidied.

@@ -140,7 +140,7 @@ fn answers(case: &Case) -> Vec<Answer> {
 /// The motion after an impact that nothing follows: worked out where it is asked for, and left open here.
 fn unasked(scene: &Scene, before: &State) -> State {
     let mut after = before.clone();
-    for b in (0..scene.bodies.len()).filter(|b| !scene.bodies[*b].is_fixed()) {
+    for b in scene.moving() {
         after.lose(scene, b, "nothing follows this impact", true);
     }
     after

@@ -124,7 +124,7 @@ pub(super) fn velocity(
     let body = match of {
         Some(of) => resolver.moving(of)?,
         None => {
-            let mut moving = (0..scene.bodies.len()).filter(|b| !scene.bodies[*b].is_fixed());
+            let mut moving = scene.moving();
             match (moving.next(), moving.next()) {
                 (Some(only), None) => only,
                 _ => {
