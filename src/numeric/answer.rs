@@ -7,7 +7,7 @@ use super::energy::{energy_after, energy_before, energy_lost, velocity_after};
 use std::fmt;
 
 use super::friction::{Followed, settle};
-use super::given::{Given, GivenImpulse, GivenLaw, Undefined, given, vector};
+use super::given::{Given, GivenImpulse, GivenLaw, Reason, Undefined, given, vector};
 use super::path::NoPath;
 use super::solution::{Contradiction, Motion, Solution, motion};
 use super::system::{Law, System, Unknown, assemble, motion_of};
@@ -68,6 +68,13 @@ pub enum NoAnswer {
     NoPoint(NoPoint),
     /// No enclosure tells the equations apart from singular ones; at irrational values that cannot be decided.
     Undecided,
+}
+
+impl NoAnswer {
+    /// Whether it is wanting in this number type alone.
+    pub fn is_of_number_type(&self) -> bool {
+        matches!(self, NoAnswer::Undefined(undefined) if undefined.reason == Reason::NotANumber)
+    }
 }
 
 impl fmt::Display for NoAnswer {

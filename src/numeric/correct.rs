@@ -70,6 +70,7 @@ impl CorrectAnswers {
 /// Everything a scene asks for, correctly rounded.
 pub fn correct(scene: &Scene) -> Result<CorrectAnswers, NoAnswer> {
     given_values(scene).map_err(NoAnswer::NoPoint)?;
+    let mut best = None;
     if let Ok(at) = exact_values(scene) {
         match given(scene, &at) {
             Ok(numbers) => {
@@ -77,7 +78,13 @@ pub fn correct(scene: &Scene) -> Result<CorrectAnswers, NoAnswer> {
                 let clash = |c: Contradiction| NoAnswer::Contradiction(c.laws(&system));
                 let solution = solve_exact(&system).map_err(clash)?;
                 let rounded = |v: &Rational| Correct::Rounded(to_f64(v), How::Exact);
-                return Ok(told(scene, &at, &numbers, &system, &solution, rounded));
+                let exact = told(scene, &at, &numbers, &system, &solution, rounded);
+                // A direction such as π/3 is no pair of fractions where all else is one.
+                let mut all = exact.answers.iter();
+                if !all.any(|(_, a)| a.as_ref().is_err_and(NoAnswer::is_of_number_type)) {
+                    return Ok(exact);
+                }
+                best = Some(exact);
             }
             Err(undefined) if undefined.reason != Reason::NotANumber => {
                 return Err(NoAnswer::Undecided);
@@ -87,7 +94,6 @@ pub fn correct(scene: &Scene) -> Result<CorrectAnswers, NoAnswer> {
     }
     // Enclosures never tell that an equation follows from others: those that do at random points are left out.
     let part = regular_part(scene).filter(|part| !part.is_whole());
-    let mut best = None;
     for enclosed in [enclosed::<256>, enclosed::<1024>, enclosed::<4096>] {
         let Some(mut found) = enclosed(scene, part.as_ref())? else {
             continue;

@@ -66,7 +66,20 @@ fn with_friction(scene: &Scene) -> Result<Answered<f64>, NoAnswer> {
     {
         let answer = |a: Answer<Rational>| a.map(|x| to_f64(&x));
         let named = found.into_iter();
-        return Ok(named.map(|(name, a)| (name, a.map(answer))).collect());
+        let mut found: Answered<f64> = named.map(|(name, a)| (name, a.map(answer))).collect();
+        if (found.iter()).any(|(_, a)| a.as_ref().is_err_and(NoAnswer::is_of_number_type)) {
+            let point = values(scene).map_err(NoAnswer::NoPoint)?;
+            let doubles = answers(scene, &point, solve_f64)?;
+            for (name, double) in doubles {
+                let mut same = found.iter_mut().filter(|(of, _)| *of == name);
+                if let Some((_, a)) = same.next()
+                    && a.as_ref().is_err_and(NoAnswer::is_of_number_type)
+                {
+                    *a = double;
+                }
+            }
+        }
+        return Ok(found);
     }
     let point = values(scene).map_err(NoAnswer::NoPoint)?;
     answers(scene, &point, solve_f64)

@@ -318,7 +318,11 @@ impl Ask {
             Ask::Value {
                 polar: Some([x, y]),
                 ..
-            } => Some(y.evaluate(names)?.atan2(x.evaluate(names)?)),
+            } => {
+                let [x, y] = [x.evaluate(names)?, y.evaluate(names)?];
+                // What is at rest moves in no direction.
+                (x != 0.0 || y != 0.0).then(|| y.atan2(x))
+            }
             Ask::Value { formula, .. } => formula.evaluate(names),
             _ => None,
         }

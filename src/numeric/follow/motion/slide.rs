@@ -573,10 +573,14 @@ fn to_the_end(
             let mut run = mechanism
                 .until_grown(&first.end, &|y| -wanes(y))
                 .map_err(stopped(never))?;
-            if acting.spring.is_some() {
-                // It rests there: what is left of its speed is rounding, and there may be no other speed to measure it by.
-                run.end[n..].fill(0.0);
-            }
+            // Where it rests, what is left of its speed is rounding; on a spring there may be no other speed to measure it by.
+            let rest = match acting.spring.is_some() {
+                true => f64::INFINITY,
+                false if stops => ROUNDING,
+                false => 0.0,
+            };
+            let rates = run.end[n..].iter_mut().filter(|v| v.abs() < rest);
+            rates.for_each(|v| *v = 0.0);
             run.time += first.time;
             run.samples
                 .iter_mut()

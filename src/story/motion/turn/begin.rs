@@ -87,13 +87,13 @@ fn from_rest(
     declared: Option<i64>,
 ) -> Result<(i64, Option<(Expr, Sentence)>), Refused> {
     let body = &stage.scene.bodies[turn.body].name;
-    if turn.torque.is_some() {
-        return Ok((declared.unwrap_or(1), None));
-    }
     let moment = match turn.gravity {
         Some(_) => -&minus(&turn.lump(&stage.scene).center, &turn.about)[0],
         None => Expr::zero(),
     };
+    if let Some(torque) = &turn.torque {
+        return driven(stage, turn, declared, [torque, &moment]);
+    }
     let told = match sign(&moment, &stage.scene.domains) {
         Seen::Proved(Sign::NotNegative) => Some(true),
         Seen::Proved(Sign::NotPositive) => Some(false),
@@ -143,6 +143,38 @@ fn from_rest(
         ),
     };
     Ok((way, Some((need, words))))
+}
+
+/// The same where a moment acts in the sense of the rotation: it has to overcome the weight where this is against it.
+fn driven(
+    stage: &Stage,
+    turn: &Turn,
+    declared: Option<i64>,
+    [torque, arm]: [&Expr; 2],
+) -> Result<(i64, Option<(Expr, Sentence)>), Refused> {
+    let body = &stage.scene.bodies[turn.body].name;
+    let Some(g) = turn.gravity.as_ref().filter(|_| !arm.is_zero()) else {
+        return Ok((declared.unwrap_or(1), None));
+    };
+    let Some(way) = declared else {
+        let why = format!(
+            "`{body}` is at rest, and whether its moment turns it with its weight or against it is not said"
+        );
+        let hint = "add \"clockwise\": true or false: the moment acts in the sense of the rotation";
+        return Err(Refused::new(&stage.name, why, hint));
+    };
+    let weight = &(&turn.lump(&stage.scene).mass * g) * arm;
+    let need = tidied(stage, &(torque + &(&Expr::from(way) * &weight)))?;
+    let needed = match sign(&need, &stage.scene.domains) {
+        Seen::Proved(s) if s.is_not_negative() => None,
+        _ => {
+            let condition = at_least_zero(&need, &stage.scene.domains);
+            let sense = sense_words(way);
+            let words = sentence!("{}, so that `{}` begins to turn {}", condition, body, sense);
+            Some((need, words))
+        }
+    };
+    Ok((way, needed))
 }
 
 /// A particle that goes round a point has no spin of its own, but an angular velocity about the point.
