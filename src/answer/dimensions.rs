@@ -41,6 +41,7 @@ fn clashes(at: &str, reason: String) -> Refused {
 pub fn dimension_of(scene: &Scene, e: &Expr, at: &str) -> Result<Dimension, Refused> {
     match dimension::of(e, &|name| dimension_of_parameter(scene, name)) {
         Ok(found) => Ok(found.unwrap_or_else(Dimension::none)),
+        Err(_) if scene.has_plain_numbers() => Ok(Dimension::none()),
         Err(clash) => Err(clashes(at, clash.message(&write_plain))),
     }
 }
@@ -74,9 +75,9 @@ impl Work<'_> {
         // Of an answer that is 0 nothing can be told: it stands for itself.
         let plain = known.iter().filter(|(_, v)| of_answer(v).is_none());
         let plain: Known = plain.map(|(s, v)| (s.clone(), v.clone())).collect();
-        dimension::of(&e.substitute(&plain), &of).or_else(|clash| {
-            let by_kind = dimension::of(e, &asked);
-            by_kind.map_err(|_| clashes(self.name, clash.message(&write_plain)))
+        dimension::of(&e.substitute(&plain), &of).or_else(|clash| match dimension::of(e, &asked) {
+            Err(_) if scene.has_plain_numbers() => Ok(None),
+            by_kind => by_kind.map_err(|_| clashes(self.name, clash.message(&write_plain))),
         })
     }
 

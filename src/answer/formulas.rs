@@ -258,10 +258,14 @@ impl Work<'_> {
                 formula,
                 with,
                 meaning,
+                dimension,
                 polar,
             } => match polar {
                 Some(parts) => self.direction(formula, parts, meaning),
-                None => self.value(of.unwrap_or(formula), with, meaning),
+                None => {
+                    let told = (meaning.as_str(), dimension.as_ref());
+                    self.value(of.unwrap_or(formula), with, told)
+                }
             },
             Ask::Condition {
                 parameter,
@@ -314,7 +318,7 @@ impl Work<'_> {
         &self,
         formula: &Expr,
         with: &[(Symbol, Expr)],
-        meaning: &str,
+        (meaning, dimension): (&str, Option<&Dimension>),
     ) -> Result<Answer, Refused> {
         let mut out = self.blank(match meaning {
             "" => format!("value of {}", write_plain(formula)),
@@ -322,10 +326,11 @@ impl Work<'_> {
         });
         let value = self.put(formula, with)?;
         self.put_in_fits(with)?;
-        out.dimension = match self.stated_dimension(formula)? {
-            Some(stated) => stated,
-            None if with.is_empty() => self.dimension_of(&value)?,
-            None => Dimension::none(),
+        out.dimension = match (dimension, self.stated_dimension(formula)?) {
+            (Some(told), _) => told.clone(),
+            (None, Some(stated)) => stated,
+            (None, None) if with.is_empty() => self.dimension_of(&value)?,
+            (None, None) => Dimension::none(),
         };
         out.assumptions.extend(self.divided_by(&value));
         let raw = self.raw(formula, with);

@@ -149,6 +149,8 @@ pub enum Ask {
         with: Vec<(Symbol, Expr)>,
         /// What it is, such as the speed of a body; empty for a formula that a scene writes itself.
         meaning: String,
+        /// Its dimension, where what it is tells that.
+        dimension: Option<Dimension>,
         /// Of the direction of a velocity, whose angle the formula is: the components, along x and y.
         polar: Option<Vector>,
     },

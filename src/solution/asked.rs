@@ -438,6 +438,7 @@ fn found(
             with,
             meaning,
             polar: None,
+            ..
         } = ask
             && with.is_empty()
             && (meaning.is_empty() || is_of_answers(asked))

@@ -47,6 +47,7 @@ pub(super) fn thresholds(
                     FrictionEvent::Slides => "largest coefficient of friction with which it slides",
                     FrictionEvent::Jams => "least coefficient of friction with which it jams",
                 }),
+                dimension: None,
                 polar: None,
             };
         }

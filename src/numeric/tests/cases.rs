@@ -210,3 +210,30 @@ fn a_body_index_out_of_range_is_an_error() {
     scene.contacts[0].bodies[1] = 9;
     assert!(given(&scene, &Point::<Rational>::default()).is_err());
 }
+
+#[test]
+fn a_component_along_any_angle_is_a_double_where_all_else_is_a_fraction() {
+    for law in [
+        r#""frictionless", "restitution": "1/2""#,
+        r#""friction", "mu": "1/3", "hypothesis": "poisson", "restitution": "1/2""#,
+    ] {
+        let text = format!(
+            r#"{{
+  "parameters": {{"m": {{"unit": "kg", "value": 1}}, "v": {{"unit": "m/s", "value": 2}}}},
+  "bodies": {{"w": {{"shape": "fixed"}}, "b": {{"shape": "particle", "mass": "m", "center": [0, 0], "velocity": [0, "-v"]}}}},
+  "contacts": {{"K": {{"bodies": ["w", "b"], "normal": "y", "law": {law}}}}},
+  "questions": {{"u": {{"velocity": "b", "along": {{"angle": "pi/6"}}}}, "w": {{"velocity": "b", "along": {{"angle": "pi/3"}}}}}}
+}}"#
+        );
+        let scene = crate::scene::read(&text).expect("a valid scene");
+        let found = crate::numeric::doubles(&scene).expect("numbers");
+        let along: Vec<f64> = (found.into_iter())
+            .filter_map(|(_, a)| a.ok()?.components().first().map(|(_, v)| *v))
+            .collect();
+        // The ball rises at 1 m/s.
+        let [u, w] = along[..] else {
+            panic!("two components: {along:?}");
+        };
+        assert!((u - 0.5).abs() < 1e-15 && (w - 0.75f64.sqrt()).abs() < 1e-15);
+    }
+}

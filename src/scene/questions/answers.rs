@@ -33,6 +33,7 @@ impl Reader<'_, '_> {
                 formula: self.formula(f)?,
                 with: self.with(q.with.as_ref())?,
                 meaning: String::new(),
+                dimension: None,
                 polar: None,
             });
         }

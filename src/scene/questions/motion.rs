@@ -21,19 +21,20 @@ pub(super) fn ask(
 ) -> Option<(Option<usize>, Ask)> {
     let velocity = || told::parts_of(&format!("{}_velocity", name.text));
     let told = match (&q.speed, &q.direction, &q.inertia) {
-        (Some(_), ..) => Some((told::size(&velocity()), None)),
+        (Some(_), ..) => Some(("speed", told::size(&velocity()), None)),
         (_, Some(_), _) => {
             let (angle, polar) = told::direction(velocity(), q.clockwise == Some(true));
-            Some((angle, Some(polar)))
+            Some(("direction", angle, Some(polar)))
         }
-        (.., Some(_)) => Some((told::inertia(base, scene, name, q)?, None)),
+        (.., Some(_)) => Some(("inertia", told::inertia(base, scene, name, q)?, None)),
         _ => None,
     };
-    if let Some((formula, polar)) = told {
+    if let Some((kind, formula, polar)) = told {
         let ask = Ask::Value {
             formula,
             with: Vec::new(),
             meaning: told::meaning(q, base.file.stages.as_deref().unwrap_or_default()),
+            dimension: Some(told::dimension(kind)),
             polar,
         };
         return Some((None, ask));

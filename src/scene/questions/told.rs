@@ -4,6 +4,7 @@
 //! Each becomes a [`Ask::Value`]; the velocities it takes are asked for too, unless they are already.
 
 use super::impact;
+use crate::dimension::Dimension;
 use crate::expr::{Expr, Vector, cross, dot, minus};
 use crate::formula::with_subscript;
 use crate::scene::fault::Fault;
@@ -38,6 +39,7 @@ pub(super) fn resolve(
             formula,
             with: Vec::new(),
             meaning,
+            dimension: Some(dimension(kind)),
             polar,
         };
         scene.questions.push(Question::new(&name, latex, ask));
@@ -106,6 +108,18 @@ pub(super) fn resolve(
         }
     }
     Some(())
+}
+
+/// The dimension of one of these.
+pub(super) fn dimension(kind: &str) -> Dimension {
+    match kind {
+        "inertia" => Dimension::new(1, 2, 0),
+        "angular_momentum" => Dimension::new(1, 2, -1),
+        "instantaneous_center" => Dimension::new(0, 1, 0),
+        "spin" => Dimension::new(0, 0, -1),
+        "direction" => Dimension::none(),
+        _ => Dimension::new(0, 1, -1),
+    }
 }
 
 /// The velocity of which the size or the direction is asked.
