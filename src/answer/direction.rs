@@ -64,7 +64,11 @@ impl Work<'_> {
                 tidied(&half.substitute(self.known))?
             }
         };
-        out.form = Form::value(angle);
+        // An angle known by heart is told as such: atan(1) − π as −3π/4.
+        out.form = Form::value(match angle.is_constant() {
+            true => tidied(&angle)?,
+            false => angle,
+        });
         let words = match is_by_quarter {
             true => {
                 "its tangent is the quotient of the components, whose signs are proved and tell the quarter"

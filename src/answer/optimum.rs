@@ -462,9 +462,19 @@ impl Search<'_> {
         let is_pole = |(x, open): &(Expr, bool)| {
             let there = BTreeMap::from([(p.clone(), x.clone())]);
             let mut divisors = self.f.parts().filter_map(|part| divisor(part, p));
-            *open && divisors.any(|d| !sign(&d.substitute(&there), self.domains).is_proved())
+            let is_zero = |d: &Expr| {
+                let seen = sign(&d.substitute(&there), self.domains);
+                !matches!(seen, Seen::Proved(Sign::Positive | Sign::Negative))
+            };
+            *open && divisors.any(is_zero)
         };
-        let [Some(low), Some(high)] = ends.map(|end| end.filter(|end| !is_pole(end))) else {
+        if let Some((end, _)) = ends.iter().flatten().find(|end| is_pole(end)) {
+            let end = write_plain(end);
+            return Err(self.refused(format!(
+                "near {p} = {end}, which its range excludes, the value grows or falls beyond all bounds"
+            )));
+        }
+        let [Some(low), Some(high)] = ends else {
             let why = format!(
                 "the derivative with respect to {p} vanishes where the value is not largest, and the interval does not end"
             );

@@ -101,6 +101,7 @@ fn impact(scene: &Scene, value: &Value) -> Result<Impact, Unusable> {
     let placed = stage.placed(&places);
     let mut out = placed.scene;
     out.domains = scene.domains.clone();
+    out.carry_points(scene, |e| vanishes(scene, e), |e| e);
     for symbol in open.iter().chain(handed.keys()) {
         out.parameters.push(plain(symbol));
     }
@@ -138,6 +139,14 @@ fn impact(scene: &Scene, value: &Value) -> Result<Impact, Unusable> {
         earlier,
         needs: needs(&symbols, &value["needs"])?,
     })
+}
+
+/// Whether an expression is zero where it is tried.
+fn vanishes(scene: &Scene, e: &Expr) -> bool {
+    let mut needed = numeric::Needed::default();
+    needed.add(e);
+    let at = |seed| numeric::rounded(&numeric::random_point(&needed, &scene.domains, seed));
+    (1..=SEEN).all(|seed| e.evaluate(&at(seed)).is_some_and(|v| v.abs() < 1e-12))
 }
 
 /// The numbers of the sign that a value handed on has where it is tried.

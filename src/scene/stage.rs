@@ -6,7 +6,9 @@
 
 use std::collections::BTreeMap;
 
-use super::{Ask, BlowImpulse, Body, Contact, ContactLaw, KnownQuantity, Question, Scene, Shape};
+use super::{
+    Ask, BlowImpulse, Body, Contact, ContactLaw, KnownQuantity, Question, Scene, Shape, direction,
+};
 use crate::expr::{Expr, Symbol, Vector, dot, minus};
 
 /// A group of stages that happens several times, one turn after the other, as the file writes it.
@@ -132,6 +134,43 @@ impl Body {
 }
 
 impl Scene {
+    /// Lets what is asked of a point of a body in an impact be asked where the body has carried it since the file's beginning,
+    /// unless something acts at the place that the file gives.
+    pub fn carry_points(
+        &mut self,
+        file: &Scene,
+        is_zero: impl Fn(&Expr) -> bool,
+        tidied: impl Fn(Expr) -> Expr,
+    ) {
+        let acting: Vec<Vector> = self.acting_at().cloned().collect();
+        for question in &mut self.questions {
+            let Ask::Velocity {
+                body,
+                point: Some((name, at)),
+                ..
+            } = &mut question.ask
+            else {
+                continue;
+            };
+            let Some(point) = file.points.iter().find(|p| p.name == *name) else {
+                continue;
+            };
+            let is_there = |place: &Vector| minus(place, at).iter().all(&is_zero);
+            let (now, first) = (&self.bodies[*body], &file.bodies[*body]);
+            if now.is_particle() || acting.iter().any(is_there) {
+                continue;
+            }
+            let [p, q] = minus(&point.at, &first.center);
+            let [c, s] = direction(&(&now.angle - &first.angle));
+            let [x, y] = &now.center;
+            let there = [
+                x + &(&(&p * &c) - &(&q * &s)),
+                y + &(&(&p * &s) + &(&q * &c)),
+            ];
+            *at = there.map(&tidied);
+        }
+    }
+
     /// The first turn of a repeated group as a scene of its own, which begins wherever one lets it.
     pub fn turn(&self, turns: &Turns) -> Scene {
         let range = turns.turn(1);

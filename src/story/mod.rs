@@ -131,7 +131,10 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
                     .symbols
                     .insert(open.clone(), Domain::real());
             }
-            carry_points(scene, &mut placed, &before);
+            let domains = placed.scene.domains.clone();
+            let is_zero = |e: &Expr| is_zero(e, &domains) == Some(true);
+            let tidied = |e: Expr| tidy(&e, &domains).unwrap_or(e);
+            placed.scene.carry_points(scene, is_zero, tidied);
             // A motion goes on where the case that leads to it happens; an impact weighs its own conditions.
             if !matches!(stage.kind, StageKind::Impact { .. }) {
                 for (_, need) in &given {
@@ -188,35 +191,6 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
         ended,
         ..Told::default()
     })
-}
-
-/// What is asked of a point of a body in an impact is asked where the body has carried the point by then, unless something acts
-/// at the place where the file has it.
-fn carry_points(scene: &Scene, placed: &mut Stage, before: &State) {
-    let domains = placed.scene.domains.clone();
-    let same = |a: &Vector, b: &Vector| {
-        let mut gaps = a.iter().zip(b).map(|(a, b)| a - b);
-        gaps.all(|gap| is_zero(&gap, &domains) == Some(true))
-    };
-    let acting: Vec<Vector> = placed.scene.acting_at().cloned().collect();
-    for question in &mut placed.scene.questions {
-        let Ask::Velocity {
-            body,
-            point: Some((name, at)),
-            ..
-        } = &mut question.ask
-        else {
-            continue;
-        };
-        let is_named = scene.points.iter().any(|p| p.name == *name);
-        if !is_named || acting.iter().any(|place| same(place, at)) {
-            continue;
-        }
-        let arm = before.carried(scene, *body, name);
-        let center = &before.center[*body];
-        let there = [&center[0] + &arm[0], &center[1] + &arm[1]];
-        *at = there.map(|c| tidy(&c, &domains).unwrap_or(c));
-    }
 }
 
 /// What a motion needs and the given values do not keep to.

@@ -350,7 +350,15 @@ pub(in crate::story) fn tell(scene: &Scene, ask: &Ask, needs: &[Need], answer: &
         }
     }
     answer.assumptions.sort();
-    answer.assumptions.dedup();
+    // The same condition for two reasons is told once; for one of several values it may be told of each.
+    let alike = |a: &Sentence, b: &Sentence| {
+        let [a_needs, b_needs] = [a, b].map(|s| s.conditions().collect::<Vec<_>>());
+        let of_one = |s: &Sentence| s.to_string().contains(", for ");
+        !a_needs.is_empty() && a_needs == b_needs && !of_one(a) && !of_one(b)
+    };
+    answer
+        .assumptions
+        .dedup_by(|later, first| later == first || alike(later, first));
 }
 
 /// Whether an answer says by itself that something needed holds.
