@@ -403,6 +403,19 @@ pub(super) fn values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fa
     if gaps.iter().any(|gap| joins(gap, &AND)) && gaps.iter().any(|gap| joins(gap, &OR)) {
         gaps.retain(|gap| joins(gap, &OR));
     }
+    // So does a comma between equations for several names; semicolons may part such groups.
+    let mut alternatives = false;
+    if let Some((pieces, several)) = equated(&text[start..stop], &gaps) {
+        let has = |sign: &[&str]| gaps.iter().any(|gap| joins(gap, sign));
+        if has(&OR) {
+            gaps.retain(|gap| joins(gap, &OR));
+        } else if has(&[";"]) && has(&[","]) && several {
+            gaps.retain(|gap| joins(gap, &[";"]));
+            alternatives = true;
+        } else if !several && pieces.iter().filter(|piece| has_either_sign(piece)).count() > 1 {
+            return in_either_sign(&text[..stop], symbols);
+        }
+    }
     if list && gaps.is_empty() {
         let one = read_either(&text[..stop], start, symbols, 0).ok();
         return one
@@ -433,7 +446,7 @@ pub(super) fn values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fa
         .flat_map(|part| part.notes.iter().cloned())
         .collect();
     let between = |signs: &[&str]| gaps.iter().any(|gap| joins(gap, signs));
-    let said = match between(&OR) {
+    let said = match alternatives || between(&OR) {
         true => Some(Join::Or),
         false => between(&AND).then_some(Join::And),
     };
@@ -462,6 +475,49 @@ pub(super) fn values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fa
     }))
 }
 
+/// The pieces between gaps where each is an equation and not all are for the same, and whether several are for the same.
+fn equated<'a>(text: &'a str, gaps: &[(usize, usize)]) -> Option<(Vec<&'a str>, bool)> {
+    let starts = std::iter::once(0).chain(gaps.iter().map(|gap| gap.1));
+    let ends = gaps.iter().map(|gap| gap.0).chain([text.len()]);
+    let pieces: Vec<&str> = starts.zip(ends).map(|(from, to)| &text[from..to]).collect();
+    let left = |piece: &&str| {
+        let (left, right) = piece.split_once('=')?;
+        let is_plain = !right.contains('=') && !left.ends_with(['<', '>', '!']);
+        is_plain.then(|| left.trim_matches([' ', '$']).to_owned())
+    };
+    let mut names: Vec<String> = pieces.iter().map(left).collect::<Option<_>>()?;
+    let all = names.len();
+    names.sort();
+    names.dedup();
+    (names.len() > 1).then_some((pieces, names.len() < all))
+}
+
+/// Signs of which the upper or the lower one is meant, and each of the two.
+const EITHER_SIGN: [(&str, [&str; 2]); 4] = [
+    ("\\pm", ["+", "-"]),
+    ("\\mp", ["-", "+"]),
+    ("±", ["+", "-"]),
+    ("∓", ["-", "+"]),
+];
+
+fn has_either_sign(piece: &str) -> bool {
+    EITHER_SIGN.iter().any(|(sign, _)| piece.contains(sign))
+}
+
+/// Results for several names with upper and lower signs: the upper ones go together, and the lower ones.
+fn in_either_sign(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fault>> {
+    let read = |k: usize| {
+        let signs = EITHER_SIGN.iter();
+        let signed = signs.fold(text.to_owned(), |text, (sign, each)| {
+            text.replace(sign, each[k])
+        });
+        values(&signed, symbols)?.ok()
+    };
+    let (upper, lower) = (read(0)?, read(1)?);
+    let both = vec![upper.content.clone(), lower.content];
+    Some(Ok(upper.with(Content::Joined(Join::Or, both))))
+}
+
 /// Parts that are said together; nothing where they do not belong together. Equations for one name are joined by a word where
 /// their sides are formulas, as in `x = y and x = z`, and are a list of its values else.
 pub(super) fn together(parts: &[Reading], said: Option<Join>) -> Option<(Content, Option<Unit>)> {
@@ -475,7 +531,7 @@ pub(super) fn together(parts: &[Reading], said: Option<Join>) -> Option<(Content
         let formula = |part: &&Content| part.answer().expr().is_some_and(|e| !e.is_constant());
         // `a = 0 or x = y`
         let both = || Some((Content::Joined(said.unwrap_or(Join::And), whole()), None));
-        return match said != Some(Join::Or) && contents.iter().all(formula) {
+        return match said != Some(Join::Or) && contents.iter().any(formula) {
             true => both(),
             false => list(&contents).or_else(both),
         };

@@ -247,7 +247,14 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
     let expected = &ctx.key.reading.content;
     let is_chain =
         |content: &Content| matches!(content, Content::Relations(sides, _) if sides.len() > 2);
-    let is_system = |content: &Content| is_chain(content) || solved_for(content).len() > 1;
+    // `T − m g = m a, T = M (g − a)` is no list of values of T.
+    let is_unsolved = |content: &Content| {
+        let solved = |part: &Content| !solved_for(part).is_empty();
+        matches!(content, Content::Joined(_, parts) if !parts.iter().all(solved))
+    };
+    let is_system = |content: &Content| {
+        is_chain(content) || solved_for(content).len() > 1 || is_unsolved(content)
+    };
     if let (false, Some(list)) = (is_system(expected), formula::values_of_one(&answer.content)) {
         return compare(ctx, &answer.with(list));
     }
