@@ -241,20 +241,21 @@ fn solved_for(content: &Content) -> BTreeSet<Symbol> {
     }
 }
 
+/// Whether several equations are meant together: a chain, results for several names, or one that is solved for none, as in
+/// `T − m g = m a, T = M (g − a)`.
+fn is_system(content: &Content) -> bool {
+    let is_unsolved = match content {
+        Content::Relations(sides, _) => sides.len() > 2,
+        Content::Joined(_, parts) => parts.iter().any(|part| solved_for(part).is_empty()),
+        _ => false,
+    };
+    is_unsolved || solved_for(content).len() > 1
+}
+
 fn compare(ctx: &Context, answer: &Reading) -> Finding {
     // Values of one name are a list of which each will do, unless the other side says that they are all the same, or speaks of
     // several: `y = x² and y = x` beside `x = 1 and y = 1`.
     let expected = &ctx.key.reading.content;
-    let is_chain =
-        |content: &Content| matches!(content, Content::Relations(sides, _) if sides.len() > 2);
-    // `T − m g = m a, T = M (g − a)` is no list of values of T.
-    let is_unsolved = |content: &Content| {
-        let solved = |part: &Content| !solved_for(part).is_empty();
-        matches!(content, Content::Joined(_, parts) if !parts.iter().all(solved))
-    };
-    let is_system = |content: &Content| {
-        is_chain(content) || solved_for(content).len() > 1 || is_unsolved(content)
-    };
     if let (false, Some(list)) = (is_system(expected), formula::values_of_one(&answer.content)) {
         return compare(ctx, &answer.with(list));
     }
