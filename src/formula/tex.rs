@@ -425,11 +425,26 @@ pub(super) fn decoration(rest: &str) -> Option<usize> {
         let group = rest[length..].strip_prefix('{')?;
         return Some(length + 2 + group.find('}')?);
     }
+    if matches!(&rest[..length], "quad" | "qquad")
+        && let Some(number) = number_behind(&rest[length..])
+    {
+        return Some(length + number);
+    }
     // `\left.` and `\right.` are brackets nobody sees.
     let unseen = matches!(&rest[..length], "left" | "right") && rest[length..].starts_with('.');
     // `\rm{m}` is a letter in another font, as `\mathrm{m}` is.
     let font = rest.starts_with("rm{");
     (known && !font).then_some(length + usize::from(unseen))
+}
+
+/// Length of the number of an equation that ends a text, as `(2)` and `[2.3]` do well apart from the formula.
+fn number_behind(text: &str) -> Option<usize> {
+    let inside = text.trim_start().strip_prefix(['(', '['])?;
+    let (number, behind) = inside.split_once([')', ']'])?;
+    let is_number = number.starts_with(|c: char| c.is_ascii_digit())
+        && number.chars().all(|c| c.is_ascii_digit() || c == '.');
+    let is_last = behind.trim_matches([' ', '$', '.', '\\']).is_empty();
+    (is_number && is_last).then_some(text.len() - behind.len())
 }
 
 /// Whether blanks from `start` to `end` show as a space: one that ends a command does not, nor does `\left`.

@@ -135,6 +135,9 @@ impl Desk<'_> {
         text: &str,
         finding: &mut Finding,
     ) -> Result<(), String> {
+        if self.breaks_in_the_middle(printed, item, text, finding) {
+            return Ok(());
+        }
         let (before, last) = text.rsplit_once('=').unwrap_or(("", text));
         let number = formula::read(last, &Symbols::strict());
         // `9h` is nine times a height h, unless a time is asked for.
@@ -174,6 +177,38 @@ impl Desk<'_> {
         self.number(printed, last, item, finding)
     }
 
+    /// Whether a formula between the first and the last of a row `omega = … = …` is wrong; then that is what is found.
+    fn breaks_in_the_middle(
+        &self,
+        printed: &Printed,
+        item: &str,
+        text: &str,
+        finding: &mut Finding,
+    ) -> bool {
+        let sides: Vec<&str> = text.split('=').collect();
+        let [first, middle @ .., _] = sides.as_slice() else {
+            return false;
+        };
+        let named = self.read(first, printed).ok();
+        let is_row = named.is_some_and(|name| name.expr().is_some_and(|e| e.as_symbol().is_some()))
+            && !text.contains(['<', '>', '≤', '≥', '≈']);
+        is_row
+            && middle.iter().any(|side| {
+                let mut own = Finding {
+                    place: finding.place.clone(),
+                    kind: finding.kind,
+                    printed: finding.printed.clone(),
+                    ..Finding::default()
+                };
+                let judged = self.formula(printed, item, side, &mut own);
+                let is_wrong = judged.is_ok() && own.holds == Some(false);
+                if is_wrong {
+                    *finding = own;
+                }
+                is_wrong
+            })
+    }
+
     /// Whether an answer is a spin that counts clockwise.
     fn is_clockwise(&self, item: &str) -> bool {
         let mut questions = self.scene.questions.iter();
@@ -198,6 +233,9 @@ impl Desk<'_> {
     ) -> Result<(), String> {
         let reading = self.read(text, printed)?;
         let name = Symbol::from(item);
+        if reading.content.answer().expr().and_then(Expr::as_symbol) == Some(&name) {
+            return Err(format!("{item} stands for itself, and no value is printed"));
+        }
         let bound = self.bound(&name, &reading.content);
         let said = self.said_of(&name, &reading.content);
         let is_said = bound.is_none() && said.is_some();

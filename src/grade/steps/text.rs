@@ -647,12 +647,20 @@ pub(super) fn without_remark(text: &str) -> &str {
     let number = !inside.is_empty() && inside.bytes().all(|b| b.is_ascii_digit());
     let first = inside.split(' ').next().unwrap_or_default();
     let mut dots = ["..", "…", "--"].iter();
-    let apart = before.ends_with("  ") || dots.any(|d| before.trim_end().ends_with(d));
+    let far = ["\\quad", "\\qquad"];
+    let apart = before.ends_with("  ")
+        || dots.any(|d| before.trim_end().ends_with(d))
+        || far.iter().any(|far| before.trim_end().ends_with(far));
     let words = text.ends_with(')') && REMARKS.split_whitespace().any(|word| word == first);
     match before.strip_suffix("\\tag") {
         Some(equation) if number => equation.trim_end(),
         None if words => before.trim_end(),
         None if text.ends_with(')') && number && apart => {
+            let before = before.trim_end();
+            let before = far
+                .iter()
+                .find_map(|far| before.strip_suffix(far))
+                .unwrap_or(before);
             before.trim_end_matches([' ', '.', '…', '-'])
         }
         _ => text,

@@ -57,12 +57,16 @@ impl Desk<'_> {
             ),
         };
         // An angle in degrees is read as a multiple of π.
-        let (value, unit) = match text.contains("deg") || text.contains('°') {
-            true if unit.is_one() => {
+        let is_in = |signs: &[&str]| unit.is_one() && signs.iter().any(|sign| text.contains(sign));
+        let is_percent = is_in(&["%", "percent"]);
+        let (value, unit) = match is_in(&["deg", "°", "\\circ"]) {
+            true => {
                 let degree = Expr::pi() * Expr::ratio(1, 180);
                 (value.put("pi", &Expr::from(180)), degree)
             }
-            _ => (value, unit),
+            // Half a unit of the last digit is one of the percent.
+            false if is_percent => (value * Expr::from(100), Expr::ratio(1, 100)),
+            false => (value, unit),
         };
         // In the printed unit, which may hold π: 286 deg/s.
         let [low, high] = self.value(&(self.put_in(of_expr, printed)? * unit.powi(-1)))?;
@@ -75,6 +79,9 @@ impl Desk<'_> {
         let off = (&written - &low).abs().max((&written - &high).abs());
         let digits = (magnitude_or_zero(&low) - place + 2).max(3) as u32;
         finding.carom = crate::interval::enclosure::decimal(&low, digits);
+        if is_percent {
+            finding.carom.push_str(" %");
+        }
         if off <= half {
             finding.holds = Some(true);
             finding.because = "the exact value, rounded to the printed digits".into();
