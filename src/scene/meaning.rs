@@ -1,6 +1,7 @@
 //! What a parameter is, where the file does not say it: that of which it is the one number, such as the mass of a body.
 
-use super::stage::{FallEnd, SlideEnd, Stage, StageKind, Until};
+use super::motion::{FallEnd, SlideEnd, Until};
+use super::stage::{Stage, StageKind};
 use super::{BlowImpulse, Body, ContactLaw, KnownQuantity, Scene, Shape};
 use num_traits::{One, Signed};
 

@@ -20,6 +20,7 @@ mod joined;
 mod json;
 mod meaning;
 mod meant;
+mod motion;
 pub mod outline;
 mod parameters;
 mod place;
@@ -60,12 +61,12 @@ pub use friction::{
 };
 pub use geometry::direction;
 pub use joined::{HINGED, Joint, joints, left_behind, unsaid};
+pub use motion::{
+    Carrier, Fall, FallEnd, Linkage, Lump, Slide, SlideEnd, Spring, Strung, Turn, Until, Wind,
+};
 pub use printed::{Print, Printed};
 pub use questions::INSTANTANEOUS_CENTER;
-pub use stage::{
-    Carrier, Fall, FallEnd, Linkage, Lump, OneSided, Slide, SlideEnd, Spring, Stage, StageKind,
-    Strung, Turn, Turns, Until, Wind,
-};
+pub use stage::{OneSided, Stage, StageKind, Turns};
 
 /// Longest text of a scene file, in bytes.
 pub const LONGEST: usize = 1 << 20;

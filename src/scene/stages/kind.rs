@@ -8,10 +8,11 @@ use crate::scene::Scene;
 use crate::scene::check::Claim;
 use crate::scene::fault::{Fault, Span};
 use crate::scene::formulas::Quantity;
+use crate::scene::motion::{Fall, FallEnd, Linkage, Turn, Until, Wind};
 use crate::scene::place_file::PositionFile;
 use crate::scene::record::{Formula, Text};
 use crate::scene::resolve::Resolver;
-use crate::scene::stage::{Fall, FallEnd, Linkage, OneSided, StageKind, Turn, Until, Wind};
+use crate::scene::stage::{OneSided, StageKind};
 use crate::scene::stage_file::{FallFile, ImpactFile, LinkageFile, StageFile, TurnFile, UntilName};
 
 pub(in crate::scene) const TIME: Quantity =

@@ -6,8 +6,9 @@ use super::kind::{FORCE, TIME, coefficient, company, optional, weight};
 use crate::expr::Expr;
 use crate::scene::fault::Span;
 use crate::scene::formulas::Quantity;
+use crate::scene::motion::{Carrier, Slide, SlideEnd, Spring, Strung};
 use crate::scene::resolve::Resolver;
-use crate::scene::stage::{Carrier, Slide, SlideEnd, Spring, Stage, StageKind, Strung};
+use crate::scene::stage::{Stage, StageKind};
 use crate::scene::stage_file::{CarrierFile, SlideEndName, SlideFile, SpringFile, StrungFile};
 use crate::scene::{Scene, Shape};
 
