@@ -117,11 +117,11 @@ fn linear(p: &Poly, variables: &[usize]) -> Option<(Poly, Poly)> {
         _ => return None,
     };
     let degree = p.degree(v);
-    let is_even = |i| match variables {
+    let is_of_one_degree = |i| match variables {
         [v, w] => exponent(p.mono(i), *v) + exponent(p.mono(i), *w) == degree,
         _ => true,
     };
-    if degree < 3 || !(0..p.len()).all(is_even) {
+    if degree < 3 || !(0..p.len()).all(is_of_one_degree) {
         return None;
     }
     let parts = p.by_power(v).into_iter();
@@ -159,7 +159,7 @@ const MOST_DIVIDED: i64 = 1_000;
 
 /// The positive divisors of a number that is not zero and not too large.
 fn divisors(value: &Int) -> Option<Vec<Int>> {
-    let size = num_traits::ToPrimitive::to_i64(&num_traits::Signed::abs(value).to_bigint())?;
+    let size = value.as_i64().filter(|n| *n != i64::MIN)?.abs();
     let is_small = (1..=MOST_DIVIDED).contains(&size);
     let all = (1..=size).filter(|d| size % d == 0);
     is_small.then(|| all.map(Int::from).collect())

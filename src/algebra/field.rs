@@ -166,7 +166,10 @@ impl Field {
         for e in exprs {
             found.collect(e);
         }
-        self.exponent_parts = self.exponent_parts.lcm(&found.exponent_parts.max(1));
+        let parts = self.exponent_parts.lcm(&found.exponent_parts.max(1));
+        if parts <= MOST_EXPONENT_PARTS {
+            self.exponent_parts = parts;
+        }
         let relations = self.relations(&found.names());
         for relation in &relations {
             found.collect(&relation.excess);

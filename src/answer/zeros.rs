@@ -160,11 +160,8 @@ fn by_function(
     let [low, high] = limits.map(Some);
     let mut wide = domains.clone();
     wide.symbols.insert(RATIO.into(), Domain { low, high });
-    let found = match solve(&in_ratio, &RATIO.into(), &wide) {
-        Ok(found) if found.open.is_empty() => found,
-        Err(Unsolved::Absent) => Roots::default(),
-        Ok(_) | Err(Unsolved::Inside) => return Ok(None),
-        Err(other) => return Err(other),
+    let Some(found) = closed(solve(&in_ratio, &RATIO.into(), &wide))? else {
+        return Ok(None);
     };
     let inverse = match function {
         Function::Cos => Function::Acos,
@@ -192,6 +189,17 @@ fn by_function(
         discarded: put_back(&found.discarded),
         open: Vec::new(),
     }))
+}
+
+/// Roots of which each has a closed form; none where only what vanishes for every value or for none is left, and `None` where
+/// another way may give them.
+fn closed(found: Result<Roots, Unsolved>) -> Result<Option<Roots>, Unsolved> {
+    match found {
+        Ok(found) if found.open.is_empty() => Ok(Some(found)),
+        Err(Unsolved::Absent) => Ok(Some(Roots::default())),
+        Ok(_) | Err(Unsolved::Inside) => Ok(None),
+        Err(other) => Err(other),
+    }
 }
 
 /// An expression in sine and cosine with one of them as `x`; `None` where odd powers of the other stand in it, or the angle
@@ -267,11 +275,8 @@ fn by_tangent(
     if has_root(&turned, &TANGENT.into()) {
         return Ok(None);
     }
-    let found = match solve(&turned, &TANGENT.into(), &wide) {
-        Ok(found) if found.open.is_empty() => found,
-        Err(Unsolved::Absent) => Roots::default(),
-        Ok(_) | Err(Unsolved::Inside) => return Ok(None),
-        Err(other) => return Err(other),
+    let Some(found) = closed(solve(&turned, &TANGENT.into(), &wide))? else {
+        return Ok(None);
     };
     let of_angle = Expr::call(Function::Tan, Expr::symbol(symbol));
     let back = BTreeMap::from([(Symbol::from(TANGENT), of_angle)]);
@@ -323,15 +328,7 @@ fn by_half(
     let turned = swap(&tidy(e, domains)?, symbol, &t, &below).ok_or(Unsolved::Inside)?;
     let mut wide = domains.clone();
     wide.symbols.insert(HALF.into(), Domain { low, high });
-    let found = match solve(&turned, &HALF.into(), &wide) {
-        Ok(found) => found,
-        // Only what is 0 for every tangent or for none is left.
-        Err(Unsolved::Absent) => Roots::default(),
-        Err(other) => return Err(other),
-    };
-    if !found.open.is_empty() {
-        return Err(Unsolved::Inside);
-    }
+    let found = closed(solve(&turned, &HALF.into(), &wide))?.ok_or(Unsolved::Inside)?;
     let half_angle = &Expr::symbol(symbol) / &Expr::from(2);
     let back = BTreeMap::from([(Symbol::from(HALF), Expr::call(Function::Tan, half_angle))]);
     let mut out = Roots::default();

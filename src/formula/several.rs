@@ -500,19 +500,40 @@ const EITHER_SIGN: [(&str, [&str; 2]); 4] = [
     ("∓", ["-", "+"]),
 ];
 
+/// A text with the upper or the lower one of such signs, as long as before so that places in it stay.
+fn in_one_sign(text: &str, which: usize) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(c) = rest.chars().next() {
+        let is_here = |sign: &str| {
+            let behind = rest.strip_prefix(sign)?;
+            let goes_on = behind.starts_with(|c: char| c.is_ascii_alphabetic());
+            (!sign.starts_with('\\') || !goes_on).then_some(behind)
+        };
+        let mut signs = EITHER_SIGN.iter();
+        let found = signs.find_map(|(sign, each)| Some((sign.len(), each, is_here(sign)?)));
+        rest = match found {
+            Some((length, each, behind)) => {
+                out.extend(std::iter::repeat_n(' ', length - 1));
+                out.push_str(each[which]);
+                behind
+            }
+            None => {
+                out.push(c);
+                &rest[c.len_utf8()..]
+            }
+        };
+    }
+    out
+}
+
 fn has_either_sign(piece: &str) -> bool {
-    EITHER_SIGN.iter().any(|(sign, _)| piece.contains(sign))
+    in_one_sign(piece, 0) != *piece
 }
 
 /// Results for several names with upper and lower signs: the upper ones go together, and the lower ones.
 fn in_either_sign(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fault>> {
-    let read = |k: usize| {
-        let signs = EITHER_SIGN.iter();
-        let signed = signs.fold(text.to_owned(), |text, (sign, each)| {
-            text.replace(sign, each[k])
-        });
-        values(&signed, symbols)?.ok()
-    };
+    let read = |which: usize| values(&in_one_sign(text, which), symbols)?.ok();
     let (upper, lower) = (read(0)?, read(1)?);
     let both = vec![upper.content.clone(), lower.content];
     Some(Ok(upper.with(Content::Joined(Join::Or, both))))
