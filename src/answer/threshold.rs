@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use super::Check;
 use super::calc::{Seen, above_zero, by_signs, essential, is_zero, keeps_to, sign, tidy};
 use super::inequality::{everywhere, sign_words};
-use super::solve::{Root, Roots, Unsolved, end_of, solve};
+use super::solve::{Root, Roots, Unsolved, end_of, placing, solve};
 use super::{Answer, Form, intervals, limit, undo};
 use crate::algebra::{Cell, Field, Sign};
 use crate::domain::{Domain, Domains, Limit, Origin};
@@ -104,8 +104,7 @@ pub(super) fn fill(
     }
     sides(out, parameter, &gap, relation, &roots, domains);
     if let ([root], false) = (roots.inside.as_slice(), out.range.is_empty()) {
-        let words = otherwise(parameter, &gap, relation, root, domains);
-        out.text.extend(words);
+        otherwise(out, parameter, &gap, relation, root, domains);
     }
     if rooted {
         for check in out.checks.iter_mut().filter(|c| c.kind == "sign") {
@@ -116,38 +115,55 @@ pub(super) fn fill(
     }
 }
 
-/// What is so where the one value does not lie within the range of the parameter: always or never, where that is proved.
+/// Tells what is so where the one value does not lie within the range of the parameter: always or never, where that is proved.
+/// With the value at the very end of the range there may be nothing beyond it.
 fn otherwise(
+    out: &mut Answer,
     parameter: &Symbol,
     gap: &Expr,
     relation: Relation,
     root: &Root,
     domains: &Domains,
-) -> Option<Sentence> {
+) {
     let [(need, closed)] = root.needs.as_slice() else {
-        return None;
-    };
-    let beyond = domains.given(&-need, !closed);
-    let turned = if relation.is_below() {
-        -gap
-    } else {
-        gap.clone()
+        return;
     };
     let strict = matches!(relation, Relation::Less | Relation::Greater);
-    let how = match keeps_to(&turned, !strict, &beyond)? {
-        true => "holds for every",
-        false => "holds for no",
+    let turned = match relation.is_below() {
+        true => -gap,
+        false => gap.clone(),
     };
-    let instead = match closed {
-        true => Sentence::positive(&-need),
-        false => Sentence::not_negative(&-need),
+    let holds = |at_end: bool| {
+        let beyond = domains.given(&-need, at_end);
+        keeps_to(&turned, !strict, &beyond)
     };
-    Some(sentence!(
-        "where {} instead, it {} {}",
+    let at_end = !closed || strict && holds(true) == Some(false);
+    let Some(holds) = holds(at_end) else {
+        return;
+    };
+    if at_end && *closed {
+        let [told, sharper] =
+            [true, false].map(|closed| placing(parameter, &[(need.clone(), closed)]));
+        let mut same = out
+            .assumptions
+            .iter_mut()
+            .filter(|one| told.as_ref() == Some(*one));
+        if let (Some(one), Some(sharper)) = (same.next(), sharper) {
+            *one = sharper;
+        }
+    }
+    let instead = match at_end {
+        true => Sentence::not_negative(&-need),
+        false => Sentence::positive(&-need),
+    };
+    let how = if holds { "every" } else { "no" };
+    let words = sentence!(
+        "where {} instead, it holds for {} {}",
         instead,
         how,
         parameter
-    ))
+    );
+    out.text.push(words);
 }
 
 /// What stands under the root where a difference is a root, but for positive factors: it is there, and not negative, just

@@ -87,8 +87,8 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
                 let [a, b] = pair.map(|b| &scene.bodies[b].name);
                 let words = "`{}` and `{}` do not pass through each other in `{}`";
                 let apart = Sentence::filled(words, [a, b, &told.name].map(Sentence::from));
-                let rests = |at| line(&stages, at).any(|(stage, _)| stage == i);
-                for answer in answers.iter_mut().filter(|a| a.told.is_none_or(rests)) {
+                let resting = resting(scene, &stages, &answers, i);
+                for answer in (answers.iter_mut()).filter(|a| resting.contains(&a.question)) {
                     answer.assumptions.push(apart.clone());
                 }
             }
@@ -112,6 +112,25 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
         unused,
         ..Told::default()
     })
+}
+
+/// The questions whose answers rest on what happens in a stage, some of them by the answers that they use.
+fn resting(scene: &Scene, stages: &[StageTold], answers: &[Answer], i: usize) -> BTreeSet<String> {
+    let mut out: BTreeSet<String> = BTreeSet::new();
+    for question in &scene.questions {
+        let mine = answers.iter().filter(|a| a.question == question.name);
+        let mut led = mine.filter_map(|a| a.told).peekable();
+        let rests = match (question.ask.formulas().is_empty(), led.peek()) {
+            (_, Some(_)) => led.any(|at| line(stages, at).any(|(stage, _)| stage == i)),
+            (true, None) => true,
+            (false, None) => (reached::used(&scene.questions, question).iter())
+                .any(|used| out.contains(&used.name)),
+        };
+        if rests {
+            out.insert(question.name.clone());
+        }
+    }
+    out
 }
 
 /// An answer that has no value, and why.

@@ -412,7 +412,7 @@ fn holds_on(
 }
 
 /// The questions whose answers a question uses by name, in its formulas or in what is put in.
-fn used<'a>(questions: &'a [Question], question: &Question) -> Vec<&'a Question> {
+pub(super) fn used<'a>(questions: &'a [Question], question: &Question) -> Vec<&'a Question> {
     let before = questions.iter().take_while(|q| q.name != question.name);
     let put_in = question.ask.with().iter().map(|(_, value)| value);
     let all = question.ask.formulas().into_iter().chain(put_in);
