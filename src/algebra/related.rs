@@ -152,7 +152,8 @@ impl Field {
                 };
                 let turned = b.mul(b).ok()?.mul(square).ok()?;
                 let norm = a.mul(a).ok()?.sub(&turned);
-                let rest = p.try_div(&norm).filter(|_| !norm.is_constant())?;
+                // With what is known of v the product may be a number, or zero.
+                let rest = (!norm.is_constant()).then(|| p.try_div(&norm))??;
                 let conjugate = a.sub(&b.mul(&Poly::var(v)).ok()?);
                 let sign = self.by_coefficients(&conjugate, &[])?;
                 let sign = sign.times(Sign::made(true, !closed));
