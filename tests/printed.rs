@@ -6,7 +6,7 @@ use std::path::Path;
 use carom::command;
 use carom::grade::sheet;
 use carom::scene;
-use carom::verify::printed::{self, Finding};
+use carom::verify::printed::{self, Finding, Way};
 
 fn findings(name: &str) -> Vec<Finding> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -16,7 +16,7 @@ fn findings(name: &str) -> Vec<Finding> {
     let scene =
         scene::read(&text).unwrap_or_else(|faults| panic!("{}", faults.render(name, &text)));
     let sheet = sheet::sheet(scene).expect("a derivation");
-    printed::check(&sheet.scene, &sheet.derivation, &sheet.all)
+    printed::check(&Way::of(&sheet.scene, &sheet.derivation, &sheet.all))
 }
 
 /// Scene, how many entries it has, and places of those that do not hold.

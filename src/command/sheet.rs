@@ -1,7 +1,8 @@
 //! A scene as an answer sheet whose keys were proved before anything is judged by them.
 
 use crate::answer::Answer;
-use crate::formula::Sentence;
+use crate::expr::Symbol;
+use crate::formula::{Relation, Sentence};
 use crate::grade::believed::Story;
 use crate::grade::sheet::Sheet;
 use crate::scene::{Question, Scene};
@@ -10,11 +11,7 @@ use crate::{story, verify, worked};
 
 /// The answers of a scene, proved; and what is to be said of them all the same.
 pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
-    let rough = |q: &Question| {
-        let (mu, relation) = friction_bound(&scene, &q.name)?;
-        Some((q.name.clone(), mu.as_symbol()?.clone(), relation))
-    };
-    let coefficients: Vec<_> = scene.questions.iter().filter_map(rough).collect();
+    let coefficients = coefficients(&scene);
     let has_stages = scene.has_stages();
     let (scene, mut notes) = gradable(scene);
     let worked = worked::out(&scene)?;
@@ -62,6 +59,15 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
     let mut sheet = ways.remove(0);
     sheet.otherwise = ways;
     Ok((sheet, notes))
+}
+
+/// Thresholds of friction that are asked for: the question, the coefficient it bounds, and how that stands to it.
+pub(super) fn coefficients(scene: &Scene) -> Vec<(String, Symbol, Relation)> {
+    let rough = |q: &Question| {
+        let (mu, relation) = friction_bound(scene, &q.name)?;
+        Some((q.name.clone(), mu, relation))
+    };
+    scene.questions.iter().filter_map(rough).collect()
 }
 
 /// The answers of a scene that may not be possible.

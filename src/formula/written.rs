@@ -253,6 +253,19 @@ impl Written {
         matches!(&self.shape, Shape::Fraction(above, below) if below.start == above.start)
     }
 
+    /// The number in front of a degree or percent sign.
+    pub(crate) fn marked(&self) -> Option<Literal> {
+        match &self.shape {
+            Shape::Degrees(inner) => inner.literal(),
+            Shape::Fraction(inner, _) if self.is_percentage() => inner.literal(),
+            Shape::Sum(terms) => match terms.as_slice() {
+                [(_, only)] => only.marked(),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
     /// Whether it is made of numbers and π, functions and sums of them too, without a unit, a degree or percent sign.
     pub(super) fn is_bare_number(&self) -> bool {
         match &self.shape {

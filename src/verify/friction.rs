@@ -94,9 +94,9 @@ impl AtValues {
 /// Judges a table.
 pub fn judge(scene: &Scene, table: &Table) -> Judged {
     let by_values = picked(scene, table);
-    let supposed = table.law.supposing.map(|mode| {
+    let supposed = table.law.supposing.map(|_| {
         let all = table.cases.iter().enumerate();
-        all.filter(|(_, case)| case.mode.is(mode) || table.called(case) == mode)
+        all.filter(|(_, case)| is_supposed(table, case))
             .map(|(i, _)| i)
             .collect::<Vec<_>>()
     });
@@ -120,6 +120,12 @@ pub fn judge(scene: &Scene, table: &Table) -> Judged {
     }
 }
 
+/// Whether a case is one that the scene supposes; all are where it supposes nothing.
+fn is_supposed(table: &Table, case: &Case) -> bool {
+    let supposed = table.law.supposing;
+    supposed.is_none_or(|mode| case.mode.is(mode) || table.called(case) == mode)
+}
+
 /// One way an impact with friction can go.
 #[derive(Clone, Debug)]
 pub struct Outcome {
@@ -131,11 +137,20 @@ pub struct Outcome {
     pub when: Vec<Expr>,
     /// The scene up to where slip ends on the way, where other contacts could let go there.
     pub slip_ends: Option<Scene>,
+    /// Whether it goes so, as far as the values of the scene and what it supposes tell.
+    pub is_so: bool,
 }
 
 /// The ways a scene with friction can go, as far as its values and what it supposes leave several; the scene itself where
 /// there is no friction. The table is held against the path of the impulse first.
 pub fn outcomes(scene: &Scene) -> Result<Vec<Outcome>, String> {
+    let mut all = all_outcomes(scene)?;
+    all.retain(|outcome| outcome.is_so);
+    Ok(all)
+}
+
+/// The same with those that its values exclude.
+pub fn all_outcomes(scene: &Scene) -> Result<Vec<Outcome>, String> {
     let table = match crate::derive::friction::table(scene) {
         Ok(Some(table)) => table,
         Ok(None) => {
@@ -144,6 +159,7 @@ pub fn outcomes(scene: &Scene) -> Result<Vec<Outcome>, String> {
                 words: String::new(),
                 when: Vec::new(),
                 slip_ends: None,
+                is_so: true,
             };
             return Ok(vec![alone]);
         }
@@ -158,13 +174,16 @@ pub fn outcomes(scene: &Scene) -> Result<Vec<Outcome>, String> {
         return Err("what the scene supposes of its contact never happens".into());
     }
     let name = &scene.contacts[table.contact].name;
-    let outcome = |case: &Case| Outcome {
+    let outcome = |(i, case): (usize, &Case)| Outcome {
         scene: case.scene.clone(),
         words: table.called(case).of(name),
         when: case.needs(&table.side),
         slip_ends: case.slip_ends.clone(),
+        is_so: picked.contains(&i),
     };
-    Ok(picked.iter().map(|i| outcome(&table.cases[*i])).collect())
+    let all = table.cases.iter().enumerate();
+    let supposed = all.filter(|(_, case)| is_supposed(&table, case));
+    Ok(supposed.map(outcome).collect())
 }
 
 /// The scene in the one case that its values pick or that it supposes; the words say why there is none. A scene without

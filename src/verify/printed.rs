@@ -11,17 +11,19 @@ mod inequality;
 mod matrix;
 mod number;
 mod remainder;
+mod row;
+mod special;
 
 pub use cases::in_cases;
 use desk::Desk;
 pub(crate) use desk::friction_bound;
-use number::{decimal_in, numbers};
 
 use crate::answer::Answer;
 use crate::derive::Derivation;
+use crate::domain::{self, Domains, Origin};
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol};
-use crate::formula::{self, Content, Quantity, Relation, Symbols};
+use crate::formula::{Content, Relation, Sentence};
 use crate::scene::{Ask, Print, Printed, Scene};
 
 /// The finding about one printed thing.
@@ -41,6 +43,9 @@ pub struct Finding {
     /// Those conditions, one each.
     #[serde(skip)]
     given: Vec<String>,
+    /// Whether it holds where the scene goes this way, though the values for which it is printed lead another.
+    #[serde(skip)]
+    elsewhere: Option<Option<bool>>,
     /// What carom has in its place.
     pub carom: String,
     /// How it is known.
@@ -54,10 +59,55 @@ pub struct Finding {
 /// What is said where nothing explains a wrong thing.
 pub const UNEXPLAINED: &str = "no single slip of the pen leads to it";
 
-/// Checks everything printed about a scene; all answers tell why there is no value, and where a
-/// value is largest.
-pub fn check(scene: &Scene, derivation: &Derivation, all: &[Answer]) -> Vec<Finding> {
-    let desk = Desk::new(scene, derivation, all);
+/// One way a scene goes, which what is printed is held against.
+pub struct Way<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its derivation.
+    pub derivation: &'a Derivation,
+    /// All answers: they tell why there is no value, and where a value is largest.
+    pub all: &'a [Answer],
+    /// Thresholds of friction: the question, the coefficient it bounds, and how that stands to it.
+    pub coefficients: &'a [(String, Symbol, Relation)],
+    /// What friction does, and what must be ≥ 0 for it.
+    pub case: Option<(&'a str, &'a [Expr])>,
+    /// Whether the scene goes this way at its values.
+    pub is_so: bool,
+}
+
+impl<'a> Way<'a> {
+    /// A scene that goes one way.
+    pub fn of(scene: &'a Scene, derivation: &'a Derivation, all: &'a [Answer]) -> Way<'a> {
+        Way {
+            scene,
+            derivation,
+            all,
+            coefficients: &[],
+            case: None,
+            is_so: true,
+        }
+    }
+
+    /// Where the scene goes this way.
+    fn domains(&self) -> Domains {
+        let mut domains = self.scene.domains.clone();
+        let needs = self
+            .case
+            .into_iter()
+            .flat_map(|(words, needs)| needs.iter().map(move |e| (words, e)));
+        for (what, e) in needs {
+            let words = Sentence::not_negative(e).to_string();
+            let origin = Origin::Outcome(what.to_string());
+            domains = domains.with_relation(domain::Relation::needed(e, true, words, origin));
+        }
+        domains
+    }
+}
+
+/// Checks everything printed about a scene against one way it goes.
+pub fn check(way: &Way) -> Vec<Finding> {
+    let Way { scene, all, .. } = *way;
+    let desk = Desk::new(way);
     let findings = scene.printed.iter().map(|printed| desk.check(printed));
     let mut findings: Vec<Finding> = findings.collect();
     desk.consequences(&mut findings);
@@ -124,89 +174,20 @@ impl Desk<'_> {
         if let Err(message) = outcome {
             finding.because = message;
         }
+        if let Some(excluded) = self.excluded(printed) {
+            let because =
+                format!("at these values the answer is another one; this one needs {excluded}");
+            finding = Finding {
+                elsewhere: Some(finding.holds),
+                holds: None,
+                carom: String::new(),
+                because,
+                explained: None,
+                caught_by: None,
+                ..finding
+            };
+        }
         finding
-    }
-
-    /// A formula, a number with its unit, or both in a row: `omega = v/(2 l) = 5.2 rad/s`.
-    fn answer(
-        &self,
-        printed: &Printed,
-        item: &str,
-        text: &str,
-        finding: &mut Finding,
-    ) -> Result<(), String> {
-        if self.breaks_in_the_middle(printed, item, text, finding) {
-            return Ok(());
-        }
-        let (before, last) = text.rsplit_once('=').unwrap_or(("", text));
-        let number = formula::read(last, &Symbols::strict());
-        // `9h` is nine times a height h, unless a time is asked for.
-        let is_unit = |q: &Quantity| {
-            let target = self.closed.get(item);
-            target.is_some_and(|of| self.other_dimension(of, q).is_none())
-                || !self.read(last, printed).is_ok_and(|in_names| {
-                    let names = in_names.expr().map(Expr::symbols);
-                    names.is_some_and(|names| !names.is_empty())
-                })
-        };
-        let number = number.is_ok_and(|number| match &number.content {
-            Content::Quantity(q) => number.literal.is_some() && is_unit(q),
-            _ => false,
-        });
-        if self.vectors.contains_key(item)
-            && let Some(parts) = numbers(last)
-        {
-            for (axis, number) in ["x", "y"].iter().zip(parts) {
-                self.number(printed, &number, &format!("{item}_{axis}"), finding)?;
-                if finding.holds != Some(true) {
-                    finding.because = format!("along {axis}, {}", finding.because);
-                    break;
-                }
-            }
-            return Ok(());
-        }
-        if !number || !self.closed.contains_key(item) {
-            return self.formula(printed, item, text, finding);
-        }
-        if !before.is_empty() && before.trim() != item {
-            self.formula(printed, item, before, finding)?;
-            if finding.holds != Some(true) {
-                return Ok(());
-            }
-        }
-        self.number(printed, last, item, finding)
-    }
-
-    /// Whether a formula between the first and the last of a row `omega = … = …` is wrong; then that is what is found.
-    fn breaks_in_the_middle(
-        &self,
-        printed: &Printed,
-        item: &str,
-        text: &str,
-        finding: &mut Finding,
-    ) -> bool {
-        let sides: Vec<&str> = text.split('=').collect();
-        let [first, middle @ .., _] = sides.as_slice() else {
-            return false;
-        };
-        let named = self.read(first, printed).ok();
-        let is_row = named.is_some_and(|name| name.expr().is_some_and(|e| e.as_symbol().is_some()))
-            && !text.contains(['<', '>', '≤', '≥', '≈']);
-        is_row
-            && middle.iter().any(|side| {
-                let mut own = Finding {
-                    place: finding.place.clone(),
-                    kind: finding.kind,
-                    printed: finding.printed.clone(),
-                    ..Finding::default()
-                };
-                let judged = self.formula(printed, item, side, &mut own);
-                let is_wrong = judged.is_ok() && own.holds == Some(false);
-                if is_wrong {
-                    *finding = own;
-                }
-                is_wrong
-            })
     }
 
     /// Whether an answer is a spin that counts clockwise.
@@ -278,7 +259,7 @@ impl Desk<'_> {
         let mut all = Vec::new();
         for (closed, value) in &pairs {
             let closed = self.put_in(closed, printed)?;
-            shown.push(match is_said {
+            shown.push(match is_said || !printed.at.is_empty() {
                 true => self.tidy(&closed),
                 false => self.say(&closed),
             });
@@ -291,15 +272,20 @@ impl Desk<'_> {
             format!("[{}]", shown.join(", "))
         };
         self.identities(&all, printed, finding);
-        let decimal = decimal_in(text).filter(|_| finding.holds == Some(false));
-        let is_number = matches!(all.as_slice(), [(closed, _)] if closed.is_constant());
-        if let Some(decimal) = decimal.filter(|_| is_number) {
-            self.number(printed, decimal, item, finding)?;
-        }
+        let figure = self.figure(&all, text, printed);
+        let figure = figure.filter(|_| finding.holds == Some(false));
+        let is_number = figure.is_some_and(|figure| {
+            let of = match bound.is_some() || is_said {
+                true => all[0].0.clone(),
+                false => Expr::symbol(&name),
+            };
+            let judged = self.rounded(printed, &figure, item, &of, finding);
+            judged.is_ok()
+        });
         if let Some((sign, ..)) = bound {
             self.sense(&name, sign, finding);
         }
-        if decimal.is_some() && is_number {
+        if is_number {
             return Ok(());
         }
         if finding.holds == Some(false) && finding.explained.is_none() {
@@ -395,7 +381,7 @@ impl Desk<'_> {
             return Err("an inequality compares numbers, and a side is a vector".into());
         }
         let values: Vec<Expr> = values.into_iter().flatten().collect();
-        self.claimed(&values, signs, finding);
+        self.claimed(&values, signs, &self.domains_of(printed), finding);
         Ok(())
     }
 
@@ -408,8 +394,17 @@ impl Desk<'_> {
                 printed.small.join(", ")
             ),
         };
+        let mut within: Option<Domains> = None;
         for (closed, value) in pairs {
-            match equality::decide(closed, value, &self.scene.domains).equality {
+            let mut found = equality::decide(closed, value, &self.scene.domains).equality;
+            // What shows that they differ must lie where the scene goes this way, and where the answers hold.
+            if !found.is_same() {
+                let within = within.get_or_insert_with(|| self.domains_of(printed));
+                if *within != self.scene.domains {
+                    found = equality::decide(closed, value, within).equality;
+                }
+            }
+            match found {
                 Equality::Same { .. } => {}
                 Equality::Different(c) => {
                     let [carom, book] = c.values();

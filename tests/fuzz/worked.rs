@@ -137,7 +137,11 @@ pub fn verify_anything(cases: u64) {
             Ok(printed) => {
                 let mut scene = sheet.scene.clone();
                 scene.printed = printed;
-                let mut findings = verify::printed::check(&scene, &sheet.derivation, &sheet.all);
+                let mut findings = verify::printed::check(&verify::printed::Way::of(
+                    &scene,
+                    &sheet.derivation,
+                    &sheet.all,
+                ));
                 sheet.explain(&mut findings);
                 let _ = render::printed::text(&scene, &findings, findings.len());
             }

@@ -15,8 +15,30 @@ pub fn in_cases(cases: Vec<(String, Vec<Finding>)>) -> Vec<Finding> {
     columns.into_iter().filter_map(together).collect()
 }
 
-/// One finding of those in each case.
+/// One finding of those in each case that the values do not exclude.
 fn together(all: Vec<(&str, Finding)>) -> Option<Finding> {
+    let (all, excluded): (Vec<_>, Vec<_>) =
+        all.into_iter().partition(|(_, f)| f.elsewhere.is_none());
+    if all.is_empty() {
+        return excluded.into_iter().next().map(|(_, found)| found);
+    }
+    let mut found = of_cases(all)?;
+    let mut right: Vec<&str> = excluded
+        .iter()
+        .filter(|(_, f)| f.elsewhere == Some(Some(true)))
+        .map(|(words, _)| *words)
+        .collect();
+    right.dedup();
+    if found.holds == Some(false) && !right.is_empty() {
+        let words = right.join(", or ");
+        found.explained = Some(format!(
+            "it holds where {words}, which is not so at these values"
+        ));
+    }
+    Some(found)
+}
+
+fn of_cases(all: Vec<(&str, Finding)>) -> Option<Finding> {
     let holds = |wanted: Option<bool>| all.iter().filter(move |(_, f)| f.holds == wanted);
     if let Some((_, found)) = holds(Some(true)).next() {
         let mut where_: Vec<&str> = holds(Some(true)).map(|(words, _)| *words).collect();
@@ -41,7 +63,10 @@ fn together(all: Vec<(&str, Finding)>) -> Option<Finding> {
     let told = all.iter().find(|(_, f)| is_explained(f)).or(all.first())?;
     let mut values: Vec<String> = Vec::new();
     for (words, f) in &all {
-        let value = format!("{} where {words}", f.carom);
+        let value = match all.len() {
+            1 => f.carom.clone(),
+            _ => format!("{} where {words}", f.carom),
+        };
         if !values.contains(&value) {
             values.push(value);
         }

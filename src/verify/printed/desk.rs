@@ -4,10 +4,11 @@
 
 use std::collections::BTreeMap;
 
+use super::Way;
 use crate::algebra::tidy;
 use crate::answer::{Answer, Form};
-use crate::derive::Derivation;
 use crate::dimension::Dimension;
+use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, dot, minus};
 use crate::formula::{self, Content, Reading, Relation, Symbols, write_unicode};
 use crate::scene::{Ask, ContactLaw, FrictionEvent, Printed, Scene};
@@ -15,6 +16,12 @@ use crate::scene::{Ask, ContactLaw, FrictionEvent, Printed, Scene};
 /// What formulas are read and evaluated with.
 pub(super) struct Desk<'a> {
     pub(super) scene: &'a Scene,
+    /// The answers of this way, and all, with what they rest on.
+    pub(super) answers: [&'a [Answer]; 2],
+    /// Where the scene goes this way: its domains, with what decides between the cases of friction.
+    pub(super) domains: Domains,
+    /// Whether it does so at the values of the scene.
+    pub(super) is_so: bool,
     /// Closed forms by name.
     pub(super) closed: BTreeMap<Symbol, Expr>,
     /// What an answer says of a parameter, a bound or the place of a maximum: of what, how it stands to what.
@@ -61,8 +68,45 @@ fn geometry(
     }
 }
 
+/// The name of a vector with an arrow over it.
+fn arrowed(name: &str) -> Option<Symbol> {
+    formula::with_arrow(name).map(Symbol::from)
+}
+
+/// Vectors by their names with an arrow: what is asked for, arms, and spins, out of the page.
+fn arrows(
+    scene: &Scene,
+    vectors: &BTreeMap<Symbol, [Expr; 2]>,
+    closed: &BTreeMap<Symbol, Expr>,
+) -> BTreeMap<Symbol, [Expr; 3]> {
+    let in_plane = |[x, y]: &[Expr; 2]| [x.clone(), y.clone(), Expr::zero()];
+    let mut arrows: BTreeMap<Symbol, [Expr; 3]> = vectors
+        .iter()
+        .map(|(name, v)| (name.to_string(), v.clone()))
+        .chain(scene.arms())
+        .filter_map(|(name, v)| Some((arrowed(&name)?, in_plane(&v))))
+        .collect();
+    for q in scene.asked_of_impact() {
+        let Ask::Spin { clockwise, .. } = q.ask else {
+            continue;
+        };
+        // A spin is a vector out of the page.
+        if let (Some(arrow), Some(spin)) = (arrowed(&q.name), closed.get(q.name.as_str())) {
+            let spin = if clockwise { -spin } else { spin.clone() };
+            arrows.insert(arrow, [Expr::zero(), Expr::zero(), spin]);
+        }
+    }
+    arrows
+}
+
 impl<'a> Desk<'a> {
-    pub(super) fn new(scene: &'a Scene, derivation: &Derivation, all: &[Answer]) -> Desk<'a> {
+    pub(super) fn new(way: &Way<'a>) -> Desk<'a> {
+        let Way {
+            scene,
+            derivation,
+            all,
+            ..
+        } = *way;
         let mut closed = BTreeMap::new();
         let given = scene.parameters.iter();
         let given = given.map(|p| (p.name.clone(), p.dimension.clone()));
@@ -100,8 +144,9 @@ impl<'a> Desk<'a> {
                 if !(value.is_constant() && answer.dimension.is_none()) {
                     dimensions.insert(name.clone(), answer.dimension.clone());
                 }
-                if let Some((mu, relation)) = friction_bound(scene, &answer.name) {
-                    bounds.insert(name.clone(), (mu, relation, value.clone()));
+                let mut rough = way.coefficients.iter();
+                if let Some((_, mu, relation)) = rough.find(|(of, ..)| *of == answer.name) {
+                    bounds.insert(name.clone(), (Expr::symbol(mu), *relation, value.clone()));
                 }
                 closed.insert(name, value.clone());
                 if answer.name != answer.question {
@@ -112,24 +157,7 @@ impl<'a> Desk<'a> {
                 }
             }
         }
-        let arrowed = |name: &str| formula::with_arrow(name).map(Symbol::from);
-        let in_plane = |[x, y]: &[Expr; 2]| [x.clone(), y.clone(), Expr::zero()];
-        let mut arrows: BTreeMap<Symbol, [Expr; 3]> = vectors
-            .iter()
-            .map(|(name, v)| (name.to_string(), v.clone()))
-            .chain(scene.arms())
-            .filter_map(|(name, v)| Some((arrowed(&name)?, in_plane(&v))))
-            .collect();
-        for q in scene.asked_of_impact() {
-            let Ask::Spin { clockwise, .. } = q.ask else {
-                continue;
-            };
-            // A spin is a vector out of the page.
-            if let (Some(arrow), Some(spin)) = (arrowed(&q.name), closed.get(q.name.as_str())) {
-                let spin = if clockwise { -spin } else { spin.clone() };
-                arrows.insert(arrow, [Expr::zero(), Expr::zero(), spin]);
-            }
-        }
+        let mut arrows = arrows(scene, &vectors, &closed);
         for (name, value) in before(scene) {
             match value.as_slice() {
                 [x, y] => {
@@ -137,7 +165,7 @@ impl<'a> Desk<'a> {
                         closed.insert(format!("{name}_{axis}^-").into(), part.clone());
                     }
                     let arrow = arrowed(&format!("{name}^-"));
-                    let value = in_plane(&[x.clone(), y.clone()]);
+                    let value = [x.clone(), y.clone(), Expr::zero()];
                     arrows.extend(arrow.map(|arrow| (arrow, value)));
                 }
                 one => closed.extend(one.iter().map(|v| (format!("{name}^-").into(), v.clone()))),
@@ -145,6 +173,9 @@ impl<'a> Desk<'a> {
         }
         Desk {
             scene,
+            answers: [&derivation.answers, all],
+            domains: way.domains(),
+            is_so: way.is_so,
             closed,
             bounds,
             vectors,
@@ -169,9 +200,12 @@ impl<'a> Desk<'a> {
         let mut symbols = Symbols::strict();
         self.scene.declare_parameters(&mut symbols);
         for name in self.closed.keys() {
-            let latex = name.contains('^').then(|| formula::latex_name(name));
+            let latex = formula::latex_name(name);
             let dimension = self.dimensions.get(name).cloned();
-            symbols.declare_as(name.clone(), latex.as_deref(), dimension);
+            symbols.declare_as(name.clone(), Some(&latex), dimension);
+            if let Some(latex) = self.typeset(name) {
+                symbols.declare_as(name.clone(), Some(&latex), None);
+            }
         }
         // `ω⁺` is what is asked of the moment just after.
         for name in self.closed.keys().filter(|name| !name.contains('^')) {
@@ -189,6 +223,17 @@ impl<'a> Desk<'a> {
             symbols.declare(name);
         }
         symbols
+    }
+
+    /// How the scene writes what it asks for, in LaTeX; a component has its axis below.
+    fn typeset(&self, name: &str) -> Option<String> {
+        let latex = |name: &str| self.scene.question(name)?.latex.as_deref();
+        let of_axis = || {
+            let (of, axis) = name.rsplit_once('_')?;
+            let is_axis = self.vectors.contains_key(of) && matches!(axis, "x" | "y");
+            is_axis.then(|| Some(formula::with_subscript(latex(of)?, axis)))?
+        };
+        latex(name).map(str::to_string).or_else(of_axis)
     }
 
     /// The components of a side: one of a number, three of a vector or a multiple of one that is asked for.
@@ -221,22 +266,13 @@ impl<'a> Desk<'a> {
 
     /// Abbreviations, then closed forms, then special values put in.
     pub(super) fn put_in(&self, e: &Expr, printed: &Printed) -> Result<Expr, String> {
-        let map = |pairs: &[[String; 2]]| -> Result<BTreeMap<Symbol, Expr>, String> {
-            let read = pairs.iter().map(|[name, text]| {
-                let reading = self.read(text, printed)?;
-                let value = reading.expr().cloned();
-                let value = value.ok_or_else(|| format!("{text} is no expression"))?;
-                Ok((Symbol::from(name.as_str()), value))
-            });
-            read.collect()
-        };
         let mut out = e.clone();
-        let short = map(&printed.short)?;
+        let short = self.values_of(&printed.short, printed)?;
         // Abbreviations may use one another; as many rounds as there are settle it.
         for _ in &printed.short {
             out = out.substitute(&short);
         }
-        let mut special = map(&printed.at)?;
+        let mut special = self.special(printed)?;
         for angle in &printed.small {
             special.insert(Symbol::from(angle.as_str()), Expr::zero());
         }
@@ -249,11 +285,22 @@ impl<'a> Desk<'a> {
         if symbols.iter().any(|name| self.arrows.contains_key(name)) {
             return Err("a vector stands where a number belongs".into());
         }
-        // A special value may be one that the scene answers with.
-        for value in special.values_mut() {
-            *value = value.substitute(&self.closed);
-        }
         Ok(out.substitute(&special))
+    }
+
+    /// What names stand for, as it is printed.
+    pub(super) fn values_of(
+        &self,
+        pairs: &[[String; 2]],
+        printed: &Printed,
+    ) -> Result<BTreeMap<Symbol, Expr>, String> {
+        let read = pairs.iter().map(|[name, text]| {
+            let reading = self.read(text, printed)?;
+            let value = reading.expr().cloned();
+            let value = value.ok_or_else(|| format!("{text} is no expression"))?;
+            Ok((Symbol::from(name.as_str()), value))
+        });
+        read.collect()
     }
 
     pub(super) fn say(&self, e: &Expr) -> String {
@@ -270,7 +317,7 @@ impl<'a> Desk<'a> {
 }
 
 /// Which coefficient of friction a threshold bounds, and how it stands to it.
-pub(crate) fn friction_bound(scene: &Scene, name: &str) -> Option<(Expr, Relation)> {
+pub(crate) fn friction_bound(scene: &Scene, name: &str) -> Option<(Symbol, Relation)> {
     let question = scene.question(name)?;
     let Ask::Friction { contact, event } = &question.ask else {
         return None;
@@ -288,7 +335,7 @@ pub(crate) fn friction_bound(scene: &Scene, name: &str) -> Option<(Expr, Relatio
         FrictionEvent::Slides => Relation::LessEqual,
         FrictionEvent::Sticks | FrictionEvent::Jams => Relation::GreaterEqual,
     };
-    Some((law.mu.clone(), relation))
+    Some((law.mu.as_symbol()?.clone(), relation))
 }
 
 /// What is asked of velocities and spins, just before: one value, or two components.

@@ -235,7 +235,7 @@ impl Desk<'_> {
 
     /// Whether a parameter may come near zero, by its domain and by what is granted.
     fn may_vanish(&self, name: &Symbol) -> bool {
-        let domains = &self.scene.domains;
+        let domains = &self.domains;
         let low = domains.symbols.get(name).and_then(|d| d.bounds()[0]);
         let broken = domains.relations.iter().any(|r| {
             let there = r.excess.put(name, &Expr::zero());
@@ -246,7 +246,13 @@ impl Desk<'_> {
     }
 
     /// A single slip in evaluating a formula for the same quantity that gives the printed number.
-    pub(super) fn slips(&self, of: &Expr, wanted: f64, room: f64) -> Option<String> {
+    pub(super) fn slips(
+        &self,
+        printed: &Printed,
+        of: &Expr,
+        wanted: f64,
+        room: f64,
+    ) -> Option<String> {
         let name = of.as_symbol()?;
         // The book's own formula first, as it stands; then carom's.
         let mut formulas: Vec<Expr> = Vec::new();
@@ -259,16 +265,18 @@ impl Desk<'_> {
                 continue;
             };
             let component = match reading.content.answer() {
-                Content::Vector(v) if **name == *format!("{item}_x") => Some(v[0].clone()),
-                Content::Vector(v) if **name == *format!("{item}_y") => Some(v[1].clone()),
-                // A number printed in its place is no formula.
-                other if **name == **item => other.expr().filter(|e| !e.is_constant()).cloned(),
+                Content::Vector(v) if **name == *format!("{item}_x") => Some(&v[0]),
+                Content::Vector(v) if **name == *format!("{item}_y") => Some(&v[1]),
+                other if **name == **item => other.expr(),
                 _ => None,
             };
+            // A number printed in its place is no formula.
+            let component = component.filter(|e| !e.is_constant() && p.at == printed.at);
+            let component = component.and_then(|e| self.put_in(e, p).ok());
             places.extend(component.as_ref().map(|_| p.place.as_str()));
             formulas.extend(component);
         }
-        formulas.extend(self.closed.get(name).cloned());
+        formulas.extend(self.put_in(of, printed));
         let values = self.scene.all_given()?;
         let kin = |a: &Symbol, b: &Symbol| self.kin(a, b);
         let printed = formulas.iter().zip(&places).find(|(e, _)| {

@@ -2,8 +2,9 @@
 
 use super::Finding;
 use super::desk::Desk;
+use super::remainder::loose;
 use crate::algebra::{self, Sign};
-use crate::domain::{roles, samples};
+use crate::domain::{Domains, roles, samples};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Relation};
 use crate::interval::{Interval, Outcome, evaluate};
@@ -44,7 +45,8 @@ impl Desk<'_> {
             return;
         }
         if printed.is_below() == derived.is_below() {
-            finding.because = "identity; whether the bound itself counts is told otherwise".into();
+            let otherwise = "; whether the bound itself counts is told otherwise";
+            finding.because.push_str(otherwise);
             return;
         }
         finding.holds = Some(false);
@@ -54,10 +56,16 @@ impl Desk<'_> {
     }
 
     /// An inequality claimed on the whole domain: the sign of each difference.
-    pub(super) fn claimed(&self, values: &[Expr], signs: &[Relation], finding: &mut Finding) {
+    pub(super) fn claimed(
+        &self,
+        values: &[Expr],
+        signs: &[Relation],
+        domains: &Domains,
+        finding: &mut Finding,
+    ) {
         let mut holds = Some(true);
         for (pair, sign) in values.windows(2).zip(signs) {
-            let one = self.inequality(&pair[0], &pair[1], *sign, finding);
+            let one = inequality([&pair[0], &pair[1]], *sign, domains, finding);
             holds = match (holds, one) {
                 (_, Some(false)) | (Some(false), _) => Some(false),
                 (_, None) => None,
@@ -66,70 +74,69 @@ impl Desk<'_> {
         }
         finding.holds = holds;
         match holds {
-            Some(false) => self.loose(values, signs, finding),
-            None => self.at_points(values, signs, finding),
+            Some(false) => loose(values, signs, domains, finding),
+            None => at_points(values, signs, domains, finding),
             Some(true) => {}
         }
     }
+}
 
-    pub(super) fn inequality(
-        &self,
-        a: &Expr,
-        b: &Expr,
-        sign: Relation,
-        finding: &mut Finding,
-    ) -> Option<bool> {
-        let known = algebra::sign(&(b - a), &self.scene.domains)?;
-        let known = if matches!(sign, Relation::Greater | Relation::GreaterEqual) {
-            known.flip()
-        } else {
-            known
-        };
-        finding.because = "sign of the difference on the domain".into();
-        Some(match sign {
-            Relation::Less | Relation::Greater => known == Sign::Positive,
-            Relation::LessEqual | Relation::GreaterEqual => known.is_not_negative(),
-            _ => return None,
-        })
+/// Whether an inequality holds by the sign of its difference.
+pub(super) fn inequality(
+    [a, b]: [&Expr; 2],
+    sign: Relation,
+    domains: &Domains,
+    finding: &mut Finding,
+) -> Option<bool> {
+    let known = algebra::sign(&(b - a), domains)?;
+    let known = if matches!(sign, Relation::Greater | Relation::GreaterEqual) {
+        known.flip()
+    } else {
+        known
+    };
+    finding.because = "sign of the difference on the domain".into();
+    Some(match sign {
+        Relation::Less | Relation::Greater => known == Sign::Positive,
+        Relation::LessEqual | Relation::GreaterEqual => known.is_not_negative(),
+        _ => return None,
+    })
+}
+
+/// An inequality whose sign is not known: it does not hold where a point shows that it fails, and is told where it does.
+fn at_points(values: &[Expr], signs: &[Relation], domains: &Domains, finding: &mut Finding) {
+    let all: Vec<&Expr> = values.iter().collect();
+    let uses = roles(&all);
+    let (domains, _) = domains.completed(&uses);
+    let mut seen = [None, None];
+    for sample in samples(&uses, &domains, 24) {
+        let point = sample.point::<Interval>(true);
+        let links = values.windows(2).zip(signs).map(|(pair, sign)| {
+            let Outcome::Value(gap) = evaluate::<Interval>(&(&pair[1] - &pair[0]), &point) else {
+                return None;
+            };
+            let (less, more) = (gap.low > 0.0, gap.high < 0.0);
+            match sign {
+                Relation::Less | Relation::LessEqual => (less || more).then_some(less),
+                Relation::Greater | Relation::GreaterEqual => (less || more).then_some(more),
+                _ => None,
+            }
+        });
+        let links: Option<Vec<bool>> = links.collect();
+        if let Some(links) = links {
+            let holds = links.iter().all(|l| *l);
+            seen[usize::from(holds)].get_or_insert_with(|| sample.words());
+        }
     }
-
-    /// An inequality whose sign is not known: it does not hold where a point shows that it fails, and is told where it does.
-    fn at_points(&self, values: &[Expr], signs: &[Relation], finding: &mut Finding) {
-        let all: Vec<&Expr> = values.iter().collect();
-        let uses = roles(&all);
-        let (domains, _) = self.scene.domains.completed(&uses);
-        let mut seen = [None, None];
-        for sample in samples(&uses, &domains, 24) {
-            let point = sample.point::<Interval>(true);
-            let links = values.windows(2).zip(signs).map(|(pair, sign)| {
-                let Outcome::Value(gap) = evaluate::<Interval>(&(&pair[1] - &pair[0]), &point)
-                else {
-                    return None;
-                };
-                let (less, more) = (gap.low > 0.0, gap.high < 0.0);
-                match sign {
-                    Relation::Less | Relation::LessEqual => (less || more).then_some(less),
-                    Relation::Greater | Relation::GreaterEqual => (less || more).then_some(more),
-                    _ => None,
-                }
+    match seen {
+        [Some(fails), holds] => {
+            finding.holds = Some(false);
+            finding.because = format!("it fails at {fails}");
+            finding.explained = Some(match holds {
+                Some(at) => format!("it holds at {at}: it is not true everywhere"),
+                None => "it holds at no point tried".into(),
             });
-            let links: Option<Vec<bool>> = links.collect();
-            if let Some(links) = links {
-                let holds = links.iter().all(|l| *l);
-                seen[usize::from(holds)].get_or_insert_with(|| sample.words());
-            }
+            finding.caught_by = Some("putting simple numbers in".into());
         }
-        match seen {
-            [Some(fails), holds] => {
-                finding.holds = Some(false);
-                finding.because = format!("it fails at {fails}");
-                finding.explained = Some(match holds {
-                    Some(at) => format!("it holds at {at}: it is not true everywhere"),
-                    None => "it holds at no point tried".into(),
-                });
-                finding.caught_by = Some("putting simple numbers in".into());
-            }
-            _ => finding.because = "the sign is not decided, and it fails at no point tried".into(),
-        }
+        _ => finding.because = "the sign is not decided, and it fails at no point tried".into(),
     }
 }

@@ -1,15 +1,73 @@
 //! Printed numbers: the exact value, rounded to the digits that are printed, in the unit that is printed.
 
-use num_traits::Signed;
+use num_traits::{Signed, Zero};
 
 use super::desk::Desk;
 use super::{Finding, remainder};
-use crate::dimension::{self, Dimension};
+use crate::dimension::{self, Dimension, Unit};
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Point, Rational, ratio};
-use crate::formula::{self, Content, Quantity, Symbols, write_plain};
+use crate::formula::{self, Content, Literal, Quantity, Symbols, Written, write_plain};
 use crate::scene::Printed;
 use crate::verify::rounding::{bounds, fraction, magnitude_or_zero, ten_to};
+
+/// A number as it is printed.
+pub(super) struct Figure {
+    /// The number in its unit.
+    written: Expr,
+    /// What the unit is worth.
+    unit: Expr,
+    /// The power of ten of its last digit.
+    place: i32,
+    /// Whether it is digits and a sign alone, apart from what stands behind them.
+    pub(super) is_literal: bool,
+    /// Whether a degree or percent sign stands behind it.
+    pub(super) is_marked: bool,
+    is_percent: bool,
+    /// The same with its unit, where it has one.
+    pub(super) quantity: Option<Quantity>,
+}
+
+impl Figure {
+    /// Reads a number with what stands behind it.
+    pub(super) fn read(text: &str) -> Result<Figure, String> {
+        let reading = formula::read(text, &Symbols::strict()).map_err(|f| f.to_string())?;
+        let marked = reading.written.last().and_then(Written::marked);
+        let is_marked = marked.is_some();
+        let literal = reading.literal.or(marked);
+        let quantity = match reading.content {
+            Content::Quantity(q) => Err(*q),
+            other => Ok(other.expr().cloned()),
+        };
+        let (value, unit, quantity) = match quantity {
+            Err(q) => (q.written.clone(), q.unit.value(), Some(q)),
+            Ok(Some(value)) => (value, Expr::one(), None),
+            Ok(None) => return Err("the printed number is no number".into()),
+        };
+        // An angle in degrees is read as a multiple of π.
+        let is_in = |signs: &[&str]| unit.is_one() && signs.iter().any(|sign| text.contains(sign));
+        let is_percent = is_in(&["%", "percent"]);
+        let (written, unit) = match is_in(&["deg", "°", "\\circ"]) {
+            true => {
+                let degree = Expr::pi() * Expr::ratio(1, 180);
+                (value.put("pi", &Expr::from(180)), degree)
+            }
+            // Half a unit of the last digit is one of the percent.
+            false if is_percent => (value * Expr::from(100), Expr::ratio(1, 100)),
+            false => (value, unit),
+        };
+        let place = literal.as_ref().map(|l| l.place);
+        Ok(Figure {
+            written,
+            unit,
+            place: place.unwrap_or_else(|| last_place(text)),
+            is_literal: literal.is_some(),
+            is_marked,
+            is_percent,
+            quantity,
+        })
+    }
+}
 
 impl Desk<'_> {
     pub(super) fn number(
@@ -19,67 +77,51 @@ impl Desk<'_> {
         of: &str,
         finding: &mut Finding,
     ) -> Result<(), String> {
-        let reading = formula::read(text, &Symbols::strict()).map_err(|f| f.to_string())?;
+        let figure = Figure::read(text)?;
         let target = self.read(of, printed)?;
-        let of_expr = target
-            .expr()
-            .ok_or_else(|| format!("{of} is no single expression"))?;
-        let (value, unit) = match &reading.content {
-            Content::Quantity(q) => {
-                if let Some(is) = self.other_dimension(of_expr, q) {
-                    let place = reading.literal.as_ref();
-                    let place = place.map_or_else(|| last_place(text), |l| l.place);
-                    finding.holds = Some(false);
-                    finding.carom = is.si();
-                    finding.because = format!(
-                        "{} measures {}, and {of} is {is}",
-                        q.unit_text, q.unit.dimension
-                    );
-                    finding.caught_by = Some("dimensions".into());
-                    let right = self.value(&self.put_in(of_expr, printed)?).ok();
-                    finding.explained = right.and_then(|[right, _]| {
-                        let off = (fraction(&q.written)? - right).abs();
-                        Some(match off <= ten_to(place) * ratio(1, 2) {
-                            true => format!("the number is right for {}", is.spoken()),
-                            false => "the number is wrong too".into(),
-                        })
-                    });
-                    return Ok(());
-                }
-                (q.written.clone(), q.unit.value())
-            }
-            other => (
-                other
-                    .expr()
-                    .cloned()
-                    .ok_or("the printed number is no number")?,
-                Expr::one(),
-            ),
-        };
-        // An angle in degrees is read as a multiple of π.
-        let is_in = |signs: &[&str]| unit.is_one() && signs.iter().any(|sign| text.contains(sign));
-        let is_percent = is_in(&["%", "percent"]);
-        let (value, unit) = match is_in(&["deg", "°", "\\circ"]) {
-            true => {
-                let degree = Expr::pi() * Expr::ratio(1, 180);
-                (value.put("pi", &Expr::from(180)), degree)
-            }
-            // Half a unit of the last digit is one of the percent.
-            false if is_percent => (value * Expr::from(100), Expr::ratio(1, 100)),
-            false => (value, unit),
-        };
-        // In the printed unit, which may hold π: 286 deg/s.
-        let [low, high] = self.value(&(self.put_in(of_expr, printed)? * unit.powi(-1)))?;
-        let written = fraction(&value).ok_or("the printed number is no fraction")?;
-        let place = reading
-            .literal
-            .as_ref()
-            .map_or_else(|| last_place(text), |l| l.place);
+        let value = target.expr();
+        let value = value.ok_or_else(|| format!("{of} is no single expression"))?;
+        self.rounded(printed, &figure, of, value, finding)
+    }
+
+    /// Whether a number is a value, which `of` names, rounded to the printed digits.
+    pub(super) fn rounded(
+        &self,
+        printed: &Printed,
+        figure: &Figure,
+        of: &str,
+        value: &Expr,
+        finding: &mut Finding,
+    ) -> Result<(), String> {
+        let (place, unit) = (figure.place, &figure.unit);
         let half = ten_to(place) * ratio(1, 2);
+        if let Some(q) = &figure.quantity
+            && let Some(is) = self.other_dimension(value, q)
+        {
+            finding.holds = Some(false);
+            finding.carom = is.si();
+            finding.because = format!(
+                "{} measures {}, and {of} is {is}",
+                q.unit_text, q.unit.dimension
+            );
+            finding.caught_by = Some("dimensions".into());
+            let right = self.value(&self.put_in(value, printed)?).ok();
+            finding.explained = right.and_then(|[right, _]| {
+                let off = (fraction(&q.written)? - right).abs();
+                Some(match off <= half {
+                    true => format!("the number is right for {}", is.spoken()),
+                    false => "the number is wrong too".into(),
+                })
+            });
+            return Ok(());
+        }
+        // In the printed unit, which may hold π: 286 deg/s.
+        let [low, high] = self.value(&(self.put_in(value, printed)? * unit.powi(-1)))?;
+        let written = fraction(&figure.written).ok_or("the printed number is no fraction")?;
         let off = (&written - &low).abs().max((&written - &high).abs());
         let digits = (magnitude_or_zero(&low) - place + 2).max(3) as u32;
         finding.carom = crate::interval::enclosure::decimal(&low, digits);
-        if is_percent {
+        if figure.is_percent {
             finding.carom.push_str(" %");
         }
         if off <= half {
@@ -97,16 +139,21 @@ impl Desk<'_> {
         let unit = unit.ok_or("the unit has no size")?;
         finding.explained = slip_of_digits(&written, &low, place).or_else(|| {
             let [wanted, room] = [&written, &half].map(|v| to_f64(v) * unit);
-            self.slips(of_expr, wanted, room * 1.000_001)
+            self.slips(printed, value, wanted, room * 1.000_001)
                 .or_else(|| remainder::digits(&written, &low, place))
         });
         Ok(())
     }
 
-    /// The dimension of an answer, where a printed quantity has another one.
-    pub(super) fn other_dimension(&self, of: &Expr, printed: &Quantity) -> Option<Dimension> {
+    /// The dimension of a value, where it is known.
+    pub(super) fn dimension(&self, of: &Expr) -> Option<Dimension> {
         let known = |name: &str| self.dimensions.get(name).cloned();
-        let is = dimension::of(of, &known).ok()??;
+        dimension::of(of, &known).ok()?
+    }
+
+    /// The same, where a printed quantity has another one.
+    pub(super) fn other_dimension(&self, of: &Expr, printed: &Quantity) -> Option<Dimension> {
+        let is = self.dimension(of)?;
         (is != printed.unit.dimension).then_some(is)
     }
 
@@ -160,26 +207,48 @@ pub(super) fn last_place(text: &str) -> i32 {
     -(after as i32)
 }
 
-/// The components of a vector in numbers, each with the unit behind all: `[-1.84, 3.12] N s`.
-pub(super) fn numbers(text: &str) -> Option<[String; 2]> {
-    let (inside, unit) = text
-        .trim()
-        .strip_prefix(['[', '('])?
-        .split_once([']', ')'])?;
-    let (x, y) = inside.split_once(',')?;
-    let number = |part: &str| {
-        let text = format!("{} {}", part.trim(), unit.trim());
-        let read = formula::read(&text, &Symbols::strict()).ok()?;
-        read.literal.map(|_| text)
+/// The components of a vector in numbers with the unit behind all: `[-1.84, 3.12] N s`, `6.4\,\hat{i} + 1.2\,\hat{j}`.
+pub(super) fn components(text: &str) -> Option<[Figure; 2]> {
+    let reading = formula::read(text, &Symbols::strict()).ok()?;
+    let Content::Vector([x, y, z]) = reading.content.answer() else {
+        return None;
     };
-    Some([number(x)?, number(y)?])
+    let literals = literals(reading.written.last()?);
+    let is_rounded = reading.unit.is_some() || literals.iter().any(|l| l.decimal);
+    if !z.is_zero() || !is_rounded {
+        return None;
+    }
+    let worth = reading.unit.as_ref().map_or_else(Expr::one, Unit::value);
+    let figure = |c: &Expr| {
+        let written = fraction(&(c * worth.powi(-1)))?;
+        let digits = literals.iter().find(|l| l.value.abs() == written.abs());
+        let place = match digits {
+            Some(digits) => digits.place,
+            // One that is left out is zero as far as the other goes.
+            None if written.is_zero() => literals.first()?.place,
+            None => return None,
+        };
+        let quantity = reading.unit.as_ref().map(|unit| {
+            let text = unit.dimension.si();
+            Quantity::of(written.clone().into(), unit.clone(), &text)
+        });
+        Some(Figure {
+            written: written.into(),
+            unit: worth.clone(),
+            place,
+            is_literal: true,
+            is_marked: false,
+            is_percent: false,
+            quantity,
+        })
+    };
+    Some([figure(x)?, figure(y)?])
 }
 
-/// The decimal number in its unit that is printed by itself, or as the bound of something: rounded, like every decimal.
-pub(super) fn decimal_in(text: &str) -> Option<&str> {
-    let mut sides = text.split(['<', '>', '=', '≤', '≥']).map(str::trim);
-    sides.find(|side| {
-        side.contains('.')
-            && formula::read(side, &Symbols::strict()).is_ok_and(|r| r.literal.is_some())
-    })
+/// The numbers that a formula is written with.
+fn literals(written: &Written) -> Vec<Literal> {
+    match written.literal() {
+        Some(one) => vec![one],
+        None => written.pieces().into_iter().flat_map(literals).collect(),
+    }
 }

@@ -7,7 +7,9 @@ use num_traits::{Signed, Zero};
 
 use super::Finding;
 use super::desk::Desk;
+use super::inequality::inequality;
 use crate::algebra::Field;
+use crate::domain::Domains;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Rational};
 use crate::formula::{Content, Relation};
@@ -116,28 +118,28 @@ impl Desk<'_> {
         ))
     }
 
-    /// A strict inequality that holds with equality allowed.
-    pub(super) fn loose(&self, values: &[Expr], signs: &[Relation], finding: &mut Finding) {
-        let weak = |sign: &Relation| match sign {
-            Relation::Less => Relation::LessEqual,
-            Relation::Greater => Relation::GreaterEqual,
-            other => *other,
-        };
-        let mut scratch = finding.clone();
-        let holds = values.windows(2).zip(signs).all(|(pair, sign)| {
-            self.inequality(&pair[0], &pair[1], weak(sign), &mut scratch) == Some(true)
-        });
-        finding.caught_by = Some("trying the ends of the domain".into());
-        finding.explained = Some(match holds {
-            true => "it holds with ≤ in place of <: an end of the domain is left out".into(),
-            false => "it fails inside the domain too".into(),
-        });
-    }
-
     pub(super) fn same(&self, a: &Expr, b: &Expr) -> bool {
         let found = equality::decide(a, b, &self.scene.domains).equality;
         matches!(found, Equality::Same { .. })
     }
+}
+
+/// A strict inequality that holds with equality allowed.
+pub(super) fn loose(values: &[Expr], signs: &[Relation], domains: &Domains, finding: &mut Finding) {
+    let weak = |sign: &Relation| match sign {
+        Relation::Less => Relation::LessEqual,
+        Relation::Greater => Relation::GreaterEqual,
+        other => *other,
+    };
+    let mut scratch = finding.clone();
+    let holds = values.windows(2).zip(signs).all(|(pair, sign)| {
+        inequality([&pair[0], &pair[1]], weak(sign), domains, &mut scratch) == Some(true)
+    });
+    finding.caught_by = Some("trying the ends of the domain".into());
+    finding.explained = Some(match holds {
+        true => "it holds with ≤ in place of <: an end of the domain is left out".into(),
+        false => "it fails inside the domain too".into(),
+    });
 }
 
 /// One digit misprinted or two exchanged: what the right value, rounded to the same place, shows.
