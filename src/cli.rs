@@ -77,7 +77,7 @@ enum Command {
     /// Write the worked solution of a scene: text, Markdown, LaTeX, HTML or JSON
     #[command(visible_alias = "explain")]
     Solution(solution::SolutionArgs),
-    /// Replay every step of a solution written as JSON
+    /// Replay every step of a solution written as JSON: its claims, not the words of its reasons
     Check(solution::CheckArgs),
     /// Judge a formula: is it equivalent, how is that known, and what is wrong with it
     Grade(grade::GradeArgs),

@@ -37,6 +37,8 @@ pub struct Report {
     pub held: usize,
     /// Of these, the ones that could be compared in doubles only.
     pub in_doubles: usize,
+    /// Claims with one formula on both sides, which hold whatever it is.
+    pub idle: usize,
     /// Claims that do not hold.
     pub failed: Vec<Failure>,
     /// Claims without a value at any point tried, by step.
@@ -260,6 +262,10 @@ fn collect(
                 };
                 if let Some(why) = typeset::differs(claim, &left, &right, known) {
                     report.fail(&id, &claim["latex"].to_string(), why);
+                }
+                if left == right {
+                    report.idle += 1;
+                    continue;
                 }
                 claims.equal.push(Claim {
                     step: id.clone(),

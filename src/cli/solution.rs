@@ -257,8 +257,12 @@ pub fn check(args: &CheckArgs) -> Result<u8, Failure> {
         0 => String::new(),
         n => format!(", {n} of them in doubles"),
     };
+    let idle = match report.idle {
+        0 => String::new(),
+        n => format!(", {n} with one formula on both sides say nothing"),
+    };
     out.push_str(&format!(
-        "{} steps, {} claims hold{doubles}, {} do not\n",
+        "{} steps, {} claims hold{doubles}, {} do not{idle}\n",
         report.steps,
         report.held,
         report.failed.len()

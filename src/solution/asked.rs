@@ -188,7 +188,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     }
     let named = answer.formula().filter(|_| !parameter);
     let defined = named.map(|formula| defined(solution, answer, formula, fresh));
-    let shown = claims(ask, answer, named.map(|f| (&symbol, f)));
+    let shown = claims(scene, ask, answer, named.map(|f| (&symbol, f)));
     let reason = answer.put_in.first().map_or("what is asked", |p| p.2);
     let shown = (!shown.is_empty()).then(|| solution.step(Vec::new(), shown, reason));
     if let (Some(_), Some(step)) = (&shown, solution.steps.last_mut()) {
@@ -525,15 +525,20 @@ fn is_used(scene: &Scene, name: &crate::expr::Symbol) -> bool {
 }
 
 /// What shows an answer, about its name where it has one.
-fn claims(ask: &Ask, answer: &Answer, named: Option<(&Expr, &Expr)>) -> Vec<Claim> {
+fn claims(scene: &Scene, ask: &Ask, answer: &Answer, named: Option<(&Expr, &Expr)>) -> Vec<Claim> {
     let claim = |left: &Expr, right: &Expr| Claim::new(left.clone(), right.clone());
     let put_in = answer.put_in.iter();
     let Some((symbol, formula)) = named else {
         return put_in.map(|(left, right, _)| claim(left, right)).collect();
     };
+    // The other component of a unit vector has its value put in as well, and no name.
+    let is_alone = |parameter: &Symbol, sides: [&Expr; 2]| {
+        let other = scene.domains.other_component(parameter);
+        other.is_none_or(|other| !sides.iter().any(|side| side.mentions(other)))
+    };
     match (ask, &answer.stated) {
-        // The other component of a unit vector has its value put in as well, and no name.
-        (Ask::Condition { parameter, .. }, Some((left, _, right))) if matches!(answer.put_in.as_slice(), [(own, ..)] if *own == left.put(parameter, formula)) =>
+        (Ask::Condition { parameter, .. }, Some((left, _, right)))
+            if answer.put_in.len() == 1 && is_alone(parameter, [left, right]) =>
         {
             let at = std::collections::BTreeMap::from([(parameter.clone(), symbol.clone())]);
             vec![claim(&left.substitute(&at), &right.substitute(&at))]

@@ -312,7 +312,11 @@ impl Desk<'_> {
         let ([left, right], [Relation::Equal]) = (&sides[..], &signs[..]) else {
             return None;
         };
-        let (left, right) = (left.expr()?, right.expr()?);
+        // A number may stand before what is said.
+        let (left, right) = match (left.expr()?, right.expr()?) {
+            (left, right) if left.is_constant() => (right, left),
+            both => both,
+        };
         let (name, truth) = match self.bounds.get(item) {
             Some((of, _, value)) => (of.as_symbol()?, value),
             None => (item, self.closed.get(item)?),

@@ -14,7 +14,10 @@ impl Desk<'_> {
     /// The special values; one may be what the scene answers with.
     pub(super) fn special(&self, printed: &Printed) -> Result<BTreeMap<Symbol, Expr>, String> {
         let mut special = self.values_of(&printed.at, printed)?;
-        for value in special.values_mut() {
+        for (name, value) in &mut special {
+            if self.scene.parameter(name).is_none() {
+                return Err(format!("`at` names {name}, which is no parameter"));
+            }
             *value = value.substitute(&self.closed);
         }
         Ok(special)
