@@ -16,7 +16,7 @@ pub fn printed(scene: Scene) -> Result<(Vec<Finding>, Vec<String>), String> {
         Vec::new()
     };
     if cases.len() < 2 {
-        return one(scene.clone(), &scene, None);
+        return one(scene.clone(), &scene, cases.first());
     }
     let several = cases.iter().filter(|case| case.is_so).count() > 1;
     let mut all = Vec::new();

@@ -56,10 +56,16 @@ impl Desk<'_> {
         all
     }
 
-    /// What must hold and does not at the special values, the others being those of the scene.
+    /// What must hold and does not at the values for which something is printed: the special ones, and those of the scene
+    /// where there are such or it is a number.
     pub(super) fn excluded(&self, printed: &Printed) -> Option<String> {
         if printed.at.is_empty() {
-            return (!self.is_so).then(|| "the values of the scene".into());
+            if !self.is_so {
+                return Some("the values of the scene".into());
+            }
+            if !matches!(printed.what, Print::Number { .. }) {
+                return None;
+            }
         }
         let special = self.special(printed).ok()?;
         for (name, value) in &special {
@@ -75,8 +81,7 @@ impl Desk<'_> {
         let fails = |e: &Expr| sign(e, plain).is_negative();
         let broken = self.needs(printed).into_iter().find(|need| {
             let there = need.excess.substitute(&special);
-            let touched = special.keys().any(|name| need.excess.mentions(name));
-            touched && (fails(&there) || fails(&there.substitute(&given)))
+            fails(&there) || fails(&there.substitute(&given))
         })?;
         Some(match broken.origin.so_that() {
             Some(what) => format!("{}, so that {what}", broken.words),
