@@ -67,6 +67,12 @@ const MOTIONS: &[Belief] = &[
         slips: |s| motions(s, &|stage| about_another(stage, 1)),
     },
     Belief {
+        code: "ROTATION_ENERGY_FORGOTTEN",
+        belief: "a body that rolls or unwinds is taken to slide without friction: the energy of its rotation is left out",
+        hint: "which parts has the kinetic energy of a body that turns as it moves on?",
+        slips: |s| motions(s, &without_rotation),
+    },
+    Belief {
         code: "POINT_MASS",
         belief: "the body is treated as if all its mass sat at its center",
         hint: "does the body resist being turned?",
@@ -177,6 +183,30 @@ fn scaled(stage: &mut Stage, by: i64) -> bool {
         }
         None => false,
     }
+}
+
+/// A body that rolls slides, and what unwinds has no inertia: all energy is that of the motion of centers.
+fn without_rotation(stage: &mut Stage) -> bool {
+    let moves = match &mut stage.kind {
+        StageKind::Slide(slide) if slide.rolling => {
+            slide.rolling = false;
+            slide.friction = Some(Expr::zero());
+            return true;
+        }
+        StageKind::Linkage(linkage) => {
+            let moves = |e: &Expr| e.mentions(&linkage.coordinate);
+            let rolls = |[x, y, angle]: &[Expr; 3]| moves(angle) && (moves(x) || moves(y));
+            let places = linkage.places.iter().filter(|(_, at)| rolls(at));
+            places.map(|(b, _)| *b).collect()
+        }
+        _ => Vec::new(),
+    };
+    let mut found = false;
+    for b in moves {
+        let inertia = &mut stage.scene.bodies[b].inertia;
+        found |= !std::mem::replace(inertia, Expr::zero()).is_zero();
+    }
+    found
 }
 
 /// The rotation that a stage is, of one body, and that body's moment of inertia about its center.
