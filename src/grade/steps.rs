@@ -214,24 +214,36 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
     let all = std::iter::once(best).chain(others);
     let mut best = all.min_by_key(slips).expect("one at least");
     for _ in 0..MOST_CAUSES {
-        let others = best.2.iter().take(MOST_CAUSES).map(|(name, value)| {
+        let others = best.2.iter().take(MOST_CAUSES).map(|needed| {
             let mut meant = best.1.clone();
-            meant.bound.insert(name.clone(), value.clone());
-            worked(meant)
+            meant
+                .bound
+                .insert(needed.name.clone(), needed.value.clone());
+            (worked(meant), needed.early)
         });
-        // The earlier line is the one with the slip.
-        let others =
-            others.filter(|other| (slips(other), first(other)) < (slips(&best), first(&best)));
-        match others.min_by_key(slips) {
-            Some(other) => best = other,
+        // The earlier line is the one with the slip, but for one that holds until it is said what its name is.
+        let others = others.filter(|(other, early)| match early {
+            true => slips(other) <= slips(&best),
+            false => (slips(other), first(other)) < (slips(&best), first(&best)),
+        });
+        match others.min_by_key(|(other, _)| slips(other)) {
+            Some((other, _)) => best = other,
             None => break,
         }
     }
     best.0
 }
 
-/// A solution that was checked, what it means, and what own names would have to be for wrong lines to hold.
-type Tried = (Worked, Meant, Vec<(Symbol, Expr)>);
+/// What an own name would have to be for a wrong line to hold.
+struct Needed {
+    name: Symbol,
+    value: Expr,
+    /// Whether the line stands above the one that says what the name is.
+    early: bool,
+}
+
+/// A solution that was checked, what it means, and what own names would have to be.
+type Tried = (Worked, Meant, Vec<Needed>);
 
 fn wrong_lines((worked, ..): &Tried) -> impl Iterator<Item = &Line> {
     let lines = worked.lines.iter();
@@ -257,7 +269,7 @@ fn check_with(
     text: &str,
     options: &Options,
     meant: &Meant,
-) -> (Worked, Vec<(Symbol, Expr)>) {
+) -> (Worked, Vec<Needed>) {
     let mut desk = Desk::new(sheet);
     desk.closed.extend(meant.value.clone());
     desk.know_accelerations(meant.value.as_ref());
@@ -638,6 +650,9 @@ impl Desk<'_> {
         let all: Vec<Expr> = all.cloned().collect();
         match weighed {
             Weighed::Holds => {
+                let used = all.iter().flat_map(Expr::symbols);
+                let own = used.filter(|name| self.own.contains_key(name));
+                self.proved.extend(own.collect::<Vec<_>>());
                 self.carry(reading);
                 self.state(None, &all);
                 Status::Holds
@@ -668,8 +683,13 @@ impl Desk<'_> {
                     let used = used.into_iter().filter(|name| self.own.contains_key(name));
                     for name in used.collect::<Vec<_>>() {
                         let truth = needed.get(&name).map(|[_, truth]| truth);
-                        let meant = self.meant_by(gap, &name, truth);
-                        self.needed.extend(meant.map(|meant| (name.clone(), meant)));
+                        let early = self.early.contains(&name);
+                        self.needed
+                            .extend(self.meant_by(gap, &name, truth).map(|value| Needed {
+                                name: name.clone(),
+                                value,
+                                early,
+                            }));
                         let truth = truth.map(|truth| (number, name, truth.clone()));
                         self.slipped.extend(truth);
                     }

@@ -8,7 +8,7 @@ use super::impact::Stand;
 use super::letters::{MARKS, OF_CENTER};
 use super::sought::{self, Sought};
 use super::vectors::{in_products, is_marked, marked_after};
-use super::{Final, text};
+use super::{Final, Needed, text};
 use crate::answer::Form;
 use crate::derive::{Moment, Names};
 use crate::equality::{self, Equality};
@@ -62,7 +62,9 @@ pub(super) struct Desk<'a> {
     /// Own names whose values are the scene's, as long as no line has spoken of them.
     pub bound: BTreeSet<Symbol>,
     /// Own names that wrong lines use, with the values of the scene by which they hold.
-    pub needed: Vec<(Symbol, Expr)>,
+    pub needed: Vec<Needed>,
+    /// Own names with which a line holds.
+    pub proved: BTreeSet<Symbol>,
     /// Own names whose last definition could not be read.
     pub unclear: BTreeSet<Symbol>,
     /// How answers are typeset whose names read otherwise: `u_x` for a component of `u_velocity`.
@@ -145,6 +147,7 @@ impl<'a> Desk<'a> {
             learned: BTreeSet::new(),
             bound: BTreeSet::new(),
             needed: Vec::new(),
+            proved: BTreeSet::new(),
             unclear: BTreeSet::new(),
             typeset: Vec::new(),
             turning: None,

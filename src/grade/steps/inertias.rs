@@ -1,6 +1,6 @@
 //! Moments of inertia that a line names or writes out, of one body or of several together.
 
-use super::super::{Tolerance, number};
+use super::super::{Diagnosis, Tolerance, number};
 use super::Desk;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol, ratio};
@@ -24,6 +24,24 @@ fn together(each: &[Expr]) -> impl Iterator<Item = Expr> {
         let parts = parts.filter(|(k, _)| chosen >> k & 1 == 1);
         Expr::sum(parts.map(|(_, e)| e.clone()).collect::<Vec<_>>())
     })
+}
+
+/// The finding about a moment of inertia whose name says about which point it is.
+pub(super) fn is_other_inertia(name: &Symbol) -> Diagnosis {
+    let place = name.trim_start_matches("I_");
+    let words = format!("the moment of inertia about {place} is another one");
+    let hint = "moments of inertia: I_G of the shape, plus m times the square of the distance to G";
+    Diagnosis::new("INERTIA", words, hint)
+}
+
+/// The center of mass of several bodies together.
+fn common_center(bodies: &[&Body]) -> Option<[Expr; 2]> {
+    let total = Expr::sum(bodies.iter().map(|b| b.mass.clone()).collect::<Vec<_>>());
+    let along = |axis: usize| {
+        let each = bodies.iter().map(|b| &b.mass * &b.center[axis]);
+        Expr::sum(each.collect::<Vec<_>>()) / &total
+    };
+    (bodies.len() > 1).then(|| [along(0), along(1)])
 }
 
 impl Desk<'_> {
@@ -61,9 +79,11 @@ impl Desk<'_> {
         let free = || scene.bodies.iter().filter(|b| !b.is_fixed());
         let hinges = scene.hinges.iter().map(|h| &h.at);
         let centers = free().map(|b| &b.center).chain(hinges);
+        let common = common_center(&free().collect::<Vec<_>>());
         let points = scene.points.iter().map(|p| &p.at).chain(centers);
+        let points = points.take(MOST_POINTS).chain(common.as_ref());
         let value = self.with_own(value);
-        points.take(MOST_POINTS).any(|point| {
+        points.into_iter().any(|point| {
             let each: Vec<Expr> = free().map(|b| about(b, point)).take(MOST_BODIES).collect();
             let same = |total| equality::decide(&value, &total, &scene.domains).equality;
             together(&each).any(|total| matches!(same(total), Equality::Same { .. }))

@@ -193,7 +193,8 @@ impl Desk<'_> {
                 }
                 _ => return None,
             };
-            if value.symbols().contains(&name) {
+            // `for s = d` puts what s is for d.
+            if self.put_in(value, &BTreeMap::new()).mentions(&name) {
                 return None;
             }
             there.insert(name, value.clone());
@@ -202,6 +203,9 @@ impl Desk<'_> {
         let links: Vec<Link> = links?.into_iter().flatten().collect();
         let domains = &self.sheet.scene.domains;
         let at = |e: &Expr, instead: &BTreeMap<Symbol, Expr>| {
+            let there = there.iter();
+            let there = there.map(|(name, value)| (name.clone(), self.put_in(value, instead)));
+            let there: BTreeMap<Symbol, Expr> = there.collect();
             let value = self.put_in(e, instead).substitute(&there);
             self.at_sought(value).substitute(&there)
         };

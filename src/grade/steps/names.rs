@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::relation::solve_for;
 use super::cause::size_in;
+use super::inertias::is_other_inertia;
 use super::letters::OF_CENTER;
 use super::link::Weighed;
 use super::{Desk, Diagnosis, Options, Status};
@@ -183,11 +184,7 @@ impl Desk<'_> {
         let values = values?;
         let (first, last) = ((*values.first()?).clone(), (*values.last()?).clone());
         if let Some(true_value) = self.other_inertia(&name, &first) {
-            let words = format!(
-                "the moment of inertia about {place} is another one",
-                place = name.trim_start_matches("I_")
-            );
-            let hint = "moments of inertia: I_G of the shape, plus m times the square of the distance to G";
+            let found = is_other_inertia(&name);
             // A slip in I_G goes on to I_A = I_G + m d².
             let off = |name: &Symbol, truth: &Expr| self.with_own(&Expr::symbol(name)) - truth;
             let mine = self.with_own(&first) - &true_value;
@@ -203,7 +200,7 @@ impl Desk<'_> {
                 .push((cause.unwrap_or(number), name, true_value));
             return Some(match cause {
                 Some(cause) => (Status::Carried(cause), Vec::new()),
-                None => (Status::Wrong, vec![Diagnosis::new("INERTIA", words, hint)]),
+                None => (Status::Wrong, vec![found]),
             });
         }
         if sides.len() == 1 {

@@ -1,7 +1,7 @@
 //! The equations in a line as students write them, with words and arrows around them.
 
 use crate::dimension;
-use crate::formula::Fault;
+use crate::formula::{self, Fault, changes};
 
 /// Signs that relate two sides.
 const SIGNS: [char; 5] = ['<', '>', '≤', '≥', '≈'];
@@ -635,6 +635,15 @@ fn describes(left: &str) -> bool {
             .any(|word| DESCRIBING.split_whitespace().any(|w| w == *word))
 }
 
+/// Whether words in brackets say what stands before them, and are no factors: `the deceleration of the block`.
+fn describes_it(words: &str) -> bool {
+    let mut all = words.split([' ', ',', '-']).filter(|word| !word.is_empty());
+    let plain = |word: &str| word.chars().all(char::is_alphabetic) && !changes(word);
+    let name = |word: &str| formula::is_greek(word) || !is_word(word) || word.len() < 4;
+    let says = all.clone().any(|word| !name(word)) && all.clone().count() > 1;
+    says && all.all(|word| plain(word) && !turns_sign(word))
+}
+
 /// An equation without the number or the words in brackets behind it: `(downwards)`, `(by symmetry)`, `\\tag{3}`, and a `(3)`
 /// that stands well apart or behind dots, since closer it is a factor.
 pub(super) fn without_remark(text: &str) -> &str {
@@ -651,7 +660,9 @@ pub(super) fn without_remark(text: &str) -> &str {
     let apart = before.ends_with("  ")
         || dots.any(|d| before.trim_end().ends_with(d))
         || far.iter().any(|far| before.trim_end().ends_with(far));
-    let words = text.ends_with(')') && REMARKS.split_whitespace().any(|word| word == first);
+    let words = text.ends_with(')')
+        && (REMARKS.split_whitespace().any(|word| word == first)
+            || before.ends_with(' ') && describes_it(inside));
     match before.strip_suffix("\\tag") {
         Some(equation) if number => equation.trim_end(),
         None if words => before.trim_end(),

@@ -8,6 +8,7 @@ use super::super::relation::solve_for;
 use super::super::{Diagnosis, Options};
 use super::bind::angular_momenta;
 use super::cause::{MOST_STEPS, size_in};
+use super::inertias::is_other_inertia;
 use super::link::in_vectors;
 use super::sought::Sought;
 use super::{Desk, MOST_TERMS};
@@ -134,6 +135,13 @@ impl Desk<'_> {
             .first()
             .and_then(Content::expr)
             .and_then(Expr::as_symbol);
+        let value = sides.get(at + 1).and_then(Content::expr);
+        if let (Some(name), Some(value)) = (name, value)
+            && self.bound.contains(name)
+            && self.other_inertia(name, value).is_some()
+        {
+            return vec![is_other_inertia(name)];
+        }
         if let Some(entry) = name.and_then(|n| self.sheet.entry(n).ok()) {
             // The side behind the first wrong sign, with the student's own names put in.
             let side = sides.get(at + 1).and_then(Content::expr);
@@ -159,6 +167,10 @@ impl Desk<'_> {
                 }),
                 0 => {}
                 _ => found.retain(|d| !belief(d)),
+            }
+            // The unit stands at the end of the chain.
+            if let Some(Content::Quantity(_)) = sides.last() {
+                found.retain(|d| d.code != "UNIT_MISSING");
             }
             // By way of other quantities a value may well be said in symbols that it does not depend on.
             if by_others {
@@ -219,7 +231,8 @@ impl Desk<'_> {
     pub(super) fn own_needed(&self, gap: &Expr) -> Vec<(Symbol, [Expr; 2])> {
         let domains = &self.sheet.scene.domains;
         let used = gap.symbols();
-        let own = self.own.keys().filter(|name| used.contains(*name));
+        let open = |name: &&Symbol| used.contains(*name) && !self.proved.contains(*name);
+        let own = self.own.keys().filter(open);
         let needed = own.filter_map(|name| {
             let mut others = self.own.clone();
             let value = self.with_own(&others.remove(name)?);
@@ -235,7 +248,7 @@ impl Desk<'_> {
     /// by more.
     fn own_value(&self, [left, right]: [&Expr; 2], factor: bool) -> Option<Diagnosis> {
         let each = self.own_needed(&(left - right)).into_iter();
-        let mut found = each.filter_map(|(name, [value, needed])| {
+        let found = each.filter_map(|(name, [value, needed])| {
             // A moment of inertia of the scene, or a velocity in it, is no slip, unless another such is needed.
             let [mine, theirs] = [&value, &needed].map(|e| self.of_scene(e));
             if mine.is_some() && theirs.is_none() {
@@ -248,8 +261,10 @@ impl Desk<'_> {
             let [value, needed] = [&value, needed].map(formula::write_plain);
             let likely = theirs.is_some() || rational == factor;
             let told = likely && !same && needed.len().max(value.len()) < LONGEST_VALUE;
+            // Of several the one that is said shortest is most likely meant.
+            let length = (theirs.is_none(), needed.len());
             told.then(|| {
-                Diagnosis::new(
+                let found = Diagnosis::new(
                     "OWN_VALUE",
                     format!("this line holds with {name} = {needed}, where you have {value}"),
                     match factor {
@@ -259,10 +274,13 @@ impl Desk<'_> {
                         true => "either that value or this line is off by a factor: check both",
                         false => "either that value or this line is wrong: check both",
                     },
-                )
+                );
+                (length, found)
             })
         });
-        found.next()
+        found
+            .min_by_key(|(length, _)| *length)
+            .map(|(_, found)| found)
     }
 
     /// What an own name was meant to be where it would have to be another one in a line: what the scene has, where its value is
@@ -281,10 +299,11 @@ impl Desk<'_> {
                 .is_some_and(|n| self.sheet.scene.parameter(n).is_some())
         };
         let part = |e: &Expr| value.terms().contains(e) || value.terms().contains(&-e);
+        let early = self.early.contains(name);
         let truth = needed.and_then(|needed| self.of_scene(needed));
         let truth = truth.filter(|truth| !given(truth) && !part(truth));
         if truth.is_some() {
-            return truth.filter(|_| self.of_scene(value).is_none());
+            return truth.filter(|_| early || self.of_scene(value).is_none());
         }
         let terms = value.terms().iter().take(MOST_TERMS);
         let others = terms.flat_map(|term| {
@@ -297,9 +316,35 @@ impl Desk<'_> {
                 .flatten()
                 .map(move |other| value - term + other)
         });
+        let exchanged = match early {
+            true => self.exchanged(gap, value),
+            false => Vec::new(),
+        };
         let mut others = others
+            .chain(exchanged)
             .filter(|other| self.all_zero(&[gap.put(name, other)], &BTreeMap::new()) == Some(true));
         others.next()
+    }
+
+    /// A value with two parameters of one kind for one another, which do not both stand in an equation that it is put into.
+    fn exchanged(&self, gap: &Expr, value: &Expr) -> Vec<Expr> {
+        let parameters = &self.sheet.scene.parameters;
+        let pairs = parameters.iter().enumerate().flat_map(|(i, p)| {
+            let alike = parameters[..i].iter();
+            alike
+                .filter(|q| q.dimension == p.dimension)
+                .map(move |q| (&p.name, &q.name))
+        });
+        let here = |e: &Expr, (p, q): &(&Symbol, &Symbol)| (e.mentions(p), e.mentions(q));
+        let fits = |pair: &(&Symbol, &Symbol)| {
+            here(value, pair) != (false, false) && here(gap, pair) != (true, true)
+        };
+        let pairs = pairs.filter(fits).take(MOST_PAIRS);
+        let other = pairs.map(|(p, q)| {
+            let both = [(p.clone(), Expr::symbol(q)), (q.clone(), Expr::symbol(p))];
+            value.substitute(&both.into())
+        });
+        other.collect()
     }
 
     /// What the scene has that a value is: a moment of inertia, or a velocity or spin, also as it comes into an impact.
