@@ -315,6 +315,19 @@ fn a_tolerance_is_relative_absolute_or_in_digits() {
         line("9.8 m/s^2", json!({"significant": 3})),
         "different DIFF_TOLERANCE"
     );
+    // A factor of a formula is rounded to digits as a number is.
+    let rounded = |expected: &str, answer: &str| {
+        judged(json!({"expected": expected, "answer": answer, "tolerance": {"significant": 2}}))
+    };
+    assert_eq!(rounded("3*v/7", "0.43 v"), "equivalent EQUIV_TOLERANCE");
+    assert_eq!(rounded("3*v/7", "0.44 v"), "different DIFF_FACTOR");
+    let root = |answer| rounded("sqrt(2*g*h)", answer);
+    assert_eq!(root("1.4 sqrt(g h)"), "equivalent EQUIV_TOLERANCE");
+    assert!(root("1.5 sqrt(g h)").starts_with("different"));
+    let sum = |answer| rounded("3*v/7 + 2*u/7", answer);
+    assert_eq!(sum("0.43 v + 0.29 u"), "equivalent EQUIV_TOLERANCE");
+    assert!(sum("0.43 v + 0.28 u").starts_with("different"));
+    assert!(rounded("3*(v+u)/7", "0.45 (v + u)").starts_with("different"));
     // Numbers near those of a difference say nothing of its value.
     let near = |expected: &str, answer: &str| {
         judged(json!({"expected": expected, "answer": answer, "tolerance": "1%"}))

@@ -52,6 +52,7 @@ use fault::Faulty;
 pub(crate) use frames::lines_apart;
 pub use note::{Note, Remark};
 use parser::{Parser, Side};
+pub(crate) use prose::changes;
 pub use quotient::Quotient;
 pub(crate) use sentence::sentence;
 pub use sentence::{Piece, Sentence, capital, either, listed, sides, trimmed};
@@ -122,6 +123,11 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
         && let Some(last) = frames::last_equation(text)
     {
         return read(&last, symbols);
+    }
+    if held.all("\\.")
+        && let Some(text) = without_full_stop(text)
+    {
+        return read(&text, symbols);
     }
     if held.any("\\")
         && let Some(text) = upright(text)
@@ -246,6 +252,23 @@ fn unit_behind(text: &str, fault: usize) -> Option<String> {
     let is_unit = unit.contains('/') && dimension::unit(unit).is_ok();
     let stands_behind = !before.trim().is_empty() && fault > before.len();
     (is_unit && stands_behind).then(|| format!("{before} \\text{{{unit}}}"))
+}
+
+/// A text with a blank for the full stop before the end of its frame: `\[ 2mv. \]`, `2mv. \end{equation}`; `4.` keeps its point.
+fn without_full_stop(text: &str) -> Option<String> {
+    let end = text.trim_end_matches(|c: char| c.is_whitespace() || c == '$');
+    let frame = ["\\]", "\\)", "\\end{"]
+        .iter()
+        .filter_map(|end| text.rfind(end));
+    let at = frame
+        .max()
+        .filter(|at| !end[*at..].trim_end_matches('}').contains(['}', ' ']))?;
+    let body = text[..at].trim_end().strip_suffix('.')?;
+    let point = body.ends_with(|c: char| c.is_ascii_digit()) || body.ends_with(['.', '\\']);
+    let sized = ["\\left", "\\right"]
+        .iter()
+        .any(|size| body.ends_with(size));
+    (!point && !sized).then(|| format!("{body} {}", &text[body.len() + 1..]))
 }
 
 /// A text with ` \rm{m}` for `{\rm m}`, which is as long; an index and a d stay.
@@ -574,8 +597,13 @@ fn has_both_signs(w: &Written) -> bool {
     here || w.pieces().into_iter().any(has_both_signs)
 }
 
-/// The inside of quotation marks around a whole text.
+/// The inside of quotation marks around a whole text, or of those of code.
 fn quoted(text: &str) -> Option<&str> {
+    let code = text.trim().strip_prefix('`');
+    if let Some(code) = code.and_then(|code| code.strip_suffix('`')) {
+        let inside = code.trim_matches('`');
+        return (!inside.contains('`')).then_some(inside);
+    }
     let opened = text.trim().strip_prefix(['"', '“', '„', '«'])?;
     let inside = opened.strip_suffix(['"', '”', '“', '»'])?;
     (!inside.contains(['"', '“', '”', '»'])).then_some(inside)

@@ -44,7 +44,7 @@ impl Held {
 }
 
 /// Whether a word could change the value of what it stands beside.
-pub(super) fn changes(word: &str) -> bool {
+pub(crate) fn changes(word: &str) -> bool {
     const CHANGING: &str = "above anything below but cannot complement cosine cotangent cube cubed decreased denied difference \
         divided double doubled doubt except exceeds false fifth fourth fraction half halved hardly if impossible incorrect \
         incorrectly increased instead inverse least less log logarithm minus mistaken more most multiplied negative neither \
@@ -376,6 +376,21 @@ fn last_line(text: &str) -> Option<usize> {
         .then_some(before.len() + 1)
 }
 
+/// Whether a clause only says what names are: `, where $m$ is the mass.`
+fn says_names(clause: &str) -> bool {
+    let said = clause.trim_start_matches([',', ' ']);
+    let foreign = |c: char| c.is_ascii_digit() || "=+*/^<>≤≥()[]|".contains(c);
+    let mut words = said.split(|c: char| !c.is_alphabetic());
+    ["where ", "with "]
+        .iter()
+        .any(|lead| said.starts_with(lead))
+        && [" is ", " are ", " being ", " denotes "]
+            .iter()
+            .any(|verb| said.contains(verb))
+        && !said.contains(foreign)
+        && !words.any(changes)
+}
+
 /// Start and end of the only formula in a sentence; nothing where there are none or several, or no words around it, and a fault
 /// where these could change what it says.
 pub(super) fn formula_in_words(text: &str) -> Option<Faulty<(usize, usize)>> {
@@ -403,6 +418,10 @@ pub(super) fn formula_in_words(text: &str) -> Option<Faulty<(usize, usize)>> {
             .any(|word| word.len() > 2)
     };
     let prose = words(before) || words(behind);
+    let behind = match says_names(behind) {
+        true => "",
+        false => behind,
+    };
     let several = before.contains(foreign) || behind.contains(foreign);
     // `$5$ m/s` and `$5$ meters` carry a unit outside.
     let unit =

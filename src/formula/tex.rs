@@ -231,6 +231,11 @@ impl<'a> Lexer<'a> {
             && self
                 .group(start)
                 .is_ok_and(|(i, _)| i.starts_with(' ') || i.contains(['/', '^']));
+        // One bold letter is a vector.
+        let is_text = match word {
+            "textbf" => self.group(start).is_ok_and(|(i, _)| i.len() > 1),
+            _ => matches!(word, "mathrm" | "rm" | "text" | "textrm" | "mathsf"),
+        };
         if let Ok((inside, end)) = self.group(start)
             && matches!(inside.trim(), "deg" | "degrees" | "°")
             && self.before != Before::Nothing
@@ -239,7 +244,7 @@ impl<'a> Lexer<'a> {
             return Ok(Tok::Degree);
         }
         self.pos = start;
-        if matches!(word, "mathrm" | "rm" | "text" | "textrm" | "mathsf")
+        if is_text
             && (self.before != Before::Nothing || as_unit)
             && let Some(tok) = self.unit(true)
         {

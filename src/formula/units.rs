@@ -282,7 +282,7 @@ pub(crate) fn plain_unit(side: &str) -> Option<String> {
                 let word = &rest[..length];
                 rest = &rest[length..];
                 match word {
-                    "mathrm" | "text" | "textrm" | "mathsf" | "rm" => {
+                    "mathrm" | "text" | "textrm" | "textbf" | "mathsf" | "rm" => {
                         if !out.is_empty() && !out.ends_with('µ') {
                             out.push(' ');
                         }

@@ -9,6 +9,7 @@ use super::{
     Apart, Diagnosis, Key, Options, Proof, Strength, Verdict, number, partial, relation, several,
     show, unit,
 };
+use crate::algebra;
 use crate::dimension::Dimension;
 use crate::equality::{self};
 use crate::expr::{Expr, Symbol};
@@ -252,23 +253,56 @@ fn is_system(content: &Content) -> bool {
     is_unsolved || solved_for(content).len() > 1
 }
 
-fn compare(ctx: &Context, answer: &Reading) -> Finding {
-    // Values of one name are a list of which each will do, unless the other side says that they are all the same, or speaks of
-    // several: `y = x² and y = x` beside `x = 1 and y = 1`.
+/// Whether all values of a list may be one and the same, as those of `F = 3 and F = m a`: they are in different symbols, and no
+/// two of them are apart everywhere, as 0 and a are.
+fn may_all_hold(ctx: &Context, list: &Content) -> bool {
+    let Content::Either(values) = list.answer() else {
+        return false;
+    };
+    let domains = &ctx.key.question.domains;
+    let apart = |(a, b): (&Expr, &Expr)| {
+        relation::sign_of(&(a - b), domains).is_some_and(algebra::Sign::is_strict)
+    };
+    let mut pairs = values.iter().enumerate();
+    let mut others = values.iter().skip(1);
+    others.any(|e| e.symbols() != values[0].symbols())
+        && !pairs.any(|(i, a)| values[..i].iter().any(|b| apart((a, b))))
+}
+
+/// The finding where values of one name are a list of which each will do: unless the other side says that they are all the same,
+/// or speaks of several, as `y = x² and y = x` does beside `x = 1 and y = 1`. Solutions of a single equation are such a list in
+/// any case.
+fn lists(ctx: &Context, answer: &Reading) -> Option<Finding> {
     let expected = &ctx.key.reading.content;
-    if let (false, Some(list)) = (is_system(expected), formula::values_of_one(&answer.content)) {
-        return compare(ctx, &answer.with(list));
+    let several = match expected {
+        Content::Relations(..) => matches!(expected.answer(), Content::Either(_)),
+        other => matches!(other, Content::Joined(..)),
+    };
+    if !is_system(expected)
+        && let Some(list) = formula::values_of_one(&answer.content)
+        && !(several && may_all_hold(ctx, &list))
+    {
+        return Some(compare(ctx, &answer.with(list)));
     }
-    if let (false, Some(list)) = (is_system(&answer.content), formula::values_of_one(expected)) {
+    if !is_system(&answer.content)
+        && let Some(list) = formula::values_of_one(expected)
+        && !may_all_hold(ctx, &list)
+    {
         let key = Key {
             reading: ctx.key.reading.with(list),
             ..ctx.key.clone()
         };
-        return compare(&Context::new(&key, ctx.options, ctx.diagnose), answer);
+        let with = Context::new(&key, ctx.options, ctx.diagnose);
+        return Some(compare(&with, answer));
     }
     // `x_1 = 2, x_2 = 3` for `x² − 5x + 6 = 0`
-    if let Some(list) = several::counted(expected, &answer.content) {
-        return compare(ctx, &answer.with(list));
+    let list = several::counted(expected, &answer.content)?;
+    Some(compare(ctx, &answer.with(list)))
+}
+
+fn compare(ctx: &Context, answer: &Reading) -> Finding {
+    if let Some(found) = lists(ctx, answer) {
+        return found;
     }
     // `a = b = c` is a system, in whatever order, where b and c are not the same of themselves.
     if let (Content::Relations(a, s), Content::Relations(b, t)) =

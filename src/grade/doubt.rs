@@ -408,6 +408,25 @@ pub(super) fn turned(
     *reading = other;
 }
 
+/// The grade of an answer that cannot be read as it stands, where there is another way.
+pub(super) fn unread(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
+    number(key, answer, options).or_else(|| aside(key, answer, options))
+}
+
+/// `\boxed{2 m v} (to the right)`: what is boxed is right, and the words beside the box say the direction that nearly always
+/// counts as positive. With other words it stays unread.
+fn aside(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
+    let (value, direction) = read::sense(answer)?;
+    let boxed = value.contains("\\boxed{") && value.trim_end_matches('$').ends_with('}');
+    if !boxed || direction.iter().sum::<i32>() < 0 || key.direction.is_some() {
+        return None;
+    }
+    let mut grade = super::judge_here(key, value, options);
+    let words = "the direction in words is not judged";
+    grade.assumed.push(words.to_string());
+    (grade.verdict == Verdict::Equivalent).then_some(grade)
+}
+
 /// Longest answer, in bytes, of which a number is tried in its other meaning: what is longer no student wrote.
 const LONGEST: usize = 1_000;
 

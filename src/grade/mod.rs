@@ -370,7 +370,7 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
     let mut reading = match reading {
         Ok(reading) => reading,
         Err(fault) => {
-            return doubt::number(key, answer, options).unwrap_or_else(|| unreadable(fault));
+            return doubt::unread(key, answer, options).unwrap_or_else(|| unreadable(fault));
         }
     };
     if options.strict_slash

@@ -128,7 +128,7 @@ pub(super) fn aligned(
         let same = same.find(|e| near(&Expr::from(k.clone()), &Expr::from(e.split_number().0)));
         same.unwrap_or(term).clone()
     };
-    let relative = matches!(tolerance, Tolerance::Relative(_));
+    let relative = !matches!(tolerance, Tolerance::Absolute(_));
     match (expected, answer) {
         (Content::Quantity(e), Content::Quantity(a)) if relative => {
             let same = e.unit.dimension == a.unit.dimension && near(&a.value, &e.value);

@@ -18,8 +18,8 @@ use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Content, Fault, Note, Reading, Relation, Remark, Shape, Symbols};
 use direction::direction;
 pub(super) use direction::{sense, with_sign};
-use measured::unit_apart;
 pub(super) use measured::{is_quantity, quantity};
+use measured::{unit_apart, unit_of_name};
 use named::{named_in_order, with_definitions};
 
 /// Quantities of mechanics that students bring in although a collision does not know them.
@@ -144,6 +144,11 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         return Err(fault);
     }
     if let Some(reading) = with_definitions(key, text) {
+        return Ok(reading);
+    }
+    if let Some(text) = unit_of_name(text)
+        && let Ok(reading) = answer(key, &text)
+    {
         return Ok(reading);
     }
     let mut usual = formula::read(text, &key.readable);

@@ -588,7 +588,7 @@ fn equation(e: &Expr) -> Normal {
 }
 
 /// The sign of a formula on the domain.
-fn sign_of(e: &Expr, domains: &Domains) -> Option<Sign> {
+pub(super) fn sign_of(e: &Expr, domains: &Domains) -> Option<Sign> {
     algebra::sign(e, &domains.of(&[e]))
 }
 

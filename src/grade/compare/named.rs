@@ -3,6 +3,7 @@
 
 use super::super::{Diagnosis, Tolerance, Verdict, number, relation};
 use super::{Context, Finding, chain, chain_apart, kind, quotient, values};
+use crate::algebra::Sign;
 use crate::dimension::{self, Dimension};
 use crate::domain::Sample;
 use crate::expr::{Expr, Function, Node, Symbol, ratio};
@@ -137,7 +138,9 @@ fn nameless(
     let mut finding = values(&plain, expected, first);
     // `KE = mv²/2`: letters that stand nowhere else are a name of the value.
     if let [name, value] = &sides[..]
-        && name.expr().is_some_and(|e| is_word(ctx, e, expected))
+        && name
+            .expr()
+            .is_some_and(|e| is_word(ctx, e, expected) || is_size_of(ctx, e, expected))
         && strangers(ctx, std::slice::from_ref(value)).is_empty()
     {
         finding = values(&plain, expected, value);
@@ -237,6 +240,13 @@ fn is_word(ctx: &Context, e: &Expr, expected: &Content) -> bool {
         fits && letters.iter().all(|name| free(name))
             || matches!(letters.as_slice(), [a, b] if velocity(a) && index(b) || velocity(b) && index(a))
     })
+}
+
+/// Whether a formula is the size of what the question does not know, and the expected value may be a size.
+fn is_size_of(ctx: &Context, e: &Expr, expected: &Content) -> bool {
+    let free = |name: &Symbol| !declared_symbol(ctx, name);
+    let sign = |e| relation::sign_of(e, &ctx.key.question.domains);
+    is_size(e, &free) && expected.expr().and_then(sign) != Some(Sign::Negative)
 }
 
 /// What a letter of mechanics nearly always measures.

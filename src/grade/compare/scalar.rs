@@ -213,12 +213,18 @@ fn tolerant(
         number::within(answer, expected, tolerance)?
     } else {
         // A formula with rounded coefficients: its ratio to the exact one is a number near 1.
-        let Tolerance::Relative(_) = tolerance else {
-            return None;
-        };
-        match quotient(answer, expected, ctx) {
-            Some(ratio) => number::within(&ratio, &Expr::one(), tolerance)?,
-            None => is_near(ctx, expected, answer, tolerance),
+        match tolerance {
+            Tolerance::Relative(_) => match quotient(answer, expected, ctx) {
+                Some(ratio) => number::within(&ratio, &Expr::one(), tolerance)?,
+                None => is_near(ctx, expected, answer, tolerance),
+            },
+            // What is rounded to digits is the factor of a term; of a sum those of its terms are.
+            Tolerance::Significant(_) => {
+                let ratio = quotient(answer, expected, ctx)?;
+                let factor = Expr::from(answer.split_number().0);
+                number::within(&factor, &(&factor / &ratio), tolerance)?
+            }
+            Tolerance::Absolute(_) => return None,
         }
     };
     if inside {
@@ -244,7 +250,7 @@ pub(super) fn is_near(
     tolerance: &Tolerance,
 ) -> bool {
     let Tolerance::Relative(share) = tolerance else {
-        return true;
+        return false;
     };
     if !is_short(expected, answer) {
         return false;

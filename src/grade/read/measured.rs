@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::super::unit::each_chain;
 use super::super::{Key, Question, declare};
 use super::{along_axes, answer, quantitative, vector};
+use crate::dimension;
 use crate::expr::Expr;
 use crate::formula::{self, Content, Reading, Symbols};
 
@@ -32,6 +33,14 @@ pub(super) fn unit_apart(key: &Key, text: &str) -> Option<Reading> {
             let closed = text.trim_end().ends_with([')', '}']);
             closed.then(|| quantity(at, at + 1, true)).flatten()
         })
+}
+
+/// `v = 5 [m/s]` for `v [m/s] = 5`.
+pub(super) fn unit_of_name(text: &str) -> Option<String> {
+    let (left, value) = text.split_once('=')?;
+    let (name, unit) = left.trim_end().strip_suffix(']')?.rsplit_once('[')?;
+    let measures = dimension::unit(unit).is_ok_and(|unit| !unit.dimension.is_none());
+    (measures && !name.trim().is_empty()).then(|| format!("{name}={value} [{unit}]"))
 }
 
 /// A text as a quantity with a unit, where no undeclared symbol is needed to read it, or none but names of quantities in the
