@@ -264,7 +264,10 @@ fn without_full_stop(text: &str) -> Option<String> {
         .max()
         .filter(|at| !end[*at..].trim_end_matches('}').contains(['}', ' ']))?;
     let body = text[..at].trim_end().strip_suffix('.')?;
-    let point = body.ends_with(|c: char| c.is_ascii_digit()) || body.ends_with(['.', '\\']);
+    let before = body.trim_end_matches(|c: char| c.is_ascii_digit());
+    let named = before.ends_with(|c: char| c.is_alphabetic() || matches!(c, '_' | '.'));
+    let number = before.len() < body.len() && !named;
+    let point = number || body.ends_with(['.', '\\']);
     let sized = ["\\left", "\\right"]
         .iter()
         .any(|size| body.ends_with(size));
