@@ -86,7 +86,10 @@ pub fn modes(space: &ContactSpace, law: &Friction, s: i64) -> Vec<ModeLaw> {
         s: Expr::from(s),
     };
     match &law.hypothesis {
-        Hypothesis::Newton | Hypothesis::Poisson | Hypothesis::Stronge => forms.routh(),
+        Hypothesis::Newton | Hypothesis::Poisson | Hypothesis::Stronge => match space.is_held() {
+            true => forms.held(),
+            false => forms.routh(),
+        },
         Hypothesis::ChatterjeeRuina { tangential } => forms.chatterjee_ruina(tangential),
         Hypothesis::Brach { ratio } => forms.brach(ratio.as_ref()),
     }
@@ -201,6 +204,26 @@ impl Forms<'_> {
             }
         }
         all
+    }
+
+    /// Where the joints hold the contact along its tangent nothing drives it to slip, and friction has nothing to oppose.
+    fn held(&self) -> Vec<ModeLaw> {
+        let without_friction = Closing {
+            impulse: [Expr::one(), Expr::zero()],
+            velocity: nothing(),
+            right: Expr::zero(),
+            words: "no friction, since nothing drives the contact to slip",
+        };
+        vec![ModeLaw {
+            mode: Mode::Sticks,
+            when: Vec::new(),
+            impulse: [
+                Expr::zero(),
+                -self.bounce() * &self.space.normal / &self.space.c,
+            ],
+            closing: [without_friction, self.restitution()],
+            slip_ends: None,
+        }]
     }
 
     /// A mode in which slip ends.

@@ -241,6 +241,13 @@ impl<T> ContactSpace<T> {
     }
 }
 
+impl ContactSpace {
+    /// Whether the contact neither slips before nor yields to a push along its tangent: its joints hold it there.
+    pub fn is_held(&self) -> bool {
+        self.a.is_zero() && self.tangential.is_zero()
+    }
+}
+
 /// What a threshold of the coefficient of friction may be asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrictionEvent {

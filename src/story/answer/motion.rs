@@ -463,7 +463,8 @@ pub(super) fn at_end(
         a.checks.extend(energy_check(told, domains));
         a.form = Form::value(value);
         a.dimension = dimension.clone();
-        if !is_energy {
+        // Energy of the end is that of a motion that gets there, though its formula has values beyond.
+        if when != "at the beginning" {
             a.assumptions = told.assumptions.clone();
         }
         out.push(a);
