@@ -63,6 +63,13 @@ impl Sentence {
         self.conditions().next()
     }
 
+    /// Whether it tells a condition as one of two things that will do: "the way is short, or v ≥ u".
+    pub fn is_alternative(&self) -> bool {
+        let first = self.0.iter().position(|p| matches!(p, Piece::Formula(_)));
+        let before = first.and_then(|i| self.0.get(i.checked_sub(1)?));
+        matches!(before, Some(Piece::Words(words)) if words.ends_with(", or "))
+    }
+
     /// The same of all conditions that it begins with, joined by "and".
     pub fn conditions(&self) -> impl Iterator<Item = (Expr, bool)> {
         let joined = |i: usize| match i {

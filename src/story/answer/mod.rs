@@ -56,6 +56,7 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
                 let mut new = formula(&reached::part(whole, &needs), question, &world.known)?;
                 for a in &mut new {
                     reached::tell(whole, &question.ask, &needs, a);
+                    reached::on_the_way(scene, &stages, world, question, &answers, a);
                     if is_same {
                         reached::one_of_the_cases(scene, question, &answers, a);
                     }

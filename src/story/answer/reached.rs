@@ -228,14 +228,8 @@ fn of_stages(
     question: &Question,
     earlier: &[Answer],
 ) -> Vec<Need> {
-    let happens = |at: &(usize, usize)| world.outcome.get(&at.0) == Some(&at.1);
-    let told = earlier.iter().filter(|a| a.question == question.name);
-    let leading = told.filter_map(|a| a.told.filter(happens)).flat_map(|at| {
-        let whole = line(stages, at).map(|(stage, _)| stage);
-        whole.skip(usize::from(!question.ask.is_at_end()))
-    });
-    let leading: BTreeSet<usize> = leading.collect();
-    let all = leading.into_iter().flat_map(|i| {
+    let leading = leading(stages, world, question, earlier).into_iter();
+    let all = leading.flat_map(|i| {
         let told = &stages[i];
         let ends = told.needs.iter().map(|need| {
             let so_that = format!("`{}` comes to its end", told.name);
@@ -258,6 +252,42 @@ fn of_stages(
     all.collect()
 }
 
+/// The stages that lead to the answers to a question about one.
+fn leading(
+    stages: &[StageTold],
+    world: &World,
+    question: &Question,
+    earlier: &[Answer],
+) -> BTreeSet<usize> {
+    let happens = |at: &(usize, usize)| world.outcome.get(&at.0) == Some(&at.1);
+    let told = earlier.iter().filter(|a| a.question == question.name);
+    let leading = told.filter_map(|a| a.told.filter(happens)).flat_map(|at| {
+        let whole = line(stages, at).map(|(stage, _)| stage);
+        whole.skip(usize::from(!question.ask.is_at_end()))
+    });
+    leading.collect()
+}
+
+/// Lets an answer about formulas tell what the motions before need where they lead over a highest place.
+pub(super) fn on_the_way(
+    scene: &Scene,
+    stages: &[StageTold],
+    world: &World,
+    question: &Question,
+    earlier: &[Answer],
+    answer: &mut Answer,
+) {
+    for q in used(&scene.questions, question) {
+        if !q.ask.formulas().is_empty() {
+            on_the_way(scene, stages, world, q, earlier, answer);
+        }
+        let leading = leading(stages, world, q, earlier).into_iter();
+        let all = leading.flat_map(|i| &stages[i].assumptions);
+        let all: Vec<&Sentence> = all.filter(|words| words.is_alternative()).collect();
+        besides(answer, all.into_iter());
+    }
+}
+
 /// Lets an answer about a stage tell what the motions suppose that lead there, and what the impacts need.
 pub(super) fn led_to(stages: &[StageTold], answer: &mut Answer) {
     let Some(at) = answer.told else { return };
@@ -272,7 +302,8 @@ pub(super) fn led_to(stages: &[StageTold], answer: &mut Answer) {
     let all: Vec<Sentence> = each.flatten().collect();
     besides(
         answer,
-        all.iter().filter(|words| words.condition().is_some()),
+        all.iter()
+            .filter(|words| words.condition().is_some() || words.is_alternative()),
     );
 }
 

@@ -182,13 +182,19 @@ pub(super) fn hurdle(
             },
         )),
         _ => {
+            let least = crate::answer::calc::at_least_zero(&left, &stage.scene.domains);
+            if !seen.contains(&false) {
+                let words = sentence!("{}, so that `{}` gets over the top", least, &body.name);
+                return Ok(Some((Some(left), words)));
+            }
+            // Whether it passes there at all depends on values: then nothing is needed that can be told by one relation.
             let words = sentence!(
-                "where the way through `{}` leads over its highest place, {}, so that `{}` gets over it",
+                "the way through `{}` does not lead over its highest place, or {}, so that `{}` gets over it",
                 &stage.name,
-                crate::answer::calc::at_least_zero(&left, &stage.scene.domains),
+                least,
                 &body.name
             );
-            Ok(Some((Some(left), words)))
+            Ok(Some((None, words)))
         }
     }
 }
