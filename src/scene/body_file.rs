@@ -55,7 +55,8 @@ record! {
         /// Orientation, counterclockwise from x. Missing: 0.
         angle: Option<Formula>,
         /// Velocity of the center of mass just before: [x, y], or {"about": point} for a body that turns about a point
-        /// with its spin. Missing: as its hinges make it move with its spin; without hinges, at rest.
+        /// with its spin. Missing: as its hinges, or the point of the rotation that the scene begins with, make it move with its
+        /// spin; without them, at rest.
         velocity: Option<VelocityFile>,
         /// Angular velocity just before, counterclockwise. Missing: 0.
         spin: Option<Formula>,

@@ -2,7 +2,7 @@
 //!
 //! In: the file. Out: the same file with each hinge in the impacts it holds in, and with the point that a rotation needs.
 
-use crate::scene::body_file::{BodyFile, ShapeName};
+use crate::scene::body_file::{AboutFile, BodyFile, ShapeName, VelocityFile};
 use crate::scene::contact_file::HingeFile;
 use crate::scene::file::SceneFile;
 use crate::scene::place_file::PositionFile;
@@ -67,6 +67,18 @@ pub(in crate::scene) fn spread(file: &mut SceneFile) {
             turn.about.get_or_insert(PositionFile::Name(name.clone()));
             points.push((name.clone(), hinge.at.clone()));
         }
+    }
+    // What a scene begins with in a rotation turns about its fixed point from the start.
+    if let Some(turn) = stages.first().and_then(|stage| stage.turn.as_ref())
+        && let Some(about) = &turn.about
+        && let mut all = file.bodies.0.iter_mut()
+        && let Some((_, Some(body))) = all.find(|(name, _)| name.text == turn.body.text)
+        && (body.velocity.is_none() && body.spin.is_some())
+        && !matches!(body.shape, ShapeName::Particle | ShapeName::Fixed)
+    {
+        let about = about.clone();
+        let span = turn.body.span;
+        body.velocity = Some(VelocityFile::About(AboutFile { about, span }));
     }
     file.stages = Some(stages);
     for (name, at) in points {

@@ -163,7 +163,7 @@ impl Rotation {
         Some([forces[0], forces[1]].map(|f| f * self.units.force()))
     }
 
-    /// The angle to the place straight above or below, in the sense of the rotation; once round where it begins there.
+    /// The angle to the place straight above or below, in the sense of the rotation.
     fn angle_to(&self, course: &Course<'_>, is_above: bool) -> Result<f64, Lost> {
         let mass: f64 = self.movers.inertias.iter().map(|i| i[0]).sum();
         let center = [0, 1].map(|k| {
@@ -179,7 +179,10 @@ impl Rotation {
         let angle = (self.way * cross(&center, &target)).atan2(dot(&center, &target));
         let angle = angle.rem_euclid(TAU);
         let is_ahead = (ROUNDING..TAU - ROUNDING).contains(&angle);
-        Ok(if is_ahead { angle } else { TAU })
+        match is_ahead {
+            true => Ok(angle),
+            false => Err(course.contradiction("it is there at the beginning already")),
+        }
     }
 
     fn run(&self, course: &Course<'_>, turn: &Turn, mechanism: &Mechanism) -> Result<Run, Lost> {
