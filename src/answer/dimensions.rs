@@ -41,7 +41,7 @@ fn clashes(at: &str, reason: String) -> Refused {
 pub fn dimension_of(scene: &Scene, e: &Expr, at: &str) -> Result<Dimension, Refused> {
     match dimension::of(e, &|name| dimension_of_parameter(scene, name)) {
         Ok(found) => Ok(found.unwrap_or_else(Dimension::none)),
-        Err(_) if scene.has_plain_numbers() => Ok(Dimension::none()),
+        Err(_) if scene.has_plain_numbers => Ok(Dimension::none()),
         Err(clash) => Err(clashes(at, clash.message(&write_plain))),
     }
 }
@@ -49,6 +49,19 @@ pub fn dimension_of(scene: &Scene, e: &Expr, at: &str) -> Result<Dimension, Refu
 impl Work<'_> {
     pub(super) fn dimension_of(&self, e: &Expr) -> Result<Dimension, Refused> {
         dimension_of(self.scene, e, self.name)
+    }
+
+    /// Dimension of the value of a formula; as that is stated, where plain numbers hide what the value is made of.
+    pub(super) fn dimension_of_value(
+        &self,
+        stated: &Expr,
+        value: &Expr,
+    ) -> Result<Dimension, Refused> {
+        let by_name = match self.scene.has_plain_numbers {
+            true => self.stated_dimension(stated)?,
+            false => None,
+        };
+        by_name.map_or_else(|| self.dimension_of(value), Ok)
     }
 
     /// Dimension of a formula of parameters and earlier answers, as it is stated: what is put in for a parameter may be a plain
@@ -76,7 +89,7 @@ impl Work<'_> {
         let plain = known.iter().filter(|(_, v)| of_answer(v).is_none());
         let plain: Known = plain.map(|(s, v)| (s.clone(), v.clone())).collect();
         dimension::of(&e.substitute(&plain), &of).or_else(|clash| match dimension::of(e, &asked) {
-            Err(_) if scene.has_plain_numbers() => Ok(None),
+            Err(_) if scene.has_plain_numbers => Ok(None),
             by_kind => by_kind.map_err(|_| clashes(self.name, clash.message(&write_plain))),
         })
     }

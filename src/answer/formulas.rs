@@ -382,6 +382,7 @@ impl Work<'_> {
     fn maximum(&self, of: &Expr, over: &[Symbol]) -> Result<Vec<Answer>, Refused> {
         let value = self.put(of, &[])?;
         let mut open = self.blank(format!("largest value of {}", write_plain(of)));
+        open.dimension = self.dimension_of_value(of, &value)?;
         let found = optimum::maximum(self.scene, open.clone(), &value, over);
         Ok(found.unwrap_or_else(|why| {
             // Not found is an answer too, and leaves the others alone.
@@ -404,7 +405,7 @@ impl Work<'_> {
         let domains = &self.scene.domains;
         limit::fill(&mut out, &value, parameter, to.as_ref(), domains);
         // A limit of 0 has no dimension of its own.
-        out.dimension = self.dimension_of(&value)?;
+        out.dimension = self.dimension_of_value(of, &value)?;
         Ok(out)
     }
 
@@ -425,7 +426,7 @@ impl Work<'_> {
         };
         let mut out = self.blank(words);
         let value = self.put(of, &[])?;
-        out.dimension = self.dimension_of(&value)?;
+        out.dimension = self.dimension_of_value(of, &value)?;
         let to = self.put(to, &[])?;
         let domains = &self.scene.domains;
         limit::approximate(&mut out, &value, parameter, &to, order, domains);

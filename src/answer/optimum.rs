@@ -162,7 +162,6 @@ fn over_positive(
     let value = super::calc::shorter(&value, &domains);
     let place = tidy(&best.value.powi(power))?;
     out.discarded = discarded;
-    out.dimension = super::dimension_of(scene, &value, &name)?;
     out.checks.push(by_signs(
         "maximum",
         "the derivative vanishes there and nowhere else; the value rises before and falls after ({how})",
@@ -273,7 +272,6 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
         }
     };
     let value = search.at(&place, f)?;
-    out.dimension = super::dimension_of(scene, &value, &name)?;
     let there = BTreeMap::from([(p.clone(), place.clone())]);
     let raw = tidy_under_roots(&f.substitute(&there), domains);
     out.put_in.push((raw, value.clone(), "the value there"));

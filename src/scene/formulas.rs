@@ -2,7 +2,7 @@
 //!
 //! In: the text of a formula and what is expected of it. Out: an expression, or a fault that points into the formula.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::fault::{Fault, Span};
@@ -69,6 +69,7 @@ pub(super) struct Symbols {
     used: RefCell<BTreeSet<Symbol>>,
     remarks: RefCell<Vec<String>>,
     units: RefCell<Vec<String>>,
+    plain: Cell<bool>,
 }
 
 impl Symbols {
@@ -84,6 +85,7 @@ impl Symbols {
             used: RefCell::default(),
             remarks: RefCell::default(),
             units: RefCell::default(),
+            plain: Cell::default(),
         }
     }
 
@@ -95,6 +97,7 @@ impl Symbols {
             used: RefCell::default(),
             remarks: RefCell::default(),
             units: RefCell::default(),
+            plain: Cell::default(),
         };
         names.iter().for_each(|name| out.add(name, &[""]));
         out
@@ -113,6 +116,7 @@ impl Symbols {
         self.used.borrow_mut().extend(other.used());
         self.remarks.borrow_mut().extend(other.remarks());
         self.units.borrow_mut().extend(other.units());
+        self.plain.set(self.plain.get() || other.has_plain_numbers());
     }
 
     /// Takes in a name with each of these endings, of unknown dimension.
@@ -144,6 +148,11 @@ impl Symbols {
         self.units.borrow().clone()
     }
 
+    /// Whether something that has a unit was a plain number, in which its dimension can no longer be told.
+    pub fn has_plain_numbers(&self) -> bool {
+        self.plain.get()
+    }
+
     /// Whether a formula read so far uses the symbol.
     pub fn is_used(&self, name: &str) -> bool {
         self.used.borrow().contains(name)
@@ -173,6 +182,9 @@ impl Symbols {
         let is_known = |name: &Symbol| self.dimensions.get(name).is_some_and(Option::is_some);
         let is_open = !symbols.iter().all(is_known);
         self.used.borrow_mut().extend(symbols);
+        if is_number && !e.is_zero() && quantity.dimension() != Dimension::none() {
+            self.plain.set(true);
+        }
         if is_number || is_open {
             return Some(e);
         }

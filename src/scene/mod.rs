@@ -44,7 +44,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::dimension::{self, System};
 use crate::domain::{Domains, generic_point};
-use crate::expr::{Expr, Node, Point, Scalar, Symbol, Vector, minus};
+use crate::expr::{Expr, Point, Scalar, Symbol, Vector, minus};
 use crate::formula::Symbols;
 use crate::formula::near::nearest;
 
@@ -233,6 +233,9 @@ pub struct Scene {
     pub remarks: Vec<String>,
     /// Units that stand beside numbers in its formulas, as they are written.
     pub units: Vec<String>,
+    /// Whether a mass, a place, a speed of the file is a plain number in its unit: dimensions of what is made of them cannot be
+    /// told then.
+    pub has_plain_numbers: bool,
 }
 
 impl Scene {
@@ -297,20 +300,6 @@ impl Scene {
         let bodies = self.bodies.iter().map(|b| (&b.name, &b.center));
         let mut all = points.chain(bodies).filter(|(_, place)| *place == at);
         all.next().map(|(name, _)| name.as_str())
-    }
-
-    /// Whether a mass, a place or a velocity of the file is a plain number in its unit, or a sum with one: dimensions of what is
-    /// made of them cannot be told then.
-    pub fn has_plain_numbers(&self) -> bool {
-        let is_number = |e: &Expr| e.as_number().is_some() && !e.is_zero();
-        let is_plain = |e: &Expr| match e.node() {
-            Node::Sum(terms) => terms.iter().any(is_number),
-            _ => is_number(e),
-        };
-        let points = self.points.iter().flat_map(|p| &p.at);
-        let moving = self.bodies.iter().filter(|b| !b.is_fixed());
-        let bodies = moving.flat_map(|b| b.center.iter().chain(&b.velocity).chain([&b.mass]));
-        points.chain(bodies).any(is_plain)
     }
 
     /// Where hinges, contacts and blows act.

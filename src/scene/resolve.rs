@@ -88,6 +88,7 @@ pub(super) fn resolve(
     if faults.is_empty() {
         scene.remarks.extend(symbols.remarks());
         scene.units = symbols.units();
+        scene.has_plain_numbers = symbols.has_plain_numbers();
         faults = check(&mut scene, &claims);
         let unused = unused(&scene, |name| symbols.is_used(name));
         // Data that a problem gives in vain are no oversight where the scene asks for them.
