@@ -30,9 +30,11 @@ const ALONG: [&str; 4] = [
 ];
 
 /// Where a body is, seen from the origin.
-const PLACED: [&str; 2] = [
+const PLACED: [&str; 4] = [
     "distance of {} to the right of the origin at first",
+    "distance of {} to the left of the origin at first",
     "height of {} above the origin at first",
+    "depth of {} below the origin at first",
 ];
 
 /// Gives words to the parameters that have none and stand alone for a number of a body, a contact or a motion.
@@ -152,7 +154,8 @@ fn uses(scene: &Scene) -> Vec<Use<'_>> {
                 size,
             ));
         }
-        for (e, words) in [x, y].into_iter().zip(PLACED) {
+        for (e, words) in [x, y].into_iter().zip(PLACED.chunks(2)) {
+            let words = words[usize::from(e.as_symbol().is_none())];
             out.push((words, Some(&body.name), e));
         }
     }

@@ -314,8 +314,9 @@ impl Line<'_> {
             return Err(self.refused("it comes to rest just there", hint));
         }
         let body = self.slide.body;
-        // At rest a constant force of zero moves nothing.
-        let starts = is_zero(&self.speed, self.domains()) == Some(true);
+        // At rest a constant force of zero moves nothing; a spring may bring the body just there.
+        let is_steady = self.slide.spring.is_none();
+        let starts = is_steady && is_zero(&self.speed, self.domains()) == Some(true);
         supposed.words.extend(match (starts, seen) {
             (true, Seen::Proved(Sign::Positive)) => None,
             (true, _) if is_zero(s, self.domains()) == Some(false) => Some(arrives(
