@@ -241,8 +241,14 @@ impl Sheet {
         let mut declared = self.question();
         declared.dimension = Some(first.dimension.clone());
         // The answer is asked for where it is the answer: a motion that does not get to its end has no speed there.
-        let plain = |s: &&Sentence| !["or that", ", for "].iter().any(|w| s.to_string().contains(w));
-        let rests_on = chosen.iter().flat_map(|a| a.assumptions.iter().filter(plain));
+        let plain = |s: &&Sentence| {
+            !["or that", ", for "]
+                .iter()
+                .any(|w| s.to_string().contains(w))
+        };
+        let rests_on = chosen
+            .iter()
+            .flat_map(|a| a.assumptions.iter().filter(plain));
         for (excess, strict) in rests_on.flat_map(Sentence::conditions) {
             declared.domains = declared.domains.given(&excess, !strict);
         }

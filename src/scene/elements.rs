@@ -67,10 +67,10 @@ pub struct Body {
 }
 
 /// Words that need a noun after them in a sentence.
-const ADJECTIVES: [&str; 23] = [
-    "left", "right", "upper", "lower", "top", "bottom", "front", "rear", "back", "inner", "outer",
-    "near", "far", "first", "second", "third", "last", "hanging", "small", "large", "big", "light",
-    "heavy",
+const ADJECTIVES: [&str; 25] = [
+    "left", "right", "upper", "lower", "top", "bottom", "mid", "middle", "front", "rear", "back",
+    "inner", "outer", "near", "far", "first", "second", "third", "last", "hanging", "small",
+    "large", "big", "light", "heavy",
 ];
 
 /// `the upper body` of `the upper`; what needs no noun stays as it is.

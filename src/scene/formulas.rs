@@ -116,7 +116,8 @@ impl Symbols {
         self.used.borrow_mut().extend(other.used());
         self.remarks.borrow_mut().extend(other.remarks());
         self.units.borrow_mut().extend(other.units());
-        self.plain.set(self.plain.get() || other.has_plain_numbers());
+        self.plain
+            .set(self.plain.get() || other.has_plain_numbers());
     }
 
     /// Takes in a name with each of these endings, of unknown dimension.

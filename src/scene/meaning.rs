@@ -46,7 +46,7 @@ pub(super) fn infer(scene: &mut Scene) {
         let is_said = |name| is_in(&scene.statement, name) || is_told_before(scene, name);
         let unsaid = all.filter(|(_, p)| p.meaning.is_empty() && !is_said(&p.name));
         unsaid
-            .filter_map(|(i, p)| Some((i, words(&uses, &p.name)?)))
+            .filter_map(|(i, p)| Some((i, words(scene, &uses, &p.name)?)))
             .collect()
     };
     for (i, meaning) in meanings {
@@ -83,7 +83,8 @@ fn is_told_before(scene: &Scene, name: &Symbol) -> bool {
 }
 
 /// What a parameter is, by its first use: `mass of the rod`, `mass of each of body a and body b`.
-fn words(uses: &[Use<'_>], name: &Symbol) -> Option<String> {
+fn words(scene: &Scene, uses: &[Use<'_>], name: &Symbol) -> Option<String> {
+    let called = |body: &str| called(scene, body);
     let is_it = |e: &Expr| e.as_symbol() == Some(name) || (-e).as_symbol() == Some(name);
     let mut mine = uses.iter().filter(|(.., e)| is_it(e));
     let Some((what, first, _)) = mine.next() else {
@@ -108,12 +109,10 @@ fn words(uses: &[Use<'_>], name: &Symbol) -> Option<String> {
     Some(what.replace("{}", &of))
 }
 
-/// `the rod` and `body a`.
-fn called(body: &str) -> String {
-    match body.len() > 2 && body.chars().all(|c| c.is_ascii_lowercase() || c == '_') {
-        true => format!("the {}", body.replace('_', " ")),
-        false => format!("body {body}"),
-    }
+/// What a sentence calls a body of the scene, or a part of one.
+fn called(scene: &Scene, body: &str) -> String {
+    let found = scene.bodies.iter().find(|b| b.name == body);
+    found.map_or_else(|| format!("the {}", body.replace('_', " ")), Body::called)
 }
 
 /// Every number that the scene names alone.

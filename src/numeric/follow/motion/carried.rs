@@ -260,7 +260,9 @@ pub(super) fn carried(
         return Err(course.never(never));
     }
     if pair.rough[1] > 0.0 && way * pair.speeds(&run.end)[1] < -tiny {
-        return Err(course.never("the floor stops the body below first, and what it does then is another stage"));
+        return Err(course.never(
+            "the floor stops the body below first, and what it does then is another stage",
+        ));
     }
     let (after, samples) = movers.ended(course, &units, &run, &before);
     let time = Ok(run.time * units.time);
