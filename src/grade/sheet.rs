@@ -11,6 +11,7 @@ use super::{Given, Key, Options, Question, key_of};
 use crate::algebra::{self, Sign};
 use crate::answer::{Answer, Form};
 use crate::derive::{self, Derivation, Moment};
+use crate::domain::Domains;
 use crate::equality;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Relation, Sentence};
@@ -101,6 +102,22 @@ pub fn sheet(scene: Scene) -> Result<Sheet, derive::Stop> {
         given: Vec::new(),
         otherwise: Vec::new(),
     })
+}
+
+/// Where an answer is asked for: a motion that does not get to its end has no speed there.
+fn where_it_is(chosen: &[&Answer], mut domains: Domains) -> Domains {
+    let plain = |s: &&Sentence| {
+        !["or that", ", for "]
+            .iter()
+            .any(|w| s.to_string().contains(w))
+    };
+    let rests_on = chosen
+        .iter()
+        .flat_map(|a| a.assumptions.iter().filter(plain));
+    for (excess, strict) in rests_on.flat_map(Sentence::conditions) {
+        domains = domains.given(&excess, !strict);
+    }
+    domains
 }
 
 impl Sheet {
@@ -240,18 +257,7 @@ impl Sheet {
         let question = question.ok_or_else(|| format!("{name:?} is not asked"))?;
         let mut declared = self.question();
         declared.dimension = Some(first.dimension.clone());
-        // The answer is asked for where it is the answer: a motion that does not get to its end has no speed there.
-        let plain = |s: &&Sentence| {
-            !["or that", ", for "]
-                .iter()
-                .any(|w| s.to_string().contains(w))
-        };
-        let rests_on = chosen
-            .iter()
-            .flat_map(|a| a.assumptions.iter().filter(plain));
-        for (excess, strict) in rests_on.flat_map(Sentence::conditions) {
-            declared.domains = declared.domains.given(&excess, !strict);
-        }
+        declared.domains = where_it_is(&chosen, declared.domains);
         declared.asked.push(Given {
             name: Symbol::from(name),
             latex: component.map_or(question.latex.clone(), |_| Some(first.latex.clone())),

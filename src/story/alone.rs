@@ -115,11 +115,16 @@ fn about_answers(scene: &Scene, case: &Case) -> Result<Vec<Answer>, Refused> {
         let mut answers = answer::formulas(&part, question, &known)?.unwrap_or_default();
         answer::remember(scene, &answers, &mut known);
         for answer in &mut answers {
-            let is_told = |words: &Sentence| needs.iter().any(|need| need.says(words));
-            let given = case.assumptions().filter(|words| !is_told(words));
-            answer.assumptions.extend(given);
+            // What friction needs to do something else, and a formula of parameters, rest on no outcome.
+            if super::answer::is_of_outcomes(&scene.questions, question) {
+                let is_told = |words: &Sentence| needs.iter().any(|need| need.says(words));
+                let given = case.assumptions().filter(|words| !is_told(words));
+                answer.assumptions.extend(given);
+            }
             super::answer::tell(scene, &question.ask, &needs, answer);
         }
+        let picked = super::answer::picked(scene);
+        super::answer::leave_to_cases(scene, question, picked, &mut answers);
         out.extend(answers);
     }
     Ok(out)

@@ -7,7 +7,9 @@ mod reached;
 mod turns;
 
 pub(super) use motion::angular;
-pub(super) use reached::{as_decided, needs, of_condition, of_impact, part, tell};
+pub(super) use reached::{
+    as_decided, is_of_outcomes, leave_to_cases, needs, of_condition, of_impact, part, picked, tell,
+};
 
 use std::collections::BTreeSet;
 use std::iter::successors;
@@ -61,6 +63,10 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
                         reached::one_of_the_cases(scene, question, &answers, a);
                     }
                 }
+                let cases = world.outcome.iter();
+                let cases = cases.filter_map(|(i, k)| stages[*i].cases.get(*k));
+                let conditions = cases.flat_map(|case| case.conditions.iter().map(|(_, e)| e));
+                leave_to_cases(scene, question, conditions, &mut new);
                 Ok(new)
             })?
         } else {
@@ -78,25 +84,7 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
     for (i, check) in second::answers(&second, (&worlds, &stages), &answers) {
         answers[i].checks.push(check);
     }
-    let mut checks: Vec<Vec<Check>> = Vec::new();
-    for (i, told) in stages.iter().enumerate() {
-        let mut mine = vec![second.stage(i, told)];
-        mine.extend(second.never_ends(told));
-        if let Some((pair, check)) = second.passage(i, told) {
-            if check.holds.is_none() {
-                // Whether they meet depends on the data, and what comes of it is not told.
-                let [a, b] = pair.map(|b| &scene.bodies[b].name);
-                let words = "`{}` and `{}` do not pass through each other in `{}`";
-                let apart = Sentence::filled(words, [a, b, &told.name].map(Sentence::from));
-                let resting = resting(scene, &stages, &answers, i);
-                for answer in (answers.iter_mut()).filter(|a| resting.contains(&a.question)) {
-                    answer.assumptions.push(apart.clone());
-                }
-            }
-            mine.push(check);
-        }
-        checks.push(mine);
-    }
+    let checks = of_stages(scene, &stages, &second, &mut answers);
     for (told, checks) in stages.iter_mut().zip(checks) {
         told.checks.extend(checks);
     }
@@ -113,6 +101,35 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
         unused,
         ..Told::default()
     })
+}
+
+/// What the second way says of each stage; answers rest on what it could not see.
+fn of_stages(
+    scene: &Scene,
+    stages: &[StageTold],
+    second: &second::Second<'_>,
+    answers: &mut [Answer],
+) -> Vec<Vec<Check>> {
+    let mut checks: Vec<Vec<Check>> = Vec::new();
+    for (i, told) in stages.iter().enumerate() {
+        let mut mine = vec![second.stage(i, told)];
+        mine.extend(second.never_ends(told));
+        if let Some((pair, check)) = second.passage(i, told) {
+            if check.holds.is_none() {
+                // Whether they meet depends on the data, and what comes of it is not told.
+                let [a, b] = pair.map(|b| &scene.bodies[b].name);
+                let words = "`{}` and `{}` do not pass through each other in `{}`";
+                let apart = Sentence::filled(words, [a, b, &told.name].map(Sentence::from));
+                let resting = resting(scene, stages, answers, i);
+                for answer in (answers.iter_mut()).filter(|a| resting.contains(&a.question)) {
+                    answer.assumptions.push(apart.clone());
+                }
+            }
+            mine.push(check);
+        }
+        checks.push(mine);
+    }
+    checks
 }
 
 /// The questions whose answers rest on what happens in a stage, some of them by the answers that they use.

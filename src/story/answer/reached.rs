@@ -151,8 +151,49 @@ fn decided(scene: &Scene) -> impl Iterator<Item = Need> {
     })
 }
 
+/// Leaves open what is asked of a parameter whose value picks the case in which the answers were found: what they say of all its
+/// values is so in that case alone. A threshold or root that was found there stays, with its condition.
+pub(in crate::story) fn leave_to_cases<'a>(
+    scene: &Scene,
+    question: &Question,
+    mut conditions: impl Iterator<Item = &'a Expr>,
+    answers: &mut [Answer],
+) {
+    let is_given = |name: &&Symbol| scene.parameter(name).is_some_and(|p| p.value.is_some());
+    let varied = match &question.ask {
+        Ask::Condition { parameter, .. } => std::slice::from_ref(parameter),
+        Ask::Maximum { over, .. } => over,
+        _ => &[],
+    };
+    let mut varied = varied.iter().filter(is_given);
+    let Some(name) = varied
+        .next()
+        .filter(|name| conditions.any(|e| e.mentions(name)))
+    else {
+        return;
+    };
+    let is_found =
+        |a: &Answer| matches!(question.ask, Ask::Condition { .. }) && !a.range.is_empty();
+    for answer in answers.iter_mut().filter(|a| !is_found(a)) {
+        let why = sentence!(
+            "the value of {} picks the case here, and others have another answer: without that value each is told",
+            &Expr::symbol(name)
+        );
+        *answer = super::unanswered(question, &why);
+    }
+}
+
+/// The conditions of what friction does in an impact; none where that is supposed.
+pub(in crate::story) fn picked(impact: &Scene) -> impl Iterator<Item = &Expr> {
+    let laws = impact.contacts.iter().filter_map(|c| match &c.law {
+        ContactLaw::Decided(decided) if decided.law.supposing.is_none() => Some(decided),
+        _ => None,
+    });
+    laws.flat_map(|law| law.when.iter().flat_map(|(left, _, right)| [left, right]))
+}
+
 /// Whether a question is about what an outcome gives; a coefficient at which friction does something else is given by none.
-fn is_of_outcomes(questions: &[Question], question: &Question) -> bool {
+pub(in crate::story) fn is_of_outcomes(questions: &[Question], question: &Question) -> bool {
     let mut used = used(questions, question).into_iter();
     used.any(|q| match q.ask.formulas().is_empty() {
         true => !matches!(q.ask, Ask::Friction { .. }),
