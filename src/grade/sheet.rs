@@ -238,11 +238,16 @@ impl Sheet {
         let (chosen, component) = match answers.as_slice() {
             [] => {
                 let found = self.derivation.answers.iter().find(|a| a.name == name);
-                let answer = found.ok_or_else(|| {
-                    format!(
+                let is_asked = || self.scene.questions.iter().any(|q| q.name == name);
+                let answer = found.ok_or_else(|| match is_asked() {
+                    true => format!(
+                        "the scene finds no value for {name:?} (`carom derive` says why); it has {}",
+                        self.quantities().join(", ")
+                    ),
+                    false => format!(
                         "the scene asks for no {name:?}; it asks for {}",
                         self.quantities().join(", ")
-                    )
+                    ),
                 })?;
                 (vec![answer], Some(usize::from(answer.name.ends_with("_y"))))
             }

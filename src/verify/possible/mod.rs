@@ -145,13 +145,19 @@ impl Possible {
         };
         let reasons = self.reasons().join("; ");
         let refuses = |c: &Condition| c.verdict == Verdict::Nowhere || c.at_values == Some(false);
-        let mut refusing = self.conditions.iter().filter(|c| refuses(c));
-        let is_charge = refusing.all(|c| c.rule == Rule::Energy);
-        let may = match is_charge {
-            true => {
-                "; where a charge, a spring or a motor gives it, the scene has \"gains_energy\": true"
-            }
-            false => "",
+        let refusing: Vec<Rule> = {
+            let all = self.conditions.iter().filter(|c| refuses(c));
+            all.map(|c| c.rule).collect()
+        };
+        let is_turned = [Rule::Apart, Rule::Push]
+            .iter()
+            .all(|r| refusing.contains(r));
+        let may = if refusing.iter().all(|rule| *rule == Rule::Energy) {
+            "; where a charge, a spring or a motor gives it, the scene has \"gains_energy\": true"
+        } else if is_turned {
+            "; a normal leads from the first body to the second: turn it, or exchange the bodies"
+        } else {
+            ""
         };
         Some(format!("not possible: {reasons}, {whatever}{may}"))
     }
