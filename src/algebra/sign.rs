@@ -205,15 +205,11 @@ impl Field {
     }
 
     /// What is of the first degree in an angle lies between its values at the ends of the angle's interval, which are
-    /// multiples of π and taken as they stand.
+    /// multiples of π and taken as they stand; so does what holds an arc.
     fn by_ends(&self, p: &Poly, depth: u32) -> Option<Sign> {
-        let name = |v: usize| match &self.gens[v].kind {
-            Kind::Symbol(name) => Some(name),
-            _ => None,
-        };
+        let is_pi = |v: &usize| matches!(&self.gens[*v].kind, Kind::Symbol(n) if &**n == "pi");
         let variables = p.variables();
-        let mut all = variables.iter().copied();
-        let pi = all.find(|v| name(*v).is_some_and(|n| &**n == "pi"))?;
+        let pi = variables.iter().copied().find(is_pi)?;
         if depth == 0 {
             return None;
         }
@@ -221,8 +217,7 @@ impl Field {
             .into_iter()
             .filter(|v| *v != pi && p.degree(*v) == 1);
         angles.find_map(|v| {
-            let domain = self.domains.symbols.get(name(v)?)?;
-            let ends = [domain.low.as_ref()?, domain.high.as_ref()?];
+            let ends = self.ends_of_angle(v)?;
             let parts = p.by_power(v);
             let [rest, slope] = parts.as_slice() else {
                 return None;
@@ -233,10 +228,30 @@ impl Field {
                 let part = slope.scale(end.value.numer());
                 rest.scale(end.value.denom()).add(&part)
             };
-            let [low, high] = ends.map(at);
+            let [low, high] = ends.each_ref().map(at);
             let [low, high] = [self.sign_sub(&low, depth)?, self.sign_sub(&high, depth)?];
             between([(low, ends[0].open), (high, ends[1].open)])
         })
+    }
+
+    /// Between what an angle lies: a symbol in its domain, an arc in its range.
+    fn ends_of_angle(&self, v: usize) -> Option<[Limit; 2]> {
+        let quarters = |open: bool| {
+            [-1, 1].map(|sign| Limit {
+                value: ratio(sign, 2),
+                of_pi: true,
+                open,
+            })
+        };
+        match &self.gens[v].kind {
+            Kind::Symbol(name) => {
+                let domain = self.domains.symbols.get(name)?;
+                Some([domain.low.clone()?, domain.high.clone()?])
+            }
+            Kind::Call(Function::Asin, _) => Some(quarters(false)),
+            Kind::Call(Function::Atan, _) => Some(quarters(true)),
+            _ => None,
+        }
     }
 
     /// A + B√P with A and B of opposite signs has the sign of A² − B²P on A's side.

@@ -215,7 +215,7 @@ impl Forms<'_> {
             words: "no friction, since nothing drives the contact to slip",
         };
         vec![ModeLaw {
-            mode: Mode::Sticks,
+            mode: Mode::SticksInCompression,
             when: Vec::new(),
             impulse: [
                 Expr::zero(),

@@ -2,9 +2,10 @@
 
 use super::motion::{FallEnd, SlideEnd, Until};
 use super::stage::{Stage, StageKind};
-use super::{BlowImpulse, Body, ContactLaw, KnownQuantity, Scene, Shape};
+use super::{BlowImpulse, Body, ContactLaw, KnownQuantity, Parameter, Scene, Shape};
 use num_traits::{One, Signed};
 
+use crate::dimension::Dimension;
 use crate::expr::{Expr, Node, Symbol, Vector};
 use crate::formula::unicode_name;
 
@@ -27,6 +28,17 @@ const ALONG: [&str; 4] = [
     "velocity of {} to the left at first",
     "upward velocity of {} at first",
     "downward velocity of {} at first",
+];
+
+/// What an angle of the line is along which a body slides.
+const SLOPE: [&str; 2] = [
+    "angle between the x axis and the way of {}",
+    "angle between the y axis and the way of {}",
+];
+/// What an angle of a normal is: what is touched lies across it.
+const NORMAL: [&str; 2] = [
+    "angle between the x axis and the normal of the contact",
+    "inclination of the surface that is struck",
 ];
 
 /// Where a body is, seen from the origin.
@@ -71,6 +83,11 @@ fn is_in(text: &str, name: &Symbol) -> bool {
 
 /// Whether the page of a lone impact writes out the motion just before, of which a symbol is a component.
 fn is_told_before(scene: &Scene, name: &Symbol) -> bool {
+    // A length stands in it through the turning of a body, which says nothing of it.
+    let is_length = |p: &Parameter| p.dimension == Dimension::new(0, 1, 0);
+    if scene.parameter(name).is_some_and(is_length) {
+        return false;
+    }
     let moves = |body: &Body| {
         let is_part = body.velocity.iter().any(|e| e.mentions(name));
         let is_spin = body.spin.mentions(name);
@@ -100,6 +117,10 @@ fn words(scene: &Scene, uses: &[Use<'_>], name: &Symbol) -> Option<String> {
     for (_, body, _) in mine.filter(|(also, ..)| also == what) {
         let body = body.map(called);
         bodies.extend(body.filter(|body| !bodies.contains(body)));
+    }
+    let moving = scene.moving().count();
+    if moving > 2 && bodies.len() == moving {
+        return Some(what.replace("{}", "each body"));
     }
     let last = bodies.pop();
     let of = match (bodies.is_empty(), last) {
@@ -229,6 +250,19 @@ fn polar([x, y]: &Vector) -> Option<(&Expr, Option<(usize, &Expr)>)> {
     })
 }
 
+/// The angle of a unit vector, (cosθ, sinθ) or (sinθ, cosθ) of either signs, with the axis that it is counted from.
+fn inclination([x, y]: &Vector) -> Option<(usize, &Expr)> {
+    let is = |e: &Expr, of: Expr| *e == of || *e == -of;
+    x.factors().iter().find_map(|f| {
+        let Node::Call(_, angle) = f.node() else {
+            return None;
+        };
+        let from_x = is(x, angle.cos()) && is(y, angle.sin());
+        let from_y = is(x, angle.sin()) && is(y, angle.cos());
+        (from_x || from_y).then_some((usize::from(!from_x), angle))
+    })
+}
+
 /// The one name of `v` and of `−v`.
 fn symbol_in(e: &Expr) -> Option<&Expr> {
     let factors = e.factors();
@@ -251,6 +285,8 @@ fn of_impact<'s>(scene: &'s Scene, out: &mut Vec<Use<'s>>) {
             }
             _ => {}
         }
+        let normal = contact.normal.iter().filter_map(inclination);
+        out.extend(normal.map(|(axis, angle)| (NORMAL[axis], None, angle)));
     }
     for blow in &scene.blows {
         if let BlowImpulse::Given(impulse) = &blow.impulse
@@ -301,6 +337,8 @@ fn of_motion<'s>(scene: &'s Scene, kind: &'s StageKind, out: &mut Vec<Use<'s>>) 
             out.extend(friction.map(|mu| ("coefficient of sliding friction", None, mu)));
             let spring = slide.spring.iter();
             out.extend(spring.map(|spring| ("stiffness of the spring", None, &spring.stiffness)));
+            let slope = inclination(&slide.along);
+            out.extend(slope.map(|(axis, angle)| (SLOPE[axis], name(slide.body), angle)));
             let force = slide.force.iter();
             out.extend(force.map(|force| ("force along the line", None, force)));
             match &slide.until {

@@ -145,7 +145,11 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
                 let changes = in_one(change::words(told, case));
                 all.extend(changes.into_iter().map(Sentence::from));
                 if all.is_empty() {
-                    all.push("which way the bodies move depends on the values".into());
+                    let what = match scene.moving().count() {
+                        1 => "which way it moves depends on the values",
+                        _ => "which way the bodies move depends on the values",
+                    };
+                    all.push(what.into());
                 }
                 // Of several, an outcome is one sentence, with the condition that it hangs on.
                 if several && !case.conditions.is_empty() && !all.is_empty() {

@@ -77,8 +77,23 @@ impl Page<'_> {
         if to_top {
             text.push(say(" At the top the vertical velocity is zero."));
         }
+        let letter = Symbol::from(TIME);
+        let needs_time = self.answered(told).any(|answer| {
+            let shown = self
+                .ask(answer)
+                .and_then(|ask| self.flown(told, ask, answer));
+            shown.is_some_and(|[shown, _]| shown.mentions(&letter))
+        });
+        let defines_time = needs_time
+            && !self.asked(told, |ask| matches!(ask, Ask::Time))
+            && self.letter(fall).is_some();
         // What a flight is like is told once.
         if !self.solution.says(&text) {
+            self.solution.text(text);
+        }
+        if defines_time {
+            let t = words::formula(&Expr::symbol(&letter));
+            let text = vec![say("Let "), t, say(" be the time of the flight.")];
             self.solution.text(text);
         }
         let mut lines = self.turning(told, fall, time);
@@ -100,17 +115,7 @@ impl Page<'_> {
             let why = "velocity at the end: v² = v₀² + 2 g h, or v = v₀ + g t";
             lines.push(self.defined(name("v", &index, "+", false), &raw, value, why));
         }
-        let letter = Symbol::from(TIME);
-        let needs_time = self.answered(told).any(|answer| {
-            let shown = self
-                .ask(answer)
-                .and_then(|ask| self.flown(told, ask, answer));
-            shown.is_some_and(|[shown, _]| shown.mentions(&letter))
-        });
-        if needs_time
-            && !self.asked(told, |ask| matches!(ask, Ask::Time))
-            && self.letter(fall).is_some()
-        {
+        if defines_time {
             let raw = self.takes(told, fall, time);
             let head = Math::Expr(Expr::symbol(&letter));
             lines.push(self.defined(head, &raw, time, "the time of the flight"));

@@ -336,10 +336,11 @@ impl Page<'_> {
                 for (b, velocity, spin) in &told.placed.start {
                     let name = &self.scene.bodies[*b].name;
                     text = saying!("{}, but for `{}`, which begins with", text, name);
-                    let velocity = velocity
-                        .as_ref()
-                        .map(|[x, y]| saying!(" the velocity ({}, {})", x, y));
-                    let spin = spin.as_ref().map(|w| saying!(" the spin {}", w));
+                    let short = |e: &Expr| tidied(self.scene, e);
+                    let velocity = velocity.as_ref().map(|v| v.each_ref().map(short));
+                    let velocity = velocity.map(|[x, y]| saying!(" the velocity ({}, {})", &x, &y));
+                    let spin = spin.as_ref().map(short);
+                    let spin = spin.map(|w| saying!(" the spin {}", &w));
                     let each = velocity.into_iter().chain(spin);
                     text.0.extend(Sentence::join(each, " and").0);
                 }

@@ -19,7 +19,7 @@ use super::{Case, StageTold, State, Told, granted, line, second, spring, words, 
 use crate::answer::{self, Answer, Check, Form, Known, Refused};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Symbol};
-use crate::formula::{Sentence, sentence};
+use crate::formula::{Piece, Sentence, sentence};
 use crate::scene::{Ask, Question, Scene, Stage, StageKind};
 use crate::verify::APPROACH;
 
@@ -88,10 +88,19 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
     for (told, checks) in stages.iter_mut().zip(checks) {
         told.checks.extend(checks);
     }
-    // What decides the case is needed too.
+    // What decides the case is needed too, and what an answer rests on.
     let cases = stages.iter().flat_map(|told| &told.cases);
     let decide = cases.flat_map(|case| &case.conditions);
-    let decide: BTreeSet<Symbol> = decide.flat_map(|(_, e)| e.symbols()).collect();
+    let mut decide: BTreeSet<Symbol> = decide.flat_map(|(_, e)| e.symbols()).collect();
+    let rests_on = answers.iter().flat_map(|a| &a.assumptions);
+    decide.extend(
+        rests_on
+            .flat_map(|words| &words.0)
+            .flat_map(|piece| match piece {
+                Piece::Formula(e) => e.symbols(),
+                Piece::Words(_) => Default::default(),
+            }),
+    );
     let mut unused = unused(scene, &answers);
     unused.retain(|name| !decide.contains(name));
     Ok(Told {

@@ -226,7 +226,10 @@ fn duration(
             (tidied(stage, &-(h / vy))?, Some(vy.clone()))
         }
     };
-    let comes_after = format!("`{}` comes after what is before it", stage.name);
+    let comes_after = match fall.until {
+        FallEnd::Top => format!("`{name}` begins on its way up"),
+        _ => format!("the end of `{}` comes after its beginning", stage.name),
+    };
     let negative = || match fall.until {
         FallEnd::Time(_) => never(
             "its time is negative",
