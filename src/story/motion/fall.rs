@@ -226,10 +226,7 @@ fn duration(
             (tidied(stage, &-(h / vy))?, Some(vy.clone()))
         }
     };
-    let comes_after = match fall.until {
-        FallEnd::Top => format!("`{name}` begins on its way up"),
-        _ => format!("the end of `{}` comes after its beginning", stage.name),
-    };
+    let comes_after = in_order(stage, fall, name);
     let negative = || match fall.until {
         FallEnd::Time(_) => never(
             "its time is negative",
@@ -258,6 +255,14 @@ fn duration(
         _ => supposed.not_negative(&time, comes_after, negative)?,
     }
     Ok((time, down))
+}
+
+/// What it means that a flight takes a positive time.
+fn in_order(stage: &Stage, fall: &Fall, body: &str) -> String {
+    match fall.until {
+        FallEnd::Top => format!("`{body}` begins on its way up"),
+        _ => format!("the end of `{}` comes after its beginning", stage.name),
+    }
 }
 
 /// Whether the end comes after the beginning whatever the values: what falls comes below where it began, and what rises is
