@@ -50,6 +50,7 @@ fn stage(scene: &Scene, s: &StageTold) -> Value {
     json!({
         "name": s.name,
         "kind": s.placed.kind.word(),
+        "during": s.placed.during.as_ref().map(|during| &during.name),
         "words": plain(&s.words),
         "conserved": s.kept.iter().map(|k| json!({"what": k.what, "conserved": k.conserved, "why": k.why.to_string()})).collect::<Vec<_>>(),
         "cases": s.cases.iter().map(|c| case(scene, c)).collect::<Vec<_>>(),

@@ -236,6 +236,8 @@ pub fn json(scene: &Scene, followed: &Followed, at: &Point<f64>) -> Value {
             let mut out = Map::new();
             out.insert("name".into(), json!(stage.name));
             out.insert("kind".into(), json!(stage.kind.word()));
+            let during = stage.during.as_ref();
+            out.extend(during.map(|d| ("during".into(), json!(d.name))));
             match found {
                 Ok(passed) => stage_json(followed, passed, &mut out),
                 Err(lost) => {

@@ -31,6 +31,17 @@ impl Turns {
     }
 }
 
+/// What a motion of other bodies at the same time begins and ends with.
+#[derive(Clone, Debug)]
+pub struct During {
+    /// Index of the stage.
+    pub stage: usize,
+    /// Its name.
+    pub name: String,
+    /// Symbol for how long it takes.
+    pub time: Symbol,
+}
+
 /// One stage.
 #[derive(Clone, Debug, Default)]
 pub struct Stage {
@@ -38,6 +49,10 @@ pub struct Stage {
     pub name: String,
     /// The stage whose end is the beginning of this one; `None` for the bodies as the file gives them.
     pub from: Option<usize>,
+    /// The motion with which this one begins and ends, where it goes on from that and yet happens at the same time.
+    pub during: Option<During>,
+    /// Bodies that other stages move while this one lasts.
+    pub apart: Vec<usize>,
     /// Bodies that start otherwise than the file says: index, velocity of the center, spin.
     pub start: Vec<(usize, Option<Vector>, Option<Expr>)>,
     /// What happens.
@@ -180,6 +195,11 @@ impl Scene {
         out.stages = self.stages[range.clone()].to_vec();
         for stage in &mut out.stages {
             stage.from = stage.from.and_then(inside);
+            let during = stage.during.take();
+            stage.during = during.and_then(|during| {
+                let stage = inside(during.stage)?;
+                Some(During { stage, ..during })
+            });
         }
         out.questions.retain_mut(|q| {
             let here = q.stage.map(inside);
@@ -335,6 +355,14 @@ impl StageKind {
                 linkage.gravity.iter_mut().for_each(put);
             }
         }
+    }
+
+    /// Whether a symbol stands in a formula of the stage.
+    pub fn mentions(&self, name: &Symbol) -> bool {
+        let mut found = false;
+        let mut look = |e: &mut Expr| found |= e.mentions(name);
+        self.clone().formulas_mut(&mut look);
+        found
     }
 
     /// The kind in one word.

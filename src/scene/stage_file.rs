@@ -14,6 +14,8 @@ record! {
         name: Text,
         /// Name of the stage whose end is the beginning of this one, or "start" for the bodies as given. Missing: the stage before.
         from: Option<Text>,
+        /// Name of a motion before, during which this one happens too: it begins and ends with it, and has no end of its own.
+        during: Option<Text>,
         /// Bodies that start otherwise than `bodies` says; only in a stage from "start".
         start: Option<Map<StartFile>>,
         /// A collision or blow: velocities jump, nothing moves.

@@ -112,7 +112,18 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
                     Err(why) => _ = before.open.insert(name.clone(), why),
                 }
             }
+            let at_once = stage.during.as_ref().map(|during| {
+                let line = branch.into_iter().flat_map(|at| line(&stages, at));
+                let mut line = line.map(|(i, _)| &stages[i]);
+                (during, line.find(|told| told.placed.name == during.name))
+            });
+            if let Some((_, Some(first))) = at_once {
+                before.take_back(&stage.kind.moved(), &first.before);
+            }
             let mut known = before.places(stage);
+            if let Some((during, Some(first))) = at_once {
+                known.extend(first.time.clone().map(|t| (during.time.clone(), t)));
+            }
             known.extend(earlier.clone());
             let mut placed = stage.placed(&known);
             if !stage.earlier.is_empty() {
@@ -265,6 +276,12 @@ fn one(
     if !stage.kind.moved().is_empty() {
         if let Some(open) = motion::open(stage, before.clone()) {
             return Ok(open);
+        }
+        if let Some(during) = &stage.during
+            && stage.kind.mentions(&during.time)
+        {
+            let why = format!("how long `{}` takes has no closed form", during.name);
+            return Ok(motion::leads_nowhere(stage, before, &why));
         }
         joined::all_move(scene, stage)?;
     }

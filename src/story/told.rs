@@ -85,6 +85,18 @@ impl State {
         }
     }
 
+    /// Bodies are where, and as fast as, another state has them.
+    pub(super) fn take_back(&mut self, bodies: &[usize], to: &State) {
+        for &b in bodies {
+            self.part[b].clone_from(&to.part[b]);
+            self.angle[b].clone_from(&to.angle[b]);
+            self.center[b].clone_from(&to.center[b]);
+            self.velocity[b].clone_from(&to.velocity[b]);
+            self.spin[b].clone_from(&to.spin[b]);
+        }
+        self.open.extend(to.open.clone());
+    }
+
     /// The angle of a body becomes open.
     pub(super) fn lose_angle(&mut self, scene: &Scene, b: usize, why: &str) {
         if !scene.bodies[b].is_particle() {

@@ -194,6 +194,9 @@ pub(super) fn stage(told: &StageTold) -> Vec<Sentence> {
             ));
         }
     }
+    if let (Some(during), Some(first)) = (&stage.during, out.first_mut()) {
+        *first = sentence!("during `{}`, {}", &during.name, &*first);
+    }
     out
 }
 

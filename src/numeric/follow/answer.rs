@@ -97,8 +97,7 @@ pub fn answer(
     let values = super::with_earlier(scene, followed, stage, &super::with_angles(values));
     let values = super::at_places(stage, &passed.before, &values);
     let course = Course {
-        name: &stage.name,
-        scene: &stage.scene,
+        stage,
         solids: &followed.solids,
         values: &values,
     };

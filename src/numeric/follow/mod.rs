@@ -44,6 +44,7 @@ mod wind;
 mod tests;
 
 use std::collections::BTreeSet;
+use std::iter::successors;
 
 use super::given::{Freedom, Reason, Undefined, value};
 use super::points::{self, Needed, needed, with_angles};
@@ -116,6 +117,15 @@ pub struct Sizes {
 }
 
 impl Followed {
+    /// How a stage before another ended.
+    fn end(&self, course: &[Stage], stage: &Stage, before: usize) -> Result<&State, Lost> {
+        let passed = self.stages[before].as_ref();
+        passed.map(|passed| &passed.after).map_err(|_| Lost {
+            stage: stage.name.clone(),
+            why: Loss::After(course[before].name.clone()),
+        })
+    }
+
     /// Sizes in all stages: a speed that comes out as the root of a difference is known to a part of the largest ones only.
     pub fn sizes(&self) -> Sizes {
         let solids = || self.solids.iter().filter(|s| s.mass > 0.0);
@@ -170,24 +180,45 @@ fn through(scene: &Scene, solids: Vec<Solid>, start: &State, values: &Point<f64>
                 },
                 _ => before,
             }),
-            Some(j) => match &followed.stages[j] {
-                Ok(passed) => Ok(passed.after.clone()),
-                Err(_) => Err(Lost {
-                    stage: stage.name.clone(),
-                    why: Loss::After(course[j].name.clone()),
-                }),
-            },
+            Some(j) => followed.end(&course, stage, j).cloned(),
         };
+        let during = stage.during.as_ref();
+        let first = during.and_then(|d| Some((d, followed.stages.get(d.stage)?)));
+        let before = before.map(|before| match first {
+            Some((_, Ok(first))) => before.taken_back(&stage.kind.moved(), &first.before),
+            _ => before,
+        });
+        let mut values = values;
+        if let Some((during, Ok(Passed { time: Ok(time), .. }))) = first {
+            values.values.insert(during.time.clone(), *time);
+        }
         let solids = &followed.solids;
         let mut passed = before.and_then(|before| one(stage, solids, before, &values));
         if let Ok(passed) = &mut passed {
-            passed.passing = passage::passing(scene, solids, &values, passed);
+            let at_once = at_once(&course, &followed, stage);
+            passed.passing = passage::passing(scene, solids, &values, (stage, passed), &at_once);
             let back = passage::back_through(&course, &followed, (stage, passed), &values);
             passed.passing.extend(back);
         }
         followed.stages.push(passed);
     }
     followed
+}
+
+/// The motions that happen at the same time as a stage, as far as they are followed.
+fn at_once<'a>(course: &[Stage], followed: &'a Followed, stage: &Stage) -> Vec<&'a Moved> {
+    let Some(during) = &stage.during else {
+        return Vec::new();
+    };
+    let back = successors(stage.from, |j| {
+        (*j != during.stage).then_some(course[*j].from?)
+    });
+    let passed = back.filter_map(|j| followed.stages[j].as_ref().ok());
+    let moved = passed.filter_map(|passed| match &passed.what {
+        What::Motion(moved) => Some(moved),
+        What::Impact(_) => None,
+    });
+    moved.collect()
 }
 
 /// Values of the parameters, and of the answers to earlier stages that a stage uses.
@@ -252,7 +283,9 @@ pub fn symbols(scene: &Scene) -> BTreeSet<Symbol> {
         stage.kind.clone().formulas_mut(&mut |e| add(e));
     }
     for stage in course.iter() {
+        let during = stage.during.iter().map(|d| &d.time);
         let found = stage.places.iter().flatten().chain(&stage.earlier);
+        let found = found.chain(during);
         found.for_each(|symbol| _ = out.remove(symbol));
     }
     out
@@ -286,10 +319,8 @@ pub fn values(scene: &Scene) -> Result<Point<f64>, Vec<Symbol>> {
 
 /// What the followers of single stages look at.
 pub(super) struct Course<'a> {
-    /// Name of the stage.
-    pub name: &'a str,
-    /// The stage's own scene.
-    pub scene: &'a Scene,
+    /// The stage.
+    pub stage: &'a Stage,
     /// The bodies in numbers.
     pub solids: &'a [Solid],
     /// Values of the parameters, and of the places at the beginning of the stage.
@@ -299,14 +330,14 @@ pub(super) struct Course<'a> {
 impl Course<'_> {
     fn open(&self, why: Why) -> Open {
         Open {
-            stage: self.name.into(),
+            stage: self.stage.name.clone(),
             why,
         }
     }
 
     fn lost(&self, why: Loss) -> Lost {
         Lost {
-            stage: self.name.into(),
+            stage: self.stage.name.clone(),
             why,
         }
     }
@@ -437,8 +468,7 @@ fn one(
 ) -> Result<Passed, Lost> {
     let values = at_places(stage, &before, values);
     let course = Course {
-        name: &stage.name,
-        scene: &stage.scene,
+        stage,
         solids,
         values: &values,
     };

@@ -42,12 +42,13 @@ struct Placed<'a> {
     axes: [[f64; 2]; 2],
 }
 
-/// The pairs of bodies that pass through each other in a stage.
+/// The pairs of bodies that pass through each other in a stage, beside motions that happen at the same time.
 pub(super) fn passing(
     scene: &Scene,
     solids: &[Solid],
     values: &Point<f64>,
-    passed: &Passed,
+    (stage, passed): (&Stage, &Passed),
+    at_once: &[&Moved],
 ) -> Vec<[usize; 2]> {
     let What::Motion(moved) = &passed.what else {
         return Vec::new();
@@ -68,8 +69,10 @@ pub(super) fn passing(
     });
     let angles: Vec<Option<f64>> = angles.collect();
     let pose = |b: usize, time: f64| -> Option<[f64; 3]> {
-        if let Some(i) = moved.bodies.iter().position(|m| *m == b) {
-            return Some(moved.pose(i, time));
+        for moved in at_once.iter().copied().chain([moved]) {
+            if let Some(i) = moved.bodies.iter().position(|m| *m == b) {
+                return Some(moved.pose(i, time));
+            }
         }
         let at = |state: &super::BodyState| -> Option<[f64; 3]> {
             let number = |c: &Component| c.as_ref().ok().copied();
@@ -86,6 +89,8 @@ pub(super) fn passing(
     for &a in &moved.bodies {
         for b in (0..outlines.len()).filter(|b| *b != a) {
             let is_seen = moved.bodies.contains(&b) && b < a;
+            // What another stage moves meanwhile is looked at there.
+            let is_seen = is_seen || stage.apart.contains(&b);
             if is_seen || outlines[a].is_empty() || outlines[b].is_empty() || joined(scene, [a, b])
             {
                 continue;

@@ -30,6 +30,8 @@ pub enum Why {
     Time,
     /// Gravity or a force acts in the stage, and what acts on this body is not said.
     Forces,
+    /// Another stage tells how it moves meanwhile.
+    Meanwhile,
     /// Joined to a body that moves on, and not said to move along.
     Joined,
     /// It grows beyond bounds as the pole becomes thinner.
@@ -47,6 +49,7 @@ impl fmt::Display for Open {
             Why::Needed => write!(f, "`{stage}` needs what is open before it"),
             Why::Time => write!(f, "`{stage}` takes a time that is not known"),
             Why::Forces => write!(f, "what acts on it during `{stage}` is not said"),
+            Why::Meanwhile => write!(f, "it moves during `{stage}` as another stage tells"),
             Why::Joined => write!(f, "joined to a body that moves on in `{stage}`"),
             Why::Pole => write!(f, "the thinner the pole in `{stage}`, the more it grows"),
             Why::Push => write!(f, "depends on the push that begins `{stage}`"),
@@ -76,6 +79,16 @@ pub struct State {
     pub bodies: Vec<BodyState>,
     /// Bodies that a sticking contact or a hinge joins, of the last impact that touched either.
     pub joined: Vec<[usize; 2]>,
+}
+
+impl State {
+    /// The same, but for bodies that are where, and as fast as, another state has them.
+    pub(super) fn taken_back(mut self, bodies: &[usize], to: &State) -> State {
+        for &b in bodies {
+            self.bodies[b].clone_from(&to.bodies[b]);
+        }
+        self
+    }
 }
 
 impl BodyState {

@@ -8,7 +8,7 @@ use crate::scene::question_file::QuestionFile;
 use crate::scene::record::Text;
 use crate::scene::resolve::Resolver;
 use crate::scene::stage_file::{EndName, StageFile, TurnFile};
-use crate::scene::stages::{STIFFNESS, TIME, stage_named};
+use crate::scene::stages::{STIFFNESS, TIME, home, stage_named};
 use crate::scene::{Ask, Scene};
 
 /// Reads a question about a stage, or about all of them; with the index of that stage.
@@ -65,7 +65,7 @@ pub(super) fn ask(
     } else {
         named
     };
-    let i = stage_named(&mut base.faults, stages, stage)?;
+    let i = home(stages, stage_named(&mut base.faults, stages, stage)?, q);
     let mut asked = Asked {
         base,
         stage: &stages[i],

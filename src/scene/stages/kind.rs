@@ -34,6 +34,7 @@ pub(super) fn kind(
     scene: &mut Scene,
     stage: &StageFile,
     places: &[[Expr; 3]],
+    lasts: Option<&Expr>,
 ) -> Option<StageKind> {
     let given = [
         stage.impact.is_some(),
@@ -54,17 +55,25 @@ pub(super) fn kind(
             "one stage does one thing; what an impact changes is no motion with conserved energy";
         return r.refuse(stage.name.span, message, hint);
     }
+    if let (Some(during), None, None, None) =
+        (&stage.during, &stage.turn, &stage.slide, &stage.fall)
+    {
+        let message =
+            "only a fall, a motion along a line or a rotation happens during another motion";
+        let hint = "leave out `during`: the stage then begins where the one before ends";
+        return r.refuse(during.span, message, hint);
+    }
     if let Some(impact) = &stage.impact {
         return impact_of(r, scene, impact, stage.name.span);
     }
     if let Some(turn) = &stage.turn {
-        return turn_of(r, turn, stage.name.span).map(StageKind::Turn);
+        return turn_of(r, turn, lasts, stage.name.span).map(StageKind::Turn);
     }
     if let Some(sliding) = &stage.slide {
-        return slide(r, scene, sliding, stage.name.span).map(StageKind::Slide);
+        return slide(r, scene, sliding, lasts, stage.name.span).map(StageKind::Slide);
     }
     if let Some(fall) = &stage.fall {
-        return fall_of(r, fall, stage.name.span).map(StageKind::Fall);
+        return fall_of(r, fall, lasts, stage.name.span).map(StageKind::Fall);
     }
     if let Some(linkage) = &stage.linkage {
         return linkage_of(r, scene, linkage, places).map(StageKind::Linkage);
@@ -86,6 +95,19 @@ pub(super) fn kind(
         around: around?,
         to: to?,
     }))
+}
+
+/// Whether a motion has one end.
+pub(super) fn is_one(given: &[bool]) -> bool {
+    given.iter().filter(|given| **given).count() == 1
+}
+
+/// What to do about a motion without an end, or with several.
+pub(super) fn one_end(lasts: Option<&Expr>) -> &'static str {
+    match lasts {
+        None => "give one of them",
+        Some(_) => "leave it out: the motion ends with the one `during` which it happens",
+    }
 }
 
 /// An optional formula; the outer `None` means that it was given and could not be read.
@@ -191,23 +213,32 @@ fn bounded(
     Some(read)
 }
 
-fn fall_of(r: &mut Resolver<'_>, fall: &FallFile, span: Span) -> Option<Fall> {
-    let ends = usize::from(fall.height.is_some())
-        + usize::from(fall.range.is_some())
-        + usize::from(fall.by.is_some())
-        + usize::from(fall.time.is_some())
-        + usize::from(fall.until.is_some());
-    if ends != 1 {
+fn fall_of(
+    r: &mut Resolver<'_>,
+    fall: &FallFile,
+    lasts: Option<&Expr>,
+    span: Span,
+) -> Option<Fall> {
+    let ends = [
+        fall.height.is_some(),
+        fall.range.is_some(),
+        fall.by.is_some(),
+        fall.time.is_some(),
+        fall.until.is_some(),
+        lasts.is_some(),
+    ];
+    if !is_one(&ends) {
         let message = "a fall ends after a `height`, a horizontal distance `range`, an angle `by` or a time `for`, or `until` its top";
-        return r.refuse(span, message, "give one of them");
+        return r.refuse(span, message, one_end(lasts));
     }
     let all = company(r, &fall.body, fall.with.as_deref());
     let gravity = weight(r, fall.gravity.as_ref())?;
-    let until = match (&fall.height, &fall.range, &fall.by, &fall.time) {
+    let until = match (&fall.height, &fall.range, &fall.by, &fall.time, lasts) {
         (Some(height), ..) => FallEnd::Drop(r.read(height, Quantity::LENGTH)?),
         (_, Some(range), ..) => FallEnd::Range(r.read(range, Quantity::LENGTH)?),
-        (.., Some(by), _) => FallEnd::Turned(r.read(by, TURNED)?),
-        (.., Some(time)) => FallEnd::Time(r.read(time, TIME)?),
+        (_, _, Some(by), ..) => FallEnd::Turned(r.read(by, TURNED)?),
+        (.., Some(time), _) => FallEnd::Time(r.read(time, TIME)?),
+        (.., Some(time)) => FallEnd::Time(time.clone()),
         _ if gravity.is_some() => FallEnd::Top,
         _ => {
             let message = "a flight without gravity has no top";
@@ -274,19 +305,28 @@ fn linkage_of(
     })
 }
 
-fn turn_of(r: &mut Resolver<'_>, turn: &TurnFile, span: Span) -> Option<Turn> {
-    let ends = usize::from(turn.by.is_some())
-        + usize::from(turn.until.is_some())
-        + usize::from(turn.time.is_some());
-    if ends != 1 {
+fn turn_of(
+    r: &mut Resolver<'_>,
+    turn: &TurnFile,
+    lasts: Option<&Expr>,
+    span: Span,
+) -> Option<Turn> {
+    let ends = [
+        turn.by.is_some(),
+        turn.until.is_some(),
+        turn.time.is_some(),
+        lasts.is_some(),
+    ];
+    if !is_one(&ends) {
         let message =
             "a rotation ends after an angle `by`, at a place `until`, or after a time `for`";
-        return r.refuse(span, message, "give one of them");
+        return r.refuse(span, message, one_end(lasts));
     }
-    if let (Some(time), true) = (&turn.time, turn.gravity.is_some()) {
+    if turn.gravity.is_some() && (turn.time.is_some() || lasts.is_some()) {
+        let at = turn.time.as_ref().map_or(span, |time| time.span);
         let message = "a rotation under its weight ends at an angle, not after a time";
         let hint = "where it is after a time has no closed form; give `by` or `until`";
-        return r.refuse(time.span, message, hint);
+        return r.refuse(at, message, hint);
     }
     let all = company(r, &turn.body, turn.with.as_deref());
     let Some(about_file) = &turn.about else {
@@ -305,8 +345,8 @@ fn turn_of(r: &mut Resolver<'_>, turn: &TurnFile, span: Span) -> Option<Turn> {
         (_, Some(UntilName::Above), _) => Until::Above,
         (_, Some(UntilName::Below), _) => Until::Below,
         (_, Some(UntilName::Stops), _) => Until::Stops,
-        (_, _, Some(time)) => Until::For(r.read(time, TIME)?),
-        _ => return None,
+        (.., Some(time)) => Until::For(r.read(time, TIME)?),
+        _ => Until::For(lasts?.clone()),
     };
     let (body, with) = all?;
     Some(Turn {

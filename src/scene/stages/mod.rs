@@ -6,11 +6,13 @@
 mod earlier;
 mod hinged;
 mod kind;
+mod meanwhile;
 mod seen;
 mod slide;
 
 pub(super) use hinged::spread;
 pub(super) use kind::TIME;
+pub(super) use meanwhile::home;
 pub(super) use slide::STIFFNESS;
 
 use std::collections::{BTreeMap, HashMap};
@@ -28,7 +30,7 @@ use crate::scene::place::Place;
 use crate::scene::questions::About;
 use crate::scene::record::{Map, Pair, Text};
 use crate::scene::resolve::{Resolver, entries, keys};
-use crate::scene::stage::{OneSided, Stage, StageKind};
+use crate::scene::stage::{During, OneSided, Stage, StageKind};
 use crate::scene::stage_file::{EndName, StageFile, StartFile};
 use crate::scene::{Body, Scene, Shape, geometry, joined, questions};
 
@@ -126,14 +128,16 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     // One that does not read keeps its place, since the others name their predecessors by number.
     let mut read: Vec<Option<Stage>> = Vec::new();
     for (i, stage) in stages.iter().enumerate() {
-        let Some(from) = predecessor(base, stages, i) else {
+        let Some((from, during)) = predecessor(base, stages, i) else {
             read.push(None);
             continue;
         };
         let symbols = std::mem::replace(&mut base.symbols, Symbols::new(Default::default()));
         let left_at = left_at(&read, from);
         held_on(&mut composed[i], scene, (&read, from));
-        let (one, symbols, faults) = one(&composed[i], stage, (from, &left_at), scene, symbols);
+        let during = during.map(|first| (first, stages[first].name.text.as_str()));
+        let begins = (from, during, &left_at);
+        let (one, symbols, faults) = one(&composed[i], stage, begins, scene, symbols);
         base.symbols = symbols;
         base.faults.extend(faults);
         read.push(one);
@@ -162,6 +166,7 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     begin(scene);
     joined::keep(scene);
     joined::note(scene);
+    meanwhile::tell_apart(base, scene, stages);
     for (stage, written) in scene.stages.iter().zip(stages) {
         slide::loaded_wheel(base, stage, written.name.span);
     }
@@ -271,6 +276,7 @@ fn homes(base: &mut Resolver<'_>, stages: &[StageFile]) -> HashMap<usize, usize>
         if questions::asks(q, About::Motion)
             && let Some(i) = only.or_else(|| stage_named(&mut base.faults, stages, q.at.as_ref()))
         {
+            let i = home(stages, i, q);
             out.insert(k, i);
         }
     }
@@ -317,8 +323,11 @@ pub(super) fn stage_named(
     found
 }
 
-/// The stage before, `Some(None)` for the start.
-fn predecessor(base: &mut Resolver<'_>, stages: &[StageFile], i: usize) -> Option<Option<usize>> {
+/// The stage before, `None` for the start, and the motion during which the stage happens.
+type Before = (Option<usize>, Option<usize>);
+
+/// What a stage goes on from.
+fn predecessor(base: &mut Resolver<'_>, stages: &[StageFile], i: usize) -> Option<Before> {
     let stage = &stages[i];
     let name = stage.name.text.trim();
     if name.is_empty() || name.chars().any(char::is_control) {
@@ -331,17 +340,39 @@ fn predecessor(base: &mut Resolver<'_>, stages: &[StageFile], i: usize) -> Optio
         let hint = "every stage has a name of its own, and `start` is where the story begins";
         return base.refuse(stage.name.span, message, hint);
     }
-    match &stage.from {
-        None => Some(i.checked_sub(1)),
-        Some(name) if name.text == "start" => Some(None),
-        Some(name) => match stages[..i].iter().position(|s| s.name.text == name.text) {
-            Some(j) => Some(Some(j)),
-            None => {
-                let message = format!("no stage `{}` comes before this one", name.text);
-                let hint = "`from` names an earlier stage, or \"start\"";
-                base.refuse(name.span, message, hint)
+    let mut earlier = |field: &str, name: &Text| {
+        let found = stages[..i].iter().position(|s| s.name.text == name.text);
+        if found.is_none() {
+            let message = format!("no stage `{}` comes before this one", name.text);
+            let hint = match field {
+                "during" => String::from("`during` names an earlier motion"),
+                _ => format!("`{field}` names an earlier stage, or \"start\""),
+            };
+            base.report(name.span, message, hint);
+        }
+        found
+    };
+    match (&stage.from, &stage.during) {
+        (None, None) => Some((i.checked_sub(1), None)),
+        (Some(name), None) if name.text == "start" => Some((None, None)),
+        (Some(name), None) => Some((Some(earlier("from", name)?), None)),
+        (Some(from), Some(_)) => {
+            let message = "a stage `during` another begins where that begins";
+            base.refuse(from.span, message, "leave out `from`")
+        }
+        (None, Some(name)) => {
+            let named = earlier("during", name)?;
+            let first = meanwhile::first(stages, named);
+            if stages[first].impact.is_some() {
+                let message = format!("`{}` is an impact, which takes no time", name.text);
+                return base.refuse(name.span, message, "`during` names an earlier motion");
             }
-        },
+            // Each is told after the others that happen at the same time.
+            let last = (first..i)
+                .rev()
+                .find(|j| meanwhile::first(stages, *j) == first);
+            Some((last, Some(first)))
+        }
     }
 }
 
@@ -465,11 +496,18 @@ fn places(scene: &SceneFile, stage: &str) -> Vec<[Symbol; 3]> {
         .collect()
 }
 
+/// What a stage goes on from, the motion during which it happens with its name, and the coordinates that linkages have left.
+type Begins<'a> = (
+    Option<usize>,
+    Option<(usize, &'a str)>,
+    &'a BTreeMap<Symbol, Expr>,
+);
+
 /// Reads one stage.
 fn one(
     file: &SceneFile,
     stage: &StageFile,
-    (from, left_at): (Option<usize>, &BTreeMap<Symbol, Expr>),
+    (from, during, left_at): Begins<'_>,
     whole: &Scene,
     symbols: Symbols,
 ) -> (Option<Stage>, Symbols, Vec<Fault>) {
@@ -509,7 +547,14 @@ fn one(
         body.angle = turned;
     }
     let starts = starts(&mut r, &scene, stage, from);
-    let kind = kind::kind(&mut r, &mut scene, stage, &file_places);
+    let during = during.map(|(index, first)| During {
+        stage: index,
+        // No parameter has a blank in its name.
+        time: Symbol::from(format!("time of {first}").as_str()),
+        name: first.into(),
+    });
+    let lasts = during.as_ref().map(|d| Expr::symbol(&d.time));
+    let kind = kind::kind(&mut r, &mut scene, stage, &file_places, lasts.as_ref());
     if let Some(StageKind::Impact { one_sided, .. }) = &kind {
         let strings: Vec<&OneSided> = one_sided.iter().filter(|o| o.is_string).collect();
         tie(&mut scene, &strings, &mut r.claims);
@@ -533,6 +578,8 @@ fn one(
     let read = kind.map(|kind| Stage {
         name: stage.name.text.clone(),
         from,
+        during,
+        apart: Vec::new(),
         start: starts,
         kind,
         places,

@@ -2,7 +2,7 @@
 //!
 //! In: its record. Out: the motion, or what does not go together in it.
 
-use super::kind::{FORCE, TIME, coefficient, company, optional, weight};
+use super::kind::{FORCE, TIME, coefficient, company, is_one, one_end, optional, weight};
 use crate::expr::Expr;
 use crate::scene::fault::Span;
 use crate::scene::formulas::Quantity;
@@ -19,9 +19,10 @@ pub(super) fn slide(
     r: &mut Resolver<'_>,
     scene: &Scene,
     slide: &SlideFile,
+    lasts: Option<&Expr>,
     span: Span,
 ) -> Option<Slide> {
-    let until = end(r, slide, span)?;
+    let until = end(r, slide, lasts, span)?;
     let all = company(r, &slide.body, slide.with.as_deref());
     let along = r.direction(&slide.along);
     let gravity = weight(r, slide.gravity.as_ref())?;
@@ -74,7 +75,23 @@ pub(super) fn slide(
 }
 
 /// How the motion ends.
-fn end(r: &mut Resolver<'_>, slide: &SlideFile, span: Span) -> Option<SlideEnd> {
+fn end(
+    r: &mut Resolver<'_>,
+    slide: &SlideFile,
+    lasts: Option<&Expr>,
+    span: Span,
+) -> Option<SlideEnd> {
+    let ends = [
+        slide.distance.is_some(),
+        slide.time.is_some(),
+        slide.until.is_some(),
+        lasts.is_some(),
+    ];
+    if !is_one(&ends) {
+        let message =
+            "a motion along a line ends after a `distance`, a time `for`, or where `until` says";
+        return r.refuse(span, message, one_end(lasts));
+    }
     match (&slide.distance, &slide.time, slide.until) {
         (Some(s), None, None) => r.read(s, Quantity::LENGTH).map(SlideEnd::Distance),
         (None, Some(t), None) => r.read(t, TIME).map(SlideEnd::Time),
@@ -83,10 +100,7 @@ fn end(r: &mut Resolver<'_>, slide: &SlideFile, span: Span) -> Option<SlideEnd> 
             SlideEndName::Rolls => SlideEnd::Rolls,
             SlideEndName::Together => SlideEnd::Together,
         }),
-        _ => {
-            let message = "a motion along a line ends after a `distance`, a time `for`, or where `until` says";
-            r.refuse(span, message, "give one of them")
-        }
+        _ => lasts.cloned().map(SlideEnd::Time),
     }
 }
 

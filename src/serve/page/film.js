@@ -59,7 +59,9 @@ export async function showFilm() {
 // Parts of the film: where every body is from one time to another.
 function made(about, solved) {
   const { before, after, claimed, bodies: names } = about.film;
-  const free = (name, stage, samples, other) => ({ name, stage, poses: new Map(), moving: names, samples, other, time: samples.at(-1).time });
+  const free = (name, stage, samples, other) => ({
+    name, stage, poses: new Map(), courses: [{ moving: names, samples }], other: other && [{ moving: names, samples: other }], time: samples.at(-1).time,
+  });
   const parts = [];
   let note = "";
   if (before.length) parts.push(free("before the impact", 0, before));
@@ -68,7 +70,12 @@ function made(about, solved) {
     const poses = new Map(stage.bodies.map((b) => [b.name, pose(b.before)]));
     const moves = (stage.samples?.length ?? 0) > 1;
     if (stage.kind !== "impact" && !moves) { note = `${stage.name}: its course in time is not known`; break; }
-    parts.push({ name: stage.name, stage: k, poses, moving: stage.moving ?? [], samples: stage.samples ?? [], time: moves ? stage.samples.at(-1).time : 0 });
+    const course = { moving: stage.moving ?? [], samples: stage.samples ?? [] };
+    // What moves at the same time is one part.
+    if (stage.during) {
+      parts.at(-1).courses.push(course);
+      parts.at(-1).name += ` and ${stage.name}`;
+    } else parts.push({ name: stage.name, stage: k, poses, courses: [course], time: moves ? stage.samples.at(-1).time : 0 });
     const passing = (stage.pass_through_each_other ?? []).map((pair) => `${pair.join(" and ")} pass through each other`);
     const [broken] = [...(stage.not_possible ?? []), ...passing];
     if (broken) { note = `${stage.name}: not possible at these values, ${broken}`; break; }
@@ -102,9 +109,10 @@ function made(about, solved) {
 const pose = (b) => (b && [b.x, b.y, b.angle].every(Number.isFinite) ? [b.x, b.y, b.angle] : null);
 
 // Where a body is within a part: between two samples by the cubic that keeps the slopes of the course.
-function place(part, body, time, s = part.samples) {
-  const k = part.moving.indexOf(body);
-  if (k < 0) return part.poses.get(body);
+function place(part, body, time, courses = part.courses) {
+  const course = courses.find(({ moving }) => moving.includes(body));
+  if (!course) return part.poses.get(body);
+  const [k, s] = [course.moving.indexOf(body), course.samples];
   if (s.length < 2) return s[0]?.poses[k];
   let i = s.findIndex((one) => one.time >= time);
   if (i < 0) i = s.length - 1;
@@ -179,9 +187,9 @@ function at(moment) {
 
 // Room for all that is shown in the film.
 function box() {
-  const courses = film.parts.flatMap((part) => [part.samples, part.other].filter(Boolean).map((samples) => [part, samples]));
-  const moving = courses.flatMap(([part, samples]) => [0, 0.25, 0.5, 0.75, 1].flatMap((u) =>
-    film.bodies.flatMap((body) => moved(body, place(part, body.body, u * part.time, samples)).flat())));
+  const courses = film.parts.flatMap((part) => [part.courses, part.other].filter(Boolean).map((found) => [part, found]));
+  const moving = courses.flatMap(([part, found]) => [0, 0.25, 0.5, 0.75, 1].flatMap((u) =>
+    film.bodies.flatMap((body) => moved(body, place(part, body.body, u * part.time, found)).flat())));
   const all = [...film.standing.flat(), ...moving];
   const [xs, ys] = [all.map((p) => p[0]), all.map((p) => -p[1])];
   const [left, top] = [Math.min(...xs), Math.min(...ys)];

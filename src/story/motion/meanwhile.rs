@@ -25,6 +25,18 @@ pub(super) fn others(
             after.part[b] = Part::Free;
             continue;
         }
+        // What moves at the same time has its own stage, before this one or after it.
+        if stage.during.is_some() {
+            continue;
+        }
+        if stage.apart.contains(&b) {
+            let why = format!(
+                "`{}` moves during `{}` as another stage tells",
+                body.name, stage.name
+            );
+            after.lose(scene, b, &why, true);
+            continue;
+        }
         let motion = || before.velocity[b].iter().chain([&before.spin[b]]);
         if motion().all(|c| is_zero(c, &scene.domains) == Some(true)) {
             continue;
@@ -63,7 +75,7 @@ pub(super) fn others(
                     _ => "weight may act on it, and",
                 };
                 let why = format!(
-                    "`{0}` goes on moving during `{1}`: {why} the stage does not say how (a stage that follows `{0}` meanwhile begins with \"from\" where `{1}` does)",
+                    "`{0}` goes on moving during `{1}`: {why} the stage does not say how (a stage with \"during\": \"{1}\" does)",
                     body.name, stage.name
                 );
                 let steady = weightless && *part != Part::Joined;

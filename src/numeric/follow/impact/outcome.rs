@@ -37,10 +37,10 @@ impl Table<'_> {
                 body.spin = component(Unknown::Spin(b), spin);
             }
         }
-        let contacts = course.scene.contacts.iter();
+        let contacts = course.stage.scene.contacts.iter();
         let sticking = contacts.filter(|c| c.law == crate::scene::ContactLaw::Sticking);
         let joined = sticking.map(|c| c.bodies);
-        let joined = joined.chain(course.scene.hinges.iter().map(|h| h.bodies));
+        let joined = joined.chain(course.stage.scene.hinges.iter().map(|h| h.bodies));
         let is_free = |b: &usize| course.solids[*b].freedom != Freedom::Fixed;
         // What the impact does not touch stays joined.
         let untouched = |pair: &[usize; 2]| pair.iter().all(|b| !self.touched[*b]);
@@ -88,7 +88,7 @@ impl Table<'_> {
         before: &State,
         after: &State,
     ) -> Impact {
-        let scene = course.scene;
+        let scene = &course.stage.scene;
         let largest = fitting.iter().flat_map(Tried::impulses);
         let largest = largest.map(f64::abs).fold(self.momentum, f64::max);
         let agreed = |unknown| self.agreed(course, fitting, unknown, largest);
@@ -218,7 +218,7 @@ impl Table<'_> {
             let closes = c.law != GivenLaw::None;
             Some((*i, c.joint.bodies, c.joint.at, normal, closes, true))
         });
-        let others = course.scene.contacts.len();
+        let others = course.stage.scene.contacts.len();
         let supports = self.kept_supports.iter().map(|i| {
             let s = &self.supports[*i];
             (others + i, s.bodies, s.at, s.normal, true, false)

@@ -13,7 +13,7 @@ impl<'a> Table<'a> {
         one_sided: &'a [OneSided],
         before: &State,
     ) -> Result<Table<'a>, Lost> {
-        let scene = course.scene;
+        let scene = &course.stage.scene;
         let links = links(scene, one_sided);
         let (touched, unplaced) = reached(course, &links, before);
         let keeps = |bodies: &[usize]| bodies.iter().all(|b| !unplaced[*b]);
@@ -115,7 +115,7 @@ impl<'a> Table<'a> {
                 let [first, second] = hinge.bodies.map(|b| &course.solids[b].name);
                 return Err(course.contradiction(format!(
                     "`{first}` and `{second}` move differently at the hinge `{}` before",
-                    course.scene.hinges[*i].name
+                    course.stage.scene.hinges[*i].name
                 )));
             }
         }

@@ -111,14 +111,17 @@ impl Table<'_> {
     fn words(&self, course: &Course<'_>, set: &[usize], law: Law) -> String {
         let body = |b: usize| &course.solids[b].name;
         let contact = |c: usize| match self.kept[0].get(c) {
-            Some(i) => &course.scene.contacts[*i].name,
+            Some(i) => &course.stage.scene.contacts[*i].name,
             None => &self.one_sided[set[c - self.kept[0].len()]].name,
         };
         match law {
             Law::Momentum(b, _) => format!("momentum of `{}`", body(b)),
             Law::AngularMomentum(b) => format!("angular momentum of `{}`", body(b)),
             Law::Hinge(h, _) => {
-                format!("the hinge `{}`", course.scene.hinges[self.kept[1][h]].name)
+                format!(
+                    "the hinge `{}`",
+                    course.stage.scene.hinges[self.kept[1][h]].name
+                )
             }
             Law::Sticking(c, _) => format!("sticking at `{}`", contact(c)),
             Law::Restitution(c) => format!("restitution at `{}`", contact(c)),

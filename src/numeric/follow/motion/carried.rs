@@ -51,7 +51,7 @@ impl Pair {
         };
         let force = |f: &Option<_>| course.optional(f.as_ref(), "force");
         let along = course.pair(&slide.along, "direction")?;
-        let contact = match course.scene.bodies[slide.body].shape.radius() {
+        let contact = match course.stage.scene.bodies[slide.body].shape.radius() {
             Some(radius) if slide.with.is_empty() => {
                 let radius = course.number(radius, "radius")?;
                 // The body below is below.

@@ -340,10 +340,15 @@ pub(super) fn others(
         pairs.flatten().any(|other| moving.contains(other))
     };
     for (b, body) in after.bodies.iter_mut().enumerate() {
-        if moving.contains(&b) || !body.has_begun {
+        if course.stage.apart.contains(&b) {
+            body.leave_open(&course.open(Why::Meanwhile));
             continue;
         }
-        if course.scene.axles.contains(&b) {
+        // What moves at the same time has its own stage.
+        if moving.contains(&b) || course.stage.during.is_some() || !body.has_begun {
+            continue;
+        }
+        if course.stage.scene.axles.contains(&b) {
             // Its weight has no moment about its axle.
             body.angle = drifted(course, &body.angle, &body.spin.clone(), time);
             continue;

@@ -31,7 +31,7 @@ impl Acting {
     fn of(course: &Course<'_>, slide: &Slide) -> Result<Acting, Lost> {
         let along = course.pair(&slide.along, "direction")?;
         let is_on_surface = (slide.rolling || slide.friction.is_some()) && !slide.level;
-        let body = &course.scene.bodies[slide.body];
+        let body = &course.stage.scene.bodies[slide.body];
         let radius = match body.shape.radius() {
             Some(radius) if is_on_surface && slide.with.is_empty() => {
                 Some(course.number(radius, "radius")?)

@@ -301,7 +301,7 @@ fn loose(course: &Course<'_>) -> Lost {
 }
 
 fn radius(course: &Course<'_>, movers: &Movers, pulley: usize) -> Result<f64, Lost> {
-    let shape = &course.scene.bodies[movers.bodies[pulley]].shape;
+    let shape = &course.stage.scene.bodies[movers.bodies[pulley]].shape;
     let radius = shape
         .radius()
         .ok_or_else(|| course.contradiction("a pulley has no radius"))?;

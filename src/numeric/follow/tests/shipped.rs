@@ -72,8 +72,7 @@ fn without_stages_the_other_solver_says_the_same() {
             let followed = follow(&scene, &at).expect("numbers");
             let passed = passed(&followed, 0);
             let course = Course {
-                name: "",
-                scene: &scene,
+                stage: &Stage::alone(scene.clone()),
                 solids: &followed.solids,
                 values: &at,
             };
