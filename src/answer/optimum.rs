@@ -394,11 +394,10 @@ impl Search<'_> {
         out.checks
             .push(by_signs("maximum", words, rising.is_proved()));
         let bound = self.bound(&value, open);
-        out.text.push(sentence!(
-            "the derivative with respect to {} does not vanish inside: the largest value is {}",
-            p,
-            bound
-        ));
+        out.text.push(match grows {
+            true => sentence!("it grows with {}: the largest value is {}", p, bound),
+            false => sentence!("it falls as {} grows: the largest value is {}", p, bound),
+        });
         Ok(Some(value))
     }
 

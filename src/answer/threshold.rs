@@ -36,6 +36,7 @@ pub(super) fn fill(
     let domains = &scene.domains;
     let gap = left - right;
     let gap = tidy(&gap, domains).unwrap_or(gap);
+    let whole = gap.clone();
     let (gap, domains) = match undo::outermost(&gap, parameter, domains) {
         Some(inner) => {
             out.assumptions.extend(inner.given);
@@ -46,6 +47,11 @@ pub(super) fn fill(
     let upward = matches!(relation, Relation::Greater | Relation::GreaterEqual);
     let under = radicand(&gap, parameter, domains).filter(|_| upward);
     let (gap, rooted) = (under.clone().unwrap_or(gap), under.is_some());
+    let called = match () {
+        () if gap != whole => "it hangs on {}, which is",
+        () if right.is_zero() => "the left side is {}, which is",
+        () => "left side minus right side is {}, which is",
+    };
     let roots = solve(&gap, parameter, domains);
     let real = roots.as_ref().ok().filter(|_| relation != Relation::Equal);
     let (roots, domains) = match real.and_then(|found| where_real(found, domains)) {
@@ -60,7 +66,7 @@ pub(super) fn fill(
         Err(why) => {
             out.text.push(match why {
                 Unsolved::Absent => {
-                    let words = always(&gap, relation, domains);
+                    let words = always(&gap, called, relation, domains);
                     sentence!("{}, whatever {} is", words, parameter)
                 }
                 Unsolved::Inside => {
@@ -84,7 +90,7 @@ pub(super) fn fill(
                 let [unless, else_all] = [" does, unless ", " = 0, when every value does"];
                 sentence!("no value of {}{}{}{}", parameter, unless, &rest, else_all)
             }
-            _ => always(&gap, relation, domains),
+            _ => always(&gap, called, relation, domains),
         });
         return;
     }
@@ -512,16 +518,13 @@ fn jumps(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sentence> 
     }
 }
 
-/// Words for an inequality without a threshold.
-fn always(gap: &Expr, relation: Relation, domains: &Domains) -> Sentence {
+/// Words for an inequality without a threshold; what decides it is `called` so.
+fn always(gap: &Expr, called: &'static str, relation: Relation, domains: &Domains) -> Sentence {
     let s = sign(gap, domains);
+    let difference = Sentence::filled(called, [gap.into()]);
     let reason = |what: &str| match gap.is_zero() {
         true => sentence!("both sides are the same"),
-        false => sentence!(
-            "left side minus right side is {}, which is {} on the whole domain",
-            gap,
-            what
-        ),
+        false => sentence!("{} {} on the whole domain", &difference, what),
     };
     let sign_words = sign_words(s);
     match everywhere(s, relation) {
@@ -529,11 +532,7 @@ fn always(gap: &Expr, relation: Relation, domains: &Domains) -> Sentence {
         Some(false) if s.is_proved() => sentence!("it never holds: {}", reason(sign_words)),
         Some(_) => {
             let seen = format!("{sign_words} at the points tried");
-            sentence!(
-                "not decided: left side minus right side is {}, which is {}",
-                gap,
-                seen
-            )
+            sentence!("not decided: {} {}", &difference, seen)
         }
         None => sentence!("not decided: {}", reason(sign_words)),
     }

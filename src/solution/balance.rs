@@ -254,6 +254,24 @@ impl Writer<'_> {
         self.say(&text);
     }
 
+    /// A velocity after less the one before: as a whole, or term by term where that is shorter.
+    fn change(&mut self, after: &Expr, before: &Expr) -> Expr {
+        let whole = self.tidy(&(after - before));
+        let joined = self.tidy(before);
+        let before = match joined.size() < before.size() {
+            true => &joined,
+            false => before,
+        };
+        let apart = match after.begins_with_minus() && before.begins_with_minus() {
+            true => &-before + after,
+            false => after - before,
+        };
+        match apart.size() < whole.size() {
+            true => apart,
+            false => whole,
+        }
+    }
+
     /// Momentum after − momentum before = impulses, along a direction; where that is long, as it is solved.
     pub(super) fn linear_momentum(
         &mut self,
@@ -266,9 +284,8 @@ impl Writer<'_> {
         // Bodies that change their velocity alike count with their mass together.
         let mut changes: Vec<(Expr, Expr)> = Vec::new();
         for &b in system {
-            let v = self.velocity_after(b);
-            let change = dot(&v) - dot(self.g.before(b).0);
-            let change = self.tidy(&change);
+            let [after, before] = [dot(&self.velocity_after(b)), dot(self.g.before(b).0)];
+            let change = self.change(&after, &before);
             let mass = self.g.mass(b).clone();
             match changes.iter_mut().find(|(_, alike)| *alike == change) {
                 Some((total, _)) => *total = self.tidy(&(&*total + &mass)),
@@ -343,7 +360,7 @@ impl Writer<'_> {
             for &b in system {
                 let before = self.g.before(b).0[axis].clone();
                 let after = self.velocity_after(b)[axis].clone();
-                let change = self.tidy(&(after - before));
+                let change = self.change(&after, &before);
                 total.push(self.g.mass(b) * &change);
             }
             let impulses = outside.iter().map(|o| o.impulse[axis].clone());

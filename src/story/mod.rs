@@ -112,19 +112,9 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
                     Err(why) => _ = before.open.insert(name.clone(), why),
                 }
             }
-            let at_once = stage.during.as_ref().map(|during| {
-                let line = branch.into_iter().flat_map(|at| line(&stages, at));
-                let mut line = line.map(|(i, _)| &stages[i]);
-                (during, line.find(|told| told.placed.name == during.name))
-            });
-            if let Some((_, Some(first))) = at_once {
-                before.take_back(&stage.kind.moved(), &first.before);
-            }
+            let lasts = takes_back(stage, &stages, branch, &mut before);
             let mut known = before.places(stage);
-            if let Some((during, Some(first))) = at_once {
-                known.extend(first.time.clone().map(|t| (during.time.clone(), t)));
-            }
-            known.extend(earlier.clone());
+            known.extend(earlier.clone().into_iter().chain(lasts));
             let mut placed = stage.placed(&known);
             if !stage.earlier.is_empty() {
                 let domains = placed.scene.domains.clone();
@@ -202,6 +192,22 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
         ended,
         ..Told::default()
     })
+}
+
+/// A motion during another takes its bodies where the other one finds them when it begins; gives how long both last, where
+/// that has a closed form.
+fn takes_back(
+    stage: &Stage,
+    stages: &[StageTold],
+    branch: Option<(usize, usize)>,
+    before: &mut State,
+) -> Option<(Symbol, Expr)> {
+    let during = stage.during.as_ref()?;
+    let mut line = branch.into_iter().flat_map(|at| line(stages, at));
+    let first = line.find(|(i, _)| stages[*i].placed.name == during.name);
+    let first = &stages[first?.0];
+    before.take_back(&stage.kind.moved(), &first.before);
+    Some((during.time.clone(), first.time.clone()?))
 }
 
 /// What a motion needs and the given values do not keep to.

@@ -2,7 +2,7 @@
 
 use super::supposed::Supposed;
 use super::turn::{free_sense, rotated, sense_words};
-use super::{half, kept, meanwhile, tidied};
+use super::{half, kept, meanwhile, tidied, together};
 use crate::answer::calc::{Seen, is_zero, sign};
 use crate::expr::{Expr, Vector, dot, minus};
 use crate::formula::sentence;
@@ -43,7 +43,7 @@ pub(in crate::story) fn fall(
         let [vx, vy] = cluster.map_or(&before.velocity[b], |cluster| &cluster.velocity);
         let v_end = match (&down, b == fall.body) {
             (Some(down), true) => down.clone(),
-            _ => tidied(stage, &(vy - &(g * &time)))?,
+            _ => together(stage, vy, &-tidied(stage, &(g * &time))?)?,
         };
         let drop = match (&fall.until, b == fall.body) {
             (FallEnd::Drop(h), true) => h.clone(),

@@ -50,6 +50,16 @@ fn tidied(stage: &Stage, e: &Expr) -> Result<Expr, Refused> {
     tidy(e, &stage.scene.domains).map_err(|stop| Refused::stop(&stage.name, stop))
 }
 
+/// A sum as one expression, or as it is where both parts are short and long under one denominator.
+fn together(stage: &Stage, one: &Expr, other: &Expr) -> Result<Expr, Refused> {
+    let joined = tidied(stage, &(one + other))?;
+    let apart = one + other;
+    Ok(match apart.size() < joined.size() {
+        true => apart,
+        false => joined,
+    })
+}
+
 /// Kinetic energy at the end of a motion, with the work done on the way and what is known of its sign; refused where it
 /// is negative.
 fn balance(
@@ -59,13 +69,7 @@ fn balance(
     parts: &[(&'static str, Expr)],
 ) -> Result<(Expr, Expr, Seen), Refused> {
     let work = tidied(stage, &Expr::sum(parts.iter().map(|(_, w)| w.clone())))?;
-    let joined = tidied(stage, &(start + &work))?;
-    // What it begins with and the work may be short, and long under one denominator.
-    let apart = start + &work;
-    let end = match apart.size() < joined.size() {
-        true => apart,
-        false => joined,
-    };
+    let end = together(stage, start, &work)?;
     let reaches = sign(&end, &stage.scene.domains);
     if let Seen::Proved(Sign::Negative | Sign::NotPositive) = reaches {
         return Err(never_arrives(stage, body, &end));
