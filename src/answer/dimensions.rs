@@ -1,11 +1,14 @@
 //! Dimensions of formulas of parameters and answers.
 
+use num_traits::Signed;
+
 use super::formulas::Work;
 use super::{Known, Refused};
 use crate::dimension::{self, Dimension};
+use crate::expr::number::Int;
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::write_plain;
-use crate::scene::Scene;
+use crate::scene::{Ask, Scene};
 
 fn dimension_of_parameter(scene: &Scene, name: &str) -> Option<Dimension> {
     let found = scene.parameter(name);
@@ -15,20 +18,46 @@ fn dimension_of_parameter(scene: &Scene, name: &str) -> Option<Dimension> {
 /// The dimension of a parameter, or of what a question asks for: a velocity that came out of plain numbers in their units is a
 /// velocity all the same.
 pub(super) fn kind_of(scene: &Scene, name: &str) -> Option<Dimension> {
-    match scene.answering(name).map(|q| scene.dimension_of(&q.ask)) {
-        Some(known) if known != Dimension::none() => Some(known),
+    let Some(question) = scene.answering(name) else {
+        return dimension_of_parameter(scene, name);
+    };
+    if let Ask::Value {
+        formula,
+        with,
+        dimension: None,
+        ..
+    } = &question.ask
+    {
+        let of_others = || by_kind(scene, formula).filter(|_| with.is_empty());
+        return of_others().or_else(|| dimension_of_parameter(scene, name));
+    }
+    match scene.dimension_of(&question.ask) {
+        known if known != Dimension::none() => Some(known),
         _ => dimension_of_parameter(scene, name),
     }
 }
 
-/// Whether a number stands beside the symbols, other than an exponent: it may be a quantity in its unit.
-fn has_number(e: &Expr) -> bool {
+/// The dimension of a formula by what its names stand for; `None` where that is not known, or where a number in it may be a
+/// quantity in its unit.
+fn by_kind(scene: &Scene, e: &Expr) -> Option<Dimension> {
+    let found = dimension::of(e, &|name| kind_of(scene, name));
+    found.ok().flatten().filter(|_| !has_quantity(e))
+}
+
+/// The largest whole number that is taken to count, as the 2 in v²/2g.
+const COUNTS: i64 = 12;
+
+/// Whether a number stands beside the symbols, other than an exponent, that may be a quantity in its unit.
+fn has_quantity(e: &Expr) -> bool {
     match e.node() {
-        Node::Number(_) => true,
+        Node::Number(n) => {
+            let small = |k: &Int| k.abs() <= Int::from(COUNTS);
+            !(small(n.numer()) && small(n.denom()))
+        }
         Node::Symbol(_) => false,
-        Node::Sum(parts) | Node::Product(parts) => parts.iter().any(has_number),
-        Node::Power(base, _) => has_number(base),
-        Node::Call(_, argument) => has_number(argument),
+        Node::Sum(parts) | Node::Product(parts) => parts.iter().any(has_quantity),
+        Node::Power(base, _) => has_quantity(base),
+        Node::Call(_, argument) => has_quantity(argument),
     }
 }
 
@@ -57,17 +86,19 @@ impl Work<'_> {
         stated: &Expr,
         value: &Expr,
     ) -> Result<Dimension, Refused> {
-        let by_name = match self.scene.has_plain_numbers {
-            true => self.stated_dimension(stated)?,
-            false => None,
-        };
-        by_name.map_or_else(|| self.dimension_of(value), Ok)
+        match self.scene.has_plain_numbers {
+            true => Ok(by_kind(self.scene, stated).unwrap_or_else(Dimension::none)),
+            false => self.dimension_of(value),
+        }
     }
 
     /// Dimension of a formula of parameters and earlier answers, as it is stated: what is put in for a parameter may be a plain
     /// number in its unit.
     pub(super) fn stated_dimension(&self, e: &Expr) -> Result<Option<Dimension>, Refused> {
         let (scene, known) = (self.scene, self.known);
+        if scene.has_plain_numbers {
+            return Ok(by_kind(scene, e));
+        }
         let parameter = |name: &str| dimension_of_parameter(scene, name);
         let of_answer = |answer: &Expr| dimension::of(answer, &parameter).ok().flatten();
         let of = |name: &str| match known.get(name) {
@@ -78,19 +109,12 @@ impl Work<'_> {
             true => kind_of(scene, name).or_else(|| of(name)),
             false => of(name),
         };
-        let is_plain = |s: &Symbol| known.get(s).is_some_and(Expr::is_constant);
-        if e.symbols().iter().any(is_plain)
-            && !has_number(e)
-            && let Ok(by_kind) = dimension::of(e, &asked)
-        {
-            return Ok(by_kind);
-        }
         // Of an answer that is 0 nothing can be told: it stands for itself.
         let plain = known.iter().filter(|(_, v)| of_answer(v).is_none());
         let plain: Known = plain.map(|(s, v)| (s.clone(), v.clone())).collect();
-        dimension::of(&e.substitute(&plain), &of).or_else(|clash| match dimension::of(e, &asked) {
-            Err(_) if scene.has_plain_numbers => Ok(None),
-            by_kind => by_kind.map_err(|_| clashes(self.name, clash.message(&write_plain))),
+        dimension::of(&e.substitute(&plain), &of).or_else(|clash| {
+            let by_kind = dimension::of(e, &asked);
+            by_kind.map_err(|_| clashes(self.name, clash.message(&write_plain)))
         })
     }
 

@@ -329,7 +329,7 @@ impl Work<'_> {
         out.dimension = match (dimension, self.stated_dimension(formula)?) {
             (Some(told), _) => told.clone(),
             (None, Some(stated)) => stated,
-            (None, None) if with.is_empty() => self.dimension_of(&value)?,
+            (None, None) if with.is_empty() => self.dimension_of_value(formula, &value)?,
             (None, None) => Dimension::none(),
         };
         out.assumptions.extend(self.divided_by(&value));

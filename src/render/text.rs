@@ -135,7 +135,7 @@ pub fn answers(scene: &Scene, of: Option<&Told>, answers: &[Answer]) -> String {
         let unit = a
             .formula()
             // A unit beside a number in the scene has become part of the formulas, in SI units.
-            .map(|_| match scene.units.is_empty() {
+            .map(|e| match scene.units.is_empty() || e.is_constant() {
                 true => a.unit_of_data(scene),
                 false => a.unit(scene),
             })
@@ -174,6 +174,15 @@ pub(super) fn says(scene: &Scene, alone: Option<&Derivation>, a: &Answer) -> Str
         _ => None,
     };
     let number = number(scene, alone, a).filter(|number| value.as_ref() != Some(number));
+    let constant = a.formula().is_some_and(Expr::is_constant);
+    if let (Some(value), Some(number), true, []) = (&value, &number, constant, &*a.range) {
+        // A number says no more than its value in the unit, and has no other in feet and pounds.
+        let is_it = number.split_once(' ').is_some_and(|(n, _)| n == value);
+        let scale = scene.system().scale(&a.dimension);
+        if is_it || scale != 1.0 {
+            return format!("{name} = {number}");
+        }
+    }
     let number = number.map_or(String::new(), |number| format!(" ≈ {number}"));
     match (&value, a.range.as_slice()) {
         // A largest value, and where it is.

@@ -38,6 +38,7 @@ mod stage;
 mod stage_file;
 mod stages;
 pub mod touch;
+mod touched;
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -87,6 +88,7 @@ pub fn read(text: &str) -> Result<Scene, Faults> {
         };
         questions::order::order(&mut file);
         stages::spread(&mut file);
+        touched::settle(&mut file);
         let lone = stages::lone(&file).or_else(|| questions::with_parts(&file));
         let whole = lone.as_ref().unwrap_or(&file);
         let (mut scene, all) = resolve::resolve(whole, turns, std::mem::take(faults));

@@ -63,11 +63,7 @@ impl<'f> Resolver<'f> {
             }
             (Some(center), _) => self.link(name, |this| this.position(center)),
             (None, ShapeName::Composite) => self.link(name, |this| this.composite(i)),
-            (None, ShapeName::Fixed) => Some(origin()),
-            (None, ShapeName::Particle) => match self.touched(&name.text) {
-                Some(at) => self.link(name, |this| this.position(at)),
-                None => Some(origin()),
-            },
+            (None, ShapeName::Fixed | ShapeName::Particle) => Some(origin()),
             (None, _) => self.without_center(name, body),
         });
         self.body_places[i] = Place::Done(at.clone());
@@ -79,21 +75,6 @@ impl<'f> Resolver<'f> {
         fault
             .hint("the position of its center of mass: a point's name, [x, y] or {\"from\": …}")
             .add_to(&mut self.faults)
-    }
-
-    /// The first place where a hinge, contact or blow touches the body, unless that place is the body itself.
-    fn touched(&self, name: &str) -> Option<&'f PositionFile> {
-        let file = self.file;
-        let hinges = entries(file.hinges.as_ref()).map(|(_, h)| (&h.bodies.items[..], &h.at));
-        let contacts = entries(file.contacts.as_ref());
-        let contacts = contacts.filter_map(|(_, c)| Some((&c.bodies.items[..], c.at.as_ref()?)));
-        let blows = entries(file.blows.as_ref()).map(|(_, b)| (std::slice::from_ref(&b.on), &b.at));
-        let is_itself = |at: &PositionFile| matches!(at, PositionFile::Name(n) if n.text == name && !self.points.contains_key(name));
-        hinges
-            .chain(contacts)
-            .chain(blows)
-            .find(|(bodies, at)| bodies.iter().any(|b| b.text == name) && !is_itself(at))
-            .map(|(_, at)| at)
     }
 
     fn composite(&mut self, i: usize) -> Option<Vector> {
@@ -179,6 +160,19 @@ impl<'f> Resolver<'f> {
                 }
                 Some(at)
             }
+        }
+    }
+
+    /// The body by whose center of mass a position is given, at once or in steps.
+    pub fn named_body<'p>(&self, position: &'p PositionFile) -> Option<(&'p Text, usize)> {
+        match position {
+            PositionFile::Name(name) => {
+                let is_point = self.points.contains_key(name.text.as_str());
+                let body = self.bodies.get(name.text.as_str()).filter(|_| !is_point);
+                Some((name, *body?))
+            }
+            PositionFile::At(_) => None,
+            PositionFile::From(step) => self.named_body(&step.from),
         }
     }
 

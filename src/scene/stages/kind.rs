@@ -335,6 +335,19 @@ fn turn_of(
         return r.refuse(span, message, hint);
     };
     let about = r.position(about_file);
+    if let Some((name, pivot)) = r.named_body(about_file)
+        && !r.is_fixed(pivot)
+        && all
+            .as_ref()
+            .is_some_and(|(b, with)| *b != pivot && !with.contains(&pivot))
+    {
+        let message = format!(
+            "nothing holds `{0}`: it moves when `{1}` turns about it",
+            name.text, turn.body.text
+        );
+        let hint = "a rotation is about a point that stays where it is: a `fixed` body, or a place [x, y]; how two bodies swing that both are free is not worked out";
+        return r.refuse(name.span, message, hint);
+    }
     let about_name = match about_file {
         PositionFile::Name(name) => name.text.clone(),
         // Named when all stages are read.
