@@ -110,7 +110,7 @@ fn waits(scene: &Scene, b: usize, before: &State) -> Option<String> {
     let waits = before.part[b] == Part::Waits && !body.velocity.iter().all(rests);
     waits.then(|| {
         format!(
-            "`{}` has taken no part before and comes in where the scene has it: give its `center` at that time, or a stage in which it moves",
+            "`{}` has taken no part before and comes in where the scene has it: give its `center` at that time, or a stage in which it moves, \"during\" the one before",
             body.name
         )
     })
