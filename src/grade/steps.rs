@@ -37,6 +37,9 @@ pub(in crate::grade) use cause::size_in;
 use desk::Desk;
 use link::{Link, Weighed};
 
+/// What is found of a line, and what is wrong with it.
+type Found = (Status, Vec<Diagnosis>);
+
 /// What is found of one line.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Status {
@@ -80,16 +83,6 @@ pub struct Final {
     pub text: String,
     /// Whether it is the right answer.
     pub verdict: Verdict,
-}
-
-impl Final {
-    fn new(line: usize, text: &str, verdict: Verdict) -> Final {
-        Final {
-            line,
-            text: text.to_string(),
-            verdict,
-        }
-    }
 }
 
 /// A worked solution with what is found of it.
@@ -157,7 +150,7 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
     };
     let plain = text::joined(text);
     let accelerations = letters::accelerations(sheet, &plain);
-    let bound = Desk::new(sheet).bindings(&plain);
+    let bound = Desk::new(sheet, options).bindings(&plain);
     let whatever = accelerations.contains(&None).then(|| Meant {
         bound: bound[0].clone(),
         ..Meant::default()
@@ -173,7 +166,7 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
     if slips(&best) == 0 {
         return best.0;
     }
-    let mut desk = Desk::new(sheet);
+    let mut desk = Desk::new(sheet, options);
     desk.know_bodies(&plain);
     let known = best.1.bound.clone();
     let speeds = desk.speeds().into_iter().map(|speed| Meant {
@@ -270,7 +263,7 @@ fn check_with(
     options: &Options,
     meant: &Meant,
 ) -> (Worked, Vec<Needed>) {
-    let mut desk = Desk::new(sheet);
+    let mut desk = Desk::new(sheet, options);
     desk.closed.extend(meant.value.clone());
     desk.know_accelerations(meant.value.as_ref());
     let of_center = meant
@@ -308,13 +301,14 @@ fn check_with(
                 desk.of_earlier_parts = desk.own.keys().cloned().collect();
                 desk.head(line);
             }
+            desk.number = i + 1;
             // What is aligned may begin with a minus sign.
             let item = text::unlisted(read.trim(), dashes && !line.contains('&'));
             let whole = text::continued(&before, item);
-            let (status, diagnosis) = desk.line(i + 1, &whole, options);
+            let (status, diagnosis) = desk.line(&whole);
             before = whole;
             Line {
-                number: i + 1,
+                number: desk.number,
                 text: line.to_string(),
                 status,
                 diagnosis,
@@ -379,8 +373,8 @@ impl Desk<'_> {
     }
 
     /// A line is as good as its worst equation.
-    fn line(&mut self, number: usize, text: &str, options: &Options) -> (Status, Vec<Diagnosis>) {
-        if let Some(status) = self.in_case(number, text) {
+    fn line(&mut self, text: &str) -> Found {
+        if let Some(status) = self.in_case(text) {
             return (status, Vec::new());
         }
         let mut line = (Status::Comment, Vec::new());
@@ -392,7 +386,7 @@ impl Desk<'_> {
             let sensed = sensed.and_then(|equation| self.with_sense(&equation));
             let turned = sensed.or_else(|| self.with_sense(equation));
             let equation = turned.as_deref().unwrap_or(equation);
-            let (status, diagnosis) = self.equation(number, equation, options);
+            let (status, diagnosis) = self.equation(equation);
             self.note_clear(equation, &status);
             if status.weight() > line.0.weight() {
                 line.0 = status;
@@ -413,13 +407,8 @@ impl Desk<'_> {
         }
     }
 
-    fn equation(
-        &mut self,
-        number: usize,
-        text: &str,
-        options: &Options,
-    ) -> (Status, Vec<Diagnosis>) {
-        if let Some(found) = self.said_before(number, text, options) {
+    fn equation(&mut self, text: &str) -> Found {
+        if let Some(found) = self.said_before(text) {
             return found;
         }
         let reading = match formula::read(text, &self.symbols(text)) {
@@ -448,13 +437,12 @@ impl Desk<'_> {
             }
             Ok(reading) => reading,
             Err(fault) => {
-                if let Some(found) = self.definition(number, text, options) {
+                if let Some(found) = self.definition(text) {
                     return found;
                 }
                 let parts = text::measured_end(text);
                 if let Some(parts) = parts.filter(|parts| self.are_read(parts)) {
-                    let [mut first, second] =
-                        parts.map(|part| self.equation(number, &part, options));
+                    let [mut first, second] = parts.map(|part| self.equation(&part));
                     if second.0.weight() > first.0.weight() {
                         first.0 = second.0;
                     }
@@ -482,10 +470,10 @@ impl Desk<'_> {
                 }
             }
         };
-        if let Some(found) = self.bound(number, text, &reading, options) {
+        if let Some(found) = self.bound(text, &reading) {
             return found;
         }
-        let mut found = self.judged(number, text, &reading, options);
+        let mut found = self.judged(text, &reading);
         if let (Status::Holds, Some((name, _))) = (&found.0, names::named(text))
             && self.bound.remove(&name)
         {
@@ -496,7 +484,7 @@ impl Desk<'_> {
             .iter()
             .all(|d| ![CONDITION, MOMENT].contains(&d.code))
         {
-            self.note_final(number, text, &reading, &BTreeMap::new());
+            self.note_final(text, &reading, &BTreeMap::new());
         }
         found
     }
@@ -522,13 +510,7 @@ impl Desk<'_> {
         Some(format!("{name} = {}", sides?.join(" = ")))
     }
 
-    fn judged(
-        &mut self,
-        number: usize,
-        text: &str,
-        reading: &Reading,
-        options: &Options,
-    ) -> (Status, Vec<Diagnosis>) {
+    fn judged(&mut self, text: &str, reading: &Reading) -> Found {
         let Some(links) = self.links(reading) else {
             return (self.inequality(reading), Vec::new());
         };
@@ -536,7 +518,7 @@ impl Desk<'_> {
             true => Weighed::Slip(0),
             false => self.weigh(text, &links),
         };
-        if let (Weighed::Slip(_), Some(found)) = (&weighed, self.said_anew(number, text, options)) {
+        if let (Weighed::Slip(_), Some(found)) = (&weighed, self.said_anew(text)) {
             return found;
         }
         let fails = matches!(weighed, Weighed::Slip(_) | Weighed::Carried(_));
@@ -555,14 +537,14 @@ impl Desk<'_> {
             let mut sides = links.iter().map(|link| &link.sides[0]);
             let said = sides.next().and_then(|side| side.expr()?.as_symbol());
             if !said.is_some_and(|name| formula::has_arrow(name)) {
-                self.note_final(number, text, reading, &there);
+                self.note_final(text, reading, &there);
             }
             let hint = "say which moment or case is meant";
             let found = Diagnosis::new(MOMENT, format!("this holds {when}"), hint);
             return (Status::Holds, vec![found]);
         }
         if self.forgets(&links, matches!(weighed, Weighed::Slip(_))) {
-            return self.equation(number, text, options);
+            return self.equation(text);
         }
         if let Weighed::Slip(_) = weighed {
             // `v(t) = v − μ g t` tells a motion in time, of which the scene knows the end.
@@ -597,15 +579,15 @@ impl Desk<'_> {
                     Weighed::Carried(_) => Vec::new(),
                     _ => vec![Diagnosis::new("AMBIGUOUS", message, hint)],
                 };
-                return (self.note(number, &other, &links, &again), found);
+                return (self.note(&other, &links, &again), found);
             }
         }
         if let Weighed::Slip(_) = weighed {
-            self.note_coarse(number, text);
+            self.note_coarse(text);
         }
-        let status = self.note(number, reading, &links, &weighed);
+        let status = self.note(reading, &links, &weighed);
         let found = match weighed {
-            Weighed::Slip(at) => self.diagnosis(reading, at, text, options),
+            Weighed::Slip(at) => self.diagnosis(reading, at, text),
             Weighed::Holds if link::in_vectors(&links) => {
                 self.count(&links, &BTreeMap::new());
                 let says = self.says_enough(&links, &self.parts, false);
@@ -634,13 +616,7 @@ impl Desk<'_> {
     }
 
     /// Keeps what later lines may hang on.
-    fn note(
-        &mut self,
-        number: usize,
-        reading: &Reading,
-        links: &[Link],
-        weighed: &Weighed,
-    ) -> Status {
+    fn note(&mut self, reading: &Reading, links: &[Link], weighed: &Weighed) -> Status {
         // A chain also says that its ends are equal: what is read off goes on from there.
         let ends = match (links.first(), links.last()) {
             (Some(a), Some(b)) if links.len() > 1 => self.link(&a.sides[0], &b.sides[1]),
@@ -668,13 +644,14 @@ impl Desk<'_> {
             }
             Weighed::Slip(_) => {
                 // What a wrong vector says of all else is not meant: `H = ml²ω/12` would say that ω = 0.
-                if self.believe_vector(number, links).is_none() {
-                    self.believe(number, &all);
+                if self.believe_vector(self.number, links).is_none() {
+                    self.believe(self.number, &all);
                 }
-                self.state(Some(number), &all);
+                self.state(Some(self.number), &all);
                 // That a product vanishes says too little, and too much follows from it.
                 let own = all.iter().map(|d| self.with_own(d));
                 let own: Vec<_> = own.filter(|d| self.says_a_sum(d)).collect();
+                let number = self.number;
                 self.wrong.extend(own.into_iter().map(|d| (number, d)));
                 // It may be such a name that is wrong, which later lines use as well.
                 for gap in &all {

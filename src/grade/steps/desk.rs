@@ -3,6 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::super::Options;
 use super::super::sheet::Sheet;
 use super::impact::Stand;
 use super::letters::{MARKS, OF_CENTER};
@@ -23,6 +24,9 @@ const MOST_MOMENTS: usize = 48;
 /// What is known while a worked solution is read: the truth, what the student has said, and what wrong lines imply.
 pub(super) struct Desk<'a> {
     pub sheet: &'a Sheet,
+    pub options: &'a Options,
+    /// Number of the line that is read.
+    pub number: usize,
     /// True values by name.
     pub closed: BTreeMap<Symbol, Expr>,
     /// Values at other moments of the scene, and as it goes otherwise, with words that tell when and where.
@@ -106,7 +110,7 @@ pub(super) struct Desk<'a> {
 }
 
 impl<'a> Desk<'a> {
-    pub(super) fn new(sheet: &'a Sheet) -> Desk<'a> {
+    pub(super) fn new(sheet: &'a Sheet, options: &'a Options) -> Desk<'a> {
         let (mut closed, moving) = true_values(sheet);
         // A vector along one axis may be written by its letter alone: `P = m (v_G + v)`.
         let axes = ["x", "y"].map(|axis| move |name: &str| Symbol::from(format!("{name}_{axis}")));
@@ -123,6 +127,8 @@ impl<'a> Desk<'a> {
         }
         let mut desk = Desk {
             sheet,
+            options,
+            number: 0,
             moments: moments(sheet, &closed),
             closed,
             vectors: Vec::new(),

@@ -4,11 +4,11 @@
 
 use std::collections::BTreeMap;
 
-use super::super::{Diagnosis, Grade, Options, Verdict};
+use super::super::{Grade, Verdict};
 use super::letters::ACCELERATIONS;
 use super::link::{Link, Weighed, equal};
 use super::sought::Sought;
-use super::{Desk, Final, Status};
+use super::{Desk, Final, Found, Status};
 use crate::algebra::{self, Sign};
 use crate::answer::Answer;
 use crate::expr::{Expr, Function, Node, Symbol};
@@ -16,14 +16,19 @@ use crate::formula::{self, Content, Reading, Relation};
 use crate::scene::Ask;
 
 impl Desk<'_> {
+    /// Keeps what this line says of a quantity, the last word so far.
+    pub(super) fn give(&mut self, quantity: String, text: &str, verdict: Verdict) {
+        let (line, text) = (self.number, text.to_string());
+        let told = Final {
+            line,
+            text,
+            verdict,
+        };
+        self.finals.insert(quantity, told);
+    }
+
     /// A line about the parameter a question asks for: `d = 4 l/3`, `d <= L/2`.
-    pub(super) fn bound(
-        &mut self,
-        number: usize,
-        text: &str,
-        reading: &Reading,
-        options: &Options,
-    ) -> Option<(Status, Vec<Diagnosis>)> {
+    pub(super) fn bound(&mut self, text: &str, reading: &Reading) -> Option<Found> {
         let Content::Relations(sides, _) = &reading.content else {
             return None;
         };
@@ -53,10 +58,7 @@ impl Desk<'_> {
         if let Some(Content::Relations(told, _)) = told.as_ref().map(|told| &told.content)
             && told.len() == 1
         {
-            return Some((
-                self.note(number, reading, &links, &Weighed::Holds),
-                Vec::new(),
-            ));
+            return Some((self.note(reading, &links, &Weighed::Holds), Vec::new()));
         }
         // `μ ≥ P_t/P_n = …` says what its first link says where the others hold.
         let first = told.or_else(|| self.first_link(reading));
@@ -72,7 +74,7 @@ impl Desk<'_> {
                 .then(|| super::super::show(&reading.content))
         });
         let said = own.as_deref().unwrap_or(text);
-        let mut judged = self.judged_as(&asked, said, options);
+        let mut judged = self.judged_as(&asked, said);
         let place = |is: &dyn Fn(&Grade) -> bool| judged.iter().position(|(_, grade)| is(grade));
         let right = place(&|grade| grade.verdict == Verdict::Equivalent);
         // A bound answers no question for a value.
@@ -83,8 +85,7 @@ impl Desk<'_> {
         if right.is_none()
             && let Some(question) = self.answer_of_a_case(reading, &asked)
         {
-            let last = Final::new(number, text, Verdict::Equivalent);
-            self.finals.insert(question, last);
+            self.give(question, text, Verdict::Equivalent);
             return Some((Status::Holds, Vec::new()));
         }
         let (first, _) = judged.first()?;
@@ -105,14 +106,13 @@ impl Desk<'_> {
                 Some(link) => {
                     let cause = self.cause(text, &link).or_else(|| self.carried_on(&link));
                     let weighed = cause.map_or(Weighed::Slip(0), Weighed::Carried);
-                    self.note(number, reading, &[link], &weighed)
+                    self.note(reading, &[link], &weighed)
                 }
                 None => Status::Wrong,
             },
             Verdict::Invalid | Verdict::Undecided => return None,
         };
-        self.finals
-            .insert(question, Final::new(number, text, verdict));
+        self.give(question, text, verdict);
         let found = Some(grade.diagnosis).filter(|_| grade.verdict == verdict);
         Some((status, found.unwrap_or_default()))
     }
@@ -134,12 +134,12 @@ impl Desk<'_> {
     }
 
     /// How a line is judged as an answer to these questions, in each of the ways the scene can go, until it is right.
-    fn judged_as(&self, asked: &[String], said: &str, options: &Options) -> Vec<(String, Grade)> {
+    fn judged_as(&self, asked: &[String], said: &str) -> Vec<(String, Grade)> {
         let mut judged = Vec::new();
         let ways = std::iter::once(self.sheet).chain(&self.sheet.otherwise);
         for (sheet, question) in ways.flat_map(|sheet| asked.iter().map(move |q| (sheet, q))) {
             if let Ok(entry) = sheet.entry(question) {
-                let grade = sheet.judge(&entry, said, options);
+                let grade = sheet.judge(&entry, said, self.options);
                 let right = grade.verdict == Verdict::Equivalent;
                 judged.push((question.clone(), grade));
                 if right {
@@ -392,13 +392,12 @@ impl Desk<'_> {
     /// moment or case of which it speaks.
     pub(super) fn note_final(
         &mut self,
-        number: usize,
         text: &str,
         reading: &Reading,
         there: &BTreeMap<Symbol, Expr>,
     ) {
         if let Some(angle) = self.for_angle(reading) {
-            return self.note_final(number, text, &angle, there);
+            return self.note_final(text, &angle, there);
         }
         // What is a number in the unit that is asked for is one.
         let fits = |measured: &Reading| {
@@ -449,9 +448,8 @@ impl Desk<'_> {
                 && self.all_zero(&ends.differences, there) == Some(false)
                 && !self.is_rounded(text, &ends, there)
                 && !self.follows_condition(&ends);
-            if wrong {
-                let last = Final::new(number, text, Verdict::Different);
-                self.finals.entry(name.to_string()).or_insert(last);
+            if wrong && !self.finals.contains_key(&**name) {
+                self.give(name.to_string(), text, Verdict::Different);
             }
             return;
         }
@@ -486,7 +484,6 @@ impl Desk<'_> {
             }
             _ => drop(self.said.remove(name)),
         }
-        self.finals
-            .insert(name.to_string(), Final::new(number, text, verdict));
+        self.give(name.to_string(), text, verdict);
     }
 }

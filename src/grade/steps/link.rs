@@ -153,13 +153,13 @@ impl Desk<'_> {
     }
 
     /// Whether what a line says of one value of a parameter is so: `For θ = 0: ω = 3v/(2l)`. Nothing later hangs on it.
-    pub(super) fn in_case(&mut self, number: usize, text: &str) -> Option<Status> {
-        if let Some(status) = self.in_limit(number, text) {
+    pub(super) fn in_case(&mut self, text: &str) -> Option<Status> {
+        if let Some(status) = self.in_limit(text) {
             return Some(status);
         }
         if let Some([said, other]) = beside(text) {
             let mut ways = [[said, other], [other, said]].into_iter();
-            return ways.find_map(|[a, b]| self.in_case(number, &format!("{a} for {b}")));
+            return ways.find_map(|[a, b]| self.in_case(&format!("{a} for {b}")));
         }
         let (given, behind) = supposition(text)?;
         // `2 m` is a number of meters, though m be a mass.

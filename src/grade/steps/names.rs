@@ -7,7 +7,7 @@ use super::cause::size_in;
 use super::inertias::is_other_inertia;
 use super::letters::OF_CENTER;
 use super::link::Weighed;
-use super::{Desk, Diagnosis, Options, Status};
+use super::{Desk, Found, Status};
 use crate::dimension::{self, Dimension};
 use crate::domain::Domains;
 use crate::expr::{Expr, Function, Node, Symbol};
@@ -137,12 +137,7 @@ impl Desk<'_> {
     }
 
     /// A new name for something: `h = l/2 sin(theta)`; of a chain all further links are judged.
-    pub(super) fn definition(
-        &mut self,
-        number: usize,
-        text: &str,
-        options: &Options,
-    ) -> Option<(Status, Vec<Diagnosis>)> {
+    pub(super) fn definition(&mut self, text: &str) -> Option<Found> {
         let known = |c: char| self.is_known(&Symbol::from(c.to_string()));
         let new = |name: &Symbol| !self.is_known(name) && !name.chars().all(known);
         let (name, right) = named(text).filter(|(name, _)| new(name))?;
@@ -155,14 +150,14 @@ impl Desk<'_> {
             Ok(reading) if self.has_normal(right, &reading) => match self.looked_ahead(right) {
                 Some(reading) => reading,
                 None => {
-                    let found = self.definition_by_parts(number, text, options);
+                    let found = self.definition_by_parts(text);
                     return found.or(Some((Status::Defines, Vec::new())));
                 }
             },
             Ok(reading) => reading,
             Err(_) => match self.looked_ahead(right) {
                 Some(reading) => reading,
-                None => return self.definition_by_parts(number, text, options),
+                None => return self.definition_by_parts(text),
             },
         };
         let sides = match &right.content {
@@ -197,7 +192,7 @@ impl Desk<'_> {
             let cause = cause.map(|(cause, ..)| *cause);
             self.own.insert(name.clone(), last);
             self.slipped
-                .push((cause.unwrap_or(number), name, true_value));
+                .push((cause.unwrap_or(self.number), name, true_value));
             return Some(match cause {
                 Some(cause) => (Status::Carried(cause), Vec::new()),
                 None => (Status::Wrong, vec![found]),
@@ -226,7 +221,7 @@ impl Desk<'_> {
                 (Status::Defines, Vec::new())
             }
             Weighed::Slip(at) => {
-                self.slipped.push((number, name, first));
+                self.slipped.push((self.number, name, first));
                 let broken = self.broken(&right, at, text);
                 (Status::Wrong, broken.into_iter().collect())
             }
@@ -240,7 +235,7 @@ impl Desk<'_> {
         name: &str,
         value: [Expr; 3],
         right: &Reading,
-    ) -> Option<(Status, Vec<Diagnosis>)> {
+    ) -> Option<Found> {
         let links = match &right.content {
             Content::Relations(..) => self.links(right)?,
             _ => Vec::new(),
@@ -261,15 +256,10 @@ impl Desk<'_> {
     }
 
     /// A chain such as `I_C = I_G + m d^2 = m l^2/12 + m d^2`, where a side has a new name: the other sides say what it is.
-    fn definition_by_parts(
-        &mut self,
-        number: usize,
-        text: &str,
-        options: &Options,
-    ) -> Option<(Status, Vec<Diagnosis>)> {
+    fn definition_by_parts(&mut self, text: &str) -> Option<Found> {
         let (_, right) = text.split_once('=')?;
         self.new_side(right)?;
-        self.definition(number, text, options)
+        self.definition(text)
     }
 
     /// The one side of a chain that has a new name says what the name stands for by the last of the other sides.
@@ -324,25 +314,15 @@ impl Desk<'_> {
     }
 
     /// The line that defines a name which lines above it used already.
-    pub(super) fn said_before(
-        &mut self,
-        number: usize,
-        text: &str,
-        options: &Options,
-    ) -> Option<(Status, Vec<Diagnosis>)> {
+    pub(super) fn said_before(&mut self, text: &str) -> Option<Found> {
         let (name, _) = named(text)?;
         self.early.remove(&name).then(|| self.own.remove(&name))?;
-        self.definition(number, text, options)
+        self.definition(text)
     }
 
     /// A line that says anew what an own name of an earlier part stands for, where that may be: `W = …` of the next way. The
     /// name is said in so many words more than once then.
-    pub(super) fn said_anew(
-        &mut self,
-        number: usize,
-        text: &str,
-        options: &Options,
-    ) -> Option<(Status, Vec<Diagnosis>)> {
+    pub(super) fn said_anew(&mut self, text: &str) -> Option<Found> {
         if !self.anew {
             return None;
         }
@@ -361,7 +341,7 @@ impl Desk<'_> {
         }
         let before = self.own.remove(&name);
         let found = match named(text) {
-            Some(_) => self.definition(number, text, options),
+            Some(_) => self.definition(text),
             None => self.new_name(text).map(|status| (status, Vec::new())),
         };
         let found = found.filter(|(status, _)| *status == Status::Defines);

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::super::believed::Story;
 use super::link::Link;
 use super::names::named;
-use super::{Desk, Diagnosis, MOMENT, Status};
+use super::{Desk, Diagnosis, Found, MOMENT, Status};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Content;
 use crate::scene::Ask;
@@ -23,7 +23,7 @@ pub(super) fn vanishes() -> Diagnosis {
 
 impl Desk<'_> {
     /// What is found of a line that fails and tells of no certain moment, or of something that is not known.
-    pub(super) fn left_open(&self, links: &[Link]) -> Option<(Status, Vec<Diagnosis>)> {
+    pub(super) fn left_open(&self, links: &[Link]) -> Option<Found> {
         let which = |words: &str| vec![Diagnosis::new(MOMENT, words, "say which moment is meant")];
         if self.is_unclear(links) || self.is_of_a_place(links) {
             return Some((Status::Undecided, Vec::new()));

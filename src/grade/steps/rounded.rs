@@ -94,11 +94,11 @@ impl Desk<'_> {
     }
 
     /// Notes how far the numbers of a wrong line may be off.
-    pub(super) fn note_coarse(&mut self, number: usize, text: &str) {
+    pub(super) fn note_coarse(&mut self, text: &str) {
         let found = coarsest(text, &self.sheet.scene.values());
         let decimal = found.filter(|(_, decimal)| *decimal);
         self.coarse
-            .extend(decimal.map(|(share, _)| (number, share)));
+            .extend(decimal.map(|(share, _)| (self.number, share)));
     }
 
     /// Whether two sides differ by a share of their terms at most: where large ones cancel, what is left is off by more.

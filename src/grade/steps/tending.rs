@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::super::Verdict;
 use super::cause::MOST_STEPS;
 use super::link::Link;
-use super::{Desk, Final, Status, text};
+use super::{Desk, Status, text};
 use crate::answer::limit;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol, effort};
@@ -74,7 +74,7 @@ fn first(text: &str) -> &str {
 
 impl Desk<'_> {
     /// Whether what a line says of a limit is so, where it does not hold as it stands; words where that cannot be told.
-    pub(super) fn in_limit(&mut self, number: usize, line: &str) -> Option<Status> {
+    pub(super) fn in_limit(&mut self, line: &str) -> Option<Status> {
         let signs = in_signs(line);
         if !tends(&signs) && !tends(line) {
             return None;
@@ -121,12 +121,12 @@ impl Desk<'_> {
                 },
             })
         });
-        self.note_limit(number, line, &goes, &links);
+        self.note_limit(line, &goes, &links);
         status
     }
 
     /// Keeps `M ≫ m: H = 9h` as an answer where this limit is asked for.
-    fn note_limit(&mut self, number: usize, line: &str, goes: &[Goes], links: &[Link]) {
+    fn note_limit(&mut self, line: &str, goes: &[Goes], links: &[Link]) {
         let ([first, ..], [.., last]) = (links, links) else {
             return;
         };
@@ -152,8 +152,7 @@ impl Desk<'_> {
                 Some(false) => Verdict::Different,
                 None => Verdict::Undecided,
             };
-            self.finals
-                .insert(asked.name.clone(), Final::new(number, line, verdict));
+            self.give(asked.name.clone(), line, verdict);
         }
     }
 

@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::super::Diagnosis;
 use super::super::behind::{Named, behind, keeps_energy};
 use super::super::belief::BELIEFS;
 use super::super::relation::solve_for;
-use super::super::{Diagnosis, Options};
 use super::bind::angular_momenta;
 use super::cause::{MOST_STEPS, size_in};
 use super::inertias::is_other_inertia;
@@ -102,32 +102,20 @@ impl Desk<'_> {
     }
 
     /// For a line that states a quantity of the scene: the belief behind it. `at` tells the first wrong link of a chain.
-    pub(super) fn diagnosis(
-        &self,
-        reading: &Reading,
-        at: usize,
-        text: &str,
-        options: &Options,
-    ) -> Vec<Diagnosis> {
+    pub(super) fn diagnosis(&self, reading: &Reading, at: usize, text: &str) -> Vec<Diagnosis> {
         let chain = matches!(&reading.content, Content::Relations(sides, _) if sides.len() > 2);
         let broken = chain.then(|| self.broken(reading, at, text)).flatten();
         let mut found: Vec<Diagnosis> = broken.into_iter().collect();
         // What is found by the terms of a line in vectors is in names of components that nobody wrote.
         if !self.links(reading).is_some_and(|links| in_vectors(&links)) {
             found.extend(effort::within(MOST_STEPS, || {
-                self.behind_line(reading, at, text, options)
+                self.behind_line(reading, at, text)
             }));
         }
         found
     }
 
-    fn behind_line(
-        &self,
-        reading: &Reading,
-        at: usize,
-        text: &str,
-        options: &Options,
-    ) -> Vec<Diagnosis> {
+    fn behind_line(&self, reading: &Reading, at: usize, text: &str) -> Vec<Diagnosis> {
         let Content::Relations(sides, _) = &reading.content else {
             return Vec::new();
         };
@@ -156,7 +144,7 @@ impl Desk<'_> {
                 return vec![turned];
             }
             let text = own.map_or(text.to_string(), |(_, own)| formula::write_plain(&own));
-            let mut found = self.sheet.judge(&entry, &text, options).diagnosis;
+            let mut found = self.sheet.judge(&entry, &text, self.options).diagnosis;
             let belief =
                 |d: &Diagnosis| d.code == "TWO_BELIEFS" || BELIEFS.iter().any(|b| b.code == d.code);
             // Behind a side that is right a slip of algebra follows, and no belief; what a belief explains needs no other words.
