@@ -63,6 +63,15 @@ impl Equality {
         matches!(self, Equality::Same { .. })
     }
 
+    /// Whether they are equal, and be it on a part of the domain; `None` where that is open.
+    pub fn holds(&self) -> Option<bool> {
+        match self {
+            Equality::Same { .. } => Some(true),
+            Equality::Different(_) | Equality::Invalid { .. } => Some(false),
+            Equality::Undecided { .. } => None,
+        }
+    }
+
     /// Whether they are proved equal on the whole domain, with no sign that was only seen.
     pub fn is_identity(&self) -> bool {
         let Equality::Same { how } = self else {

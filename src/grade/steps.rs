@@ -35,7 +35,7 @@ use crate::scene::Question;
 use bind::Values;
 pub(in crate::grade) use cause::size_in;
 use desk::Desk;
-use link::{Link, Weighed};
+use link::{Link, Weighed, gaps};
 
 /// What is found of a line, and what is wrong with it.
 type Found = (Status, Vec<Diagnosis>);
@@ -484,7 +484,7 @@ impl Desk<'_> {
             .iter()
             .all(|d| ![CONDITION, MOMENT].contains(&d.code))
         {
-            self.note_final(text, &reading, &BTreeMap::new());
+            self.note_final(text, &reading, &Values::new());
         }
         found
     }
@@ -523,7 +523,7 @@ impl Desk<'_> {
         }
         let fails = matches!(weighed, Weighed::Slip(_) | Weighed::Carried(_));
         if fails && self.is_condition(&links, &weighed) {
-            let all: Vec<Expr> = links.iter().flat_map(|l| l.differences.clone()).collect();
+            let all = gaps(&links);
             self.state(None, &all);
             let words = "a condition the scene asks about, not a fact";
             let found = Diagnosis::new(CONDITION, words, words);

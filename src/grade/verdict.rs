@@ -75,6 +75,16 @@ impl Verdict {
     }
 }
 
+impl From<Option<bool>> for Verdict {
+    fn from(is_same: Option<bool>) -> Verdict {
+        match is_same {
+            Some(true) => Verdict::Equivalent,
+            Some(false) => Verdict::Different,
+            None => Verdict::Undecided,
+        }
+    }
+}
+
 /// How a verdict is known.
 #[derive(Clone, PartialEq, Debug, serde::Serialize)]
 pub struct Proof {

@@ -9,7 +9,7 @@ use super::super::believed::Story;
 use super::super::sheet::Sheet;
 use super::Desk;
 use super::letters::{MARKS, readings};
-use super::link::Link;
+use super::link::{Link, names_in};
 use crate::derive::{Moment, Names};
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol, cross, minus};
@@ -278,8 +278,7 @@ impl Desk<'_> {
     /// Whether a name of a velocity by its body is the solution's own from here on: `v_A = …` may be of any moment of a motion, until
     /// a line holds with it just after an impact.
     pub(super) fn forgets(&mut self, links: &[Link], fails: bool) -> bool {
-        let sides = links.iter().flat_map(|link| &link.sides);
-        let used: BTreeSet<Symbol> = sides.flat_map(Content::symbols).collect();
+        let used = names_in(links);
         if !fails {
             self.by_body.retain(|name| !used.contains(name));
             return false;
@@ -310,7 +309,7 @@ impl Desk<'_> {
                 _ => None,
             });
         let sides: Vec<[&Expr; 2]> = sides.collect();
-        let given = |name: &Symbol| self.sheet.scene.parameter(name).is_some();
+        let given = |name: &Symbol| self.is_given(name);
         let said = sides.iter().filter_map(|[name, value]| {
             let name = name.as_symbol().filter(|name| !given(name))?;
             Some((name.clone(), (*value).clone()))
@@ -336,7 +335,7 @@ impl Desk<'_> {
 
     /// Whether names are velocities before an impact by what is said of one of them, and by the balance in which they stand.
     fn comes_in(&self, way: &Values, side: &Expr, other: &Expr, said: &Values) -> bool {
-        let zero = |e: Expr| self.all_zero(&[e], &Values::new()) == Some(true);
+        let zero = |e: Expr| self.is_zero(&e);
         let told = way.iter().any(|(name, before)| {
             let value = said.get(name).map(|e| e.substitute(said).substitute(said));
             value.is_some_and(|value| zero(value - before))
@@ -359,10 +358,7 @@ impl Desk<'_> {
         let (mut free, mut way): (Vec<usize>, _) = (around.moving().collect(), Values::new());
         for name in names {
             let factor = side.derivative(name);
-            let has = |b: &usize| {
-                let more = &factor - &around.scene.bodies[*b].mass;
-                self.all_zero(&[more], &Values::new()) == Some(true)
-            };
+            let has = |b: &usize| self.is_zero(&(&factor - &around.scene.bodies[*b].mass));
             let body = free.remove(free.iter().position(has)?);
             way.insert(name.clone(), around.before[body][axis].clone());
         }
@@ -371,7 +367,7 @@ impl Desk<'_> {
 
     /// Whether a line that holds gives a name in what is given.
     pub(super) fn is_stated(&self, name: &Symbol) -> bool {
-        let given = |other: &Symbol| other == name || self.sheet.scene.parameter(other).is_some();
+        let given = |other: &Symbol| other == name || self.is_given(other);
         let mut held = self.stated.iter().filter(|(cause, _)| cause.is_none());
         held.any(|(_, gap)| gap.mentions(name) && gap.symbols().iter().all(given))
     }
@@ -432,7 +428,7 @@ impl Desk<'_> {
     /// as a ball that is thrown back has a speed.
     fn after_given(&self, all: &[Around], name: &Symbol) -> Vec<Expr> {
         let given = name.strip_suffix('\'').map(Symbol::from);
-        let Some(given) = given.filter(|given| self.sheet.scene.parameter(given).is_some()) else {
+        let Some(given) = given.filter(|given| self.is_given(given)) else {
             return Vec::new();
         };
         let given = Expr::symbol(&given);
@@ -462,8 +458,7 @@ impl Desk<'_> {
         if names.is_empty() || names.len() > MOST_VELOCITIES {
             return Vec::new();
         }
-        let none = Values::new();
-        let zero = |e: Expr| self.all_zero(&[e], &none) == Some(true);
+        let zero = |e: Expr| self.is_zero(&e);
         let factors: Vec<Expr> = names.iter().map(|name| gap.derivative(name)).collect();
         if factors.iter().any(|k| names.iter().any(|n| k.mentions(n))) {
             return Vec::new();

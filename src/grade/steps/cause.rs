@@ -1,11 +1,12 @@
 //! From which wrong line a later one follows: what each wrong line implies is kept, and tried.
 
 use std::cell::RefCell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use rustc_hash::FxHashMap;
 
 use super::super::relation::{follows, solve_for};
+use super::bind::Values;
 use super::link::Link;
 use super::names::angle_in;
 use super::{Desk, MOST_CAUSES, MOST_STATED};
@@ -36,24 +37,18 @@ impl Desk<'_> {
             let meant: Vec<Expr> = differences.iter().map(|d| d.put(name, value)).collect();
             (cause, meant)
         });
-        let none = BTreeMap::new();
-        for (cause, meant) in slipped.filter(|(_, meant)| meant != differences) {
-            if self.all_zero(&meant, &none) == Some(true) {
-                return Some(*cause);
-            }
+        let mut slipped = slipped.filter(|(_, meant)| meant != differences);
+        if let Some((cause, _)) = slipped.find(|(_, meant)| self.vanish(meant, &Values::new())) {
+            return Some(*cause);
         }
         // The latest first.
         let mut implied = self.believed.iter().rev();
         let found = implied.find(|(cause, values)| {
-            self.all_zero(differences, values) == Some(true)
-                || self.is_rounded_after(text, link, (*cause, values))
+            self.vanish(differences, values) || self.is_rounded_after(text, link, *cause, values)
         });
         let found = found.map(|(cause, _)| *cause);
         found.or_else(|| {
-            let [one] = differences.as_slice() else {
-                return None;
-            };
-            let one = self.with_own(one);
+            let one = self.with_own(link.gap()?);
             if let Some(cause) = effort::within(MOST_STEPS, || self.supposed_with(&one)) {
                 return Some(cause);
             }
@@ -195,7 +190,7 @@ impl Desk<'_> {
             let mut found = found.iter();
             found.find_map(|n| {
                 // That a given quantity is nothing, says a law that contradicts the lines before it.
-                let given = self.sheet.scene.parameter(n).is_some();
+                let given = self.is_given(n);
                 let root = way(line, n, domains).filter(|root| !given || !root.is_zero())?;
                 Some(((*n).clone(), root))
             })
@@ -284,7 +279,7 @@ impl Desk<'_> {
         let Some(truth) = self.parts.get(&other).filter(|_| base == "H") else {
             return;
         };
-        if self.all_zero(&[gap], &BTreeMap::new()) != Some(true) {
+        if !self.is_zero(&gap) {
             return;
         }
         let of = |name: &Symbol| {
@@ -306,12 +301,7 @@ impl Desk<'_> {
 
     /// In a motion with one freedom all velocities are what they are, times the same wrong number; and what comes in later
     /// stages is what it would be had the bodies come in faster by that number.
-    pub(super) fn carry_along(
-        &self,
-        name: &Symbol,
-        root: &Expr,
-        values: &mut BTreeMap<Symbol, Expr>,
-    ) {
+    pub(super) fn carry_along(&self, name: &Symbol, root: &Expr, values: &mut Values) {
         let Some(truth) = self.closed.get(name).filter(|t| !t.is_zero()) else {
             return;
         };
@@ -352,7 +342,7 @@ impl Desk<'_> {
             let twice = &Expr::symbol(&p.name) * &Expr::from(2);
             moving.iter().all(|part| {
                 let doubled = &part.put(&p.name, &twice) - &(*part * &Expr::from(2));
-                self.all_zero(&[doubled], &BTreeMap::new()) == Some(true)
+                self.is_zero(&doubled)
             })
         });
         found.filter(|_| !moving.is_empty()).map(|p| p.name.clone())
@@ -371,9 +361,7 @@ impl Desk<'_> {
     /// The laws that hold in truth: those of the impact, and of the motions of a story; and what is supposed of a parameter that
     /// a line speaks of.
     fn unwritten(&self, line: &Expr) -> Vec<Expr> {
-        let none = BTreeMap::new();
-        let is_true = |law: &Expr| self.all_zero(std::slice::from_ref(law), &none) == Some(true);
-        let motions = self.sheet.laws.iter().filter(|law| is_true(law));
+        let motions = self.sheet.laws.iter().filter(|law| self.is_zero(law));
         let mut all = self.of_impact();
         all.extend_from_slice(&self.linked);
         all.extend(motions.take(MOST_LAWS).cloned());

@@ -5,14 +5,16 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::Options;
 use super::super::sheet::Sheet;
+use super::bind::Values;
 use super::impact::Stand;
 use super::letters::{MARKS, OF_CENTER};
+use super::link::Link;
 use super::sought::{self, Sought};
 use super::vectors::{in_products, is_marked, marked_after};
-use super::{Final, Needed, text};
+use super::{Final, Needed, Status, text};
 use crate::answer::Form;
 use crate::derive::{Moment, Names};
-use crate::equality::{self, Equality};
+use crate::equality;
 use crate::expr::{Expr, Function, Node, Rational, Symbol};
 use crate::formula::{self, Content, Reading, Symbols};
 use crate::laws::Unknown;
@@ -28,22 +30,22 @@ pub(super) struct Desk<'a> {
     /// Number of the line that is read.
     pub number: usize,
     /// True values by name.
-    pub closed: BTreeMap<Symbol, Expr>,
+    pub closed: Values,
     /// Values at other moments of the scene, and as it goes otherwise, with words that tell when and where.
     pub moments: Vec<Moment>,
     /// The vectors with arrows that the solution names: at other moments, and of other systems of bodies.
     pub vectors: Vec<Stand>,
     /// Velocities, spins and the vectors that the solution names at the end of each motion, by name of its stage.
-    pub ends: Vec<(String, BTreeMap<Symbol, Expr>)>,
+    pub ends: Vec<(String, Values)>,
     /// The motion whose stage the last heading names.
     pub under: Option<String>,
     /// Their components in whatever motion, first of all that moves, then of each body alone.
-    pub whatever: Vec<BTreeMap<Symbol, Expr>>,
+    pub whatever: Vec<Values>,
     /// Of which body a vector that two share is at first, and on this page.
     pub first_of: BTreeMap<String, usize>,
     pub counted: BTreeMap<String, usize>,
     /// What wrong lines imply: for each the value of one name, under all that came before.
-    pub believed: Vec<(usize, BTreeMap<Symbol, Expr>)>,
+    pub believed: Vec<(usize, Values)>,
     /// How far the numbers of wrong lines may be off, as shares.
     pub coarse: BTreeMap<usize, Rational>,
     /// The wrong lines themselves, left minus right, with the student's own names put in.
@@ -76,7 +78,7 @@ pub(super) struct Desk<'a> {
     /// An angular acceleration that is asked for by the letter with which the solution means that of a center.
     pub turning: Option<&'a str>,
     /// Names the student introduced.
-    pub own: BTreeMap<Symbol, Expr>,
+    pub own: Values,
     /// Names that were defined with a slip, or may have been: the line that shows it, the name, and its value without the slip.
     pub slipped: Vec<(usize, Symbol, Expr)>,
     /// All definitions in the solution, as text.
@@ -96,7 +98,7 @@ pub(super) struct Desk<'a> {
     /// Spins as vectors: the name with an arrow, the spin, and whether it counts clockwise.
     pub spins: BTreeMap<Symbol, (Symbol, bool)>,
     /// Components of spins and places as vectors, `omega_vec_z` and `r_vec_B/C_x`.
-    pub parts: BTreeMap<Symbol, Expr>,
+    pub parts: Values,
     /// What names along the normal are in terms of components, as expressions that are zero.
     pub linked: Vec<Expr>,
     /// Parameters whose values the scene asks for.
@@ -106,7 +108,7 @@ pub(super) struct Desk<'a> {
     /// What is said last of each quantity.
     pub finals: BTreeMap<String, Final>,
     /// The wrong values that were given last, by what they are of.
-    pub said: BTreeMap<Symbol, Expr>,
+    pub said: Values,
 }
 
 impl<'a> Desk<'a> {
@@ -392,24 +394,61 @@ impl<'a> Desk<'a> {
     }
 
     /// Whether all differences vanish with the names' values put in; those of `instead` go first.
-    pub(super) fn all_zero(
-        &self,
-        differences: &[Expr],
-        instead: &BTreeMap<Symbol, Expr>,
-    ) -> Option<bool> {
-        let mut sure = Some(true);
-        for d in differences {
+    pub(super) fn all_zero(&self, differences: &[Expr], instead: &Values) -> Option<bool> {
+        all_of(differences.iter().map(|d| {
             let value = self.put_in(d, instead);
-            match equality::decide(&value, &Expr::zero(), &self.sheet.scene.domains).equality {
-                Equality::Same { .. } => {}
-                Equality::Different(_) | Equality::Invalid { .. } => return Some(false),
-                Equality::Undecided { .. } => sure = None,
-            }
-        }
-        sure
+            let domains = &self.sheet.scene.domains;
+            equality::decide(&value, &Expr::zero(), domains)
+                .equality
+                .holds()
+        }))
     }
 
-    pub(super) fn put_in(&self, e: &Expr, instead: &BTreeMap<Symbol, Expr>) -> Expr {
+    /// Whether they do so for certain.
+    pub(super) fn vanish(&self, differences: &[Expr], instead: &Values) -> bool {
+        self.all_zero(differences, instead) == Some(true)
+    }
+
+    /// Whether an expression vanishes as the scene goes.
+    pub(super) fn is_zero(&self, e: &Expr) -> bool {
+        self.vanish(std::slice::from_ref(e), &Values::new())
+    }
+
+    /// Whether an equality holds as the scene goes.
+    pub(super) fn holds(&self, link: &Link) -> bool {
+        self.vanish(&link.differences, &Values::new())
+    }
+
+    /// What an expression is as the scene goes, in given quantities.
+    pub(super) fn truth(&self, e: &Expr) -> Expr {
+        self.put_in(e, &Values::new())
+    }
+
+    /// Whether a name is that of a given quantity.
+    pub(super) fn is_given(&self, name: &Symbol) -> bool {
+        self.sheet.scene.parameter(name).is_some()
+    }
+
+    /// The latest wrong line of those that imply something.
+    pub(super) fn implied(&self, is_so: impl Fn(&Values) -> bool) -> Option<usize> {
+        let mut believed = self.believed.iter().rev();
+        let found = believed.find(|(_, values)| is_so(values));
+        found.map(|(cause, _)| *cause)
+    }
+
+    /// What is found of a line that is or is not so with values in place of the true ones: it may be so by what a wrong line
+    /// implies.
+    pub(super) fn found(&self, is_so: impl Fn(&Values) -> Option<bool>, open: Status) -> Status {
+        match is_so(&Values::new()) {
+            Some(true) => Status::Holds,
+            None => open,
+            Some(false) => self
+                .implied(|values| is_so(values) == Some(true))
+                .map_or(Status::Wrong, Status::Carried),
+        }
+    }
+
+    pub(super) fn put_in(&self, e: &Expr, instead: &Values) -> Expr {
         // A vector of another moment goes before the one that is known first.
         let vectors = instead
             .iter()
@@ -424,8 +463,21 @@ impl<'a> Desk<'a> {
     }
 }
 
+/// Whether all of something is so: it is not where one is known not to be.
+pub(super) fn all_of(each: impl IntoIterator<Item = Option<bool>>) -> Option<bool> {
+    let mut sure = Some(true);
+    for one in each {
+        match one {
+            Some(true) => {}
+            Some(false) => return Some(false),
+            None => sure = None,
+        }
+    }
+    sure
+}
+
 /// The true values of a scene by name, and which names are of velocities and spins that go in step where there is one freedom.
-fn true_values(sheet: &Sheet) -> (BTreeMap<Symbol, Expr>, BTreeSet<Symbol>) {
+fn true_values(sheet: &Sheet) -> (Values, BTreeSet<Symbol>) {
     let mut closed = BTreeMap::new();
     let mut moving = BTreeSet::new();
     let d = &sheet.derivation;
@@ -454,8 +506,8 @@ fn true_values(sheet: &Sheet) -> (BTreeMap<Symbol, Expr>, BTreeSet<Symbol>) {
 }
 
 /// Values at other moments than those of the true values, and in other ways the scene can go.
-fn moments(sheet: &Sheet, closed: &BTreeMap<Symbol, Expr>) -> Vec<Moment> {
-    let differs = |values: &BTreeMap<Symbol, Expr>| {
+fn moments(sheet: &Sheet, closed: &Values) -> Vec<Moment> {
+    let differs = |values: &Values| {
         let same = |(name, value): (&Symbol, &Expr)| closed.get(name) == Some(value);
         !values.iter().all(same)
     };
@@ -473,7 +525,7 @@ fn moments(sheet: &Sheet, closed: &BTreeMap<Symbol, Expr>) -> Vec<Moment> {
     // What is asked with a parameter's value is told there: `with e = 1 the energy lost is 0`.
     let asked = sheet.scene.questions.iter().map(|q| q.ask.with());
     let asked = asked.filter(|with| !with.is_empty()).map(|with| {
-        let there: BTreeMap<Symbol, Expr> = with.iter().cloned().collect();
+        let there: Values = with.iter().cloned().collect();
         let mut all: BTreeMap<_, _> = (closed.iter())
             .map(|(name, value)| (name.clone(), value.substitute(&there)))
             .collect();
@@ -492,7 +544,7 @@ fn moments(sheet: &Sheet, closed: &BTreeMap<Symbol, Expr>) -> Vec<Moment> {
 }
 
 /// Velocities and spins at the end of each motion, by the names that derivations give them.
-fn ends(sheet: &Sheet) -> Vec<(String, BTreeMap<Symbol, Expr>)> {
+fn ends(sheet: &Sheet) -> Vec<(String, Values)> {
     let each = sheet.ends.iter().map(|(stage, scene)| {
         let names = Names::of(scene);
         let bodies = scene.bodies.iter().enumerate();
@@ -525,7 +577,7 @@ fn spins(scene: &Scene) -> BTreeMap<Symbol, (Symbol, bool)> {
 }
 
 /// Components of spins that are asked for, out of the page, and of places relative to one another.
-fn parts(scene: &Scene) -> BTreeMap<Symbol, Expr> {
+fn parts(scene: &Scene) -> Values {
     let out_of_page = |(spin, clockwise): (Symbol, bool)| {
         let along = Expr::symbol(&spin);
         [

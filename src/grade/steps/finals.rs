@@ -2,9 +2,8 @@
 //!
 //! In: a line that was read. Out: whether it holds, and the final answer that is kept of it, right or wrong.
 
-use std::collections::BTreeMap;
-
 use super::super::{Grade, Verdict};
+use super::bind::Values;
 use super::letters::ACCELERATIONS;
 use super::link::{Link, Weighed, equal};
 use super::sought::Sought;
@@ -127,7 +126,7 @@ impl Desk<'_> {
         };
         let is_end = |value: &Expr| {
             let off = end.expr().map(|end| end - value);
-            off.is_some_and(|off| self.all_zero(&[off], &BTreeMap::new()) == Some(true))
+            off.is_some_and(|off| self.is_zero(&off))
         };
         let mut granted = self.sheet.granted(name).into_iter();
         granted.any(|(sign, value)| signs[0] == sign && is_end(&value))
@@ -161,7 +160,7 @@ impl Desk<'_> {
         };
         let is_end = |value: &Expr| {
             let end = end.expr().map(|end| end - value);
-            end.is_some_and(|off| self.all_zero(&[off], &BTreeMap::new()) == Some(true))
+            end.is_some_and(|off| self.is_zero(&off))
         };
         let says = |answer: &&Answer| {
             let mut range = answer.range.iter();
@@ -204,7 +203,7 @@ impl Desk<'_> {
         let mut bounds = self.sheet.bounds();
         let bound = bounds.find(|b| b.name == question && b.relation == *sign);
         let link = bound.and_then(|b| self.link(&Content::Scalar(b.value), end));
-        link.is_some_and(|link| self.is_rounded(text, &link, &BTreeMap::new()))
+        link.is_some_and(|link| self.is_rounded(text, &link, &Values::new()))
     }
 
     /// A chain about a parameter without the sides that are the parameter whatever its value, such as `(m+M)/m u` in
@@ -217,7 +216,7 @@ impl Desk<'_> {
         let answered = self.closed.contains_key(name.expr()?.as_symbol()?);
         let says = |side: &&Content| {
             let link = self.link(name, side);
-            link.is_none_or(|link| self.all_zero(&link.differences, &BTreeMap::new()) != Some(true))
+            link.is_none_or(|link| !self.holds(&link))
         };
         let told: Vec<Content> = values.iter().filter(says).cloned().collect();
         if answered || told.len() == values.len() || !signs.iter().all(|s| equal(*s)) {
@@ -237,14 +236,15 @@ impl Desk<'_> {
             return None;
         };
         let goes_on = !equal(*sign) && !others.is_empty() && others.iter().all(|s| equal(*s));
-        let none = BTreeMap::new();
         let links = rest.iter().map(|side| self.link(first, side));
         let links: Vec<Link> = links.collect::<Option<_>>().filter(|_| goes_on)?;
-        let hold = |link: &Link| self.all_zero(&link.differences, &none) == Some(true);
-        let value = self.put_in(first.expr()?, &none);
+        let value = self.truth(first.expr()?);
         let sides = vec![name.clone(), Content::Scalar(value)];
         let content = Content::Relations(sides, vec![*sign]);
-        links.iter().all(hold).then(|| reading.with(content))
+        links
+            .iter()
+            .all(|link| self.holds(link))
+            .then(|| reading.with(content))
     }
 
     /// A chain without its last side, where that rounds the one before it: `v = √(8gl/3) ≈ 1.63 √(gl)`.
@@ -260,7 +260,7 @@ impl Desk<'_> {
         let link = self
             .link(before.last()?, last)
             .filter(|_| before.len() > 1)?;
-        let rounds = self.is_rounded(text, &link, &BTreeMap::new());
+        let rounds = self.is_rounded(text, &link, &Values::new());
         let content = Content::Relations(before.to_vec(), others.to_vec());
         rounds.then(|| reading.with(content))
     }
@@ -277,7 +277,6 @@ impl Desk<'_> {
             return Status::Undecided;
         };
         let domains = &self.sheet.scene.domains;
-        let none = BTreeMap::new();
         let mut status = Status::Holds;
         for (pair, sign) in sides.windows(2).zip(signs) {
             let (Some(a), Some(b)) = (pair[0].expr(), pair[1].expr()) else {
@@ -288,7 +287,7 @@ impl Desk<'_> {
             if supposed.any(|c| *c == plain || *c == -&plain) {
                 continue;
             }
-            let difference = self.put_in(&plain, &none);
+            let difference = self.truth(&plain);
             let proved = algebra::sign(&difference, domains);
             let zero = proved == Some(Sign::Zero);
             let holds = match (sign, proved) {
@@ -324,7 +323,7 @@ impl Desk<'_> {
         }
         let truth = self.closed.get(name)?;
         let open = answer.symbols().iter().any(wrong);
-        let off = self.all_zero(&[answer - truth], &BTreeMap::new());
+        let off = self.all_zero(&[answer - truth], &Values::new());
         off.filter(|_| !open)
     }
 
@@ -336,7 +335,7 @@ impl Desk<'_> {
             let theirs = matches!(q.ask, Ask::Velocity { .. }).then(|| self.components(&q.name));
             theirs.flatten().is_some_and(|theirs| {
                 let gaps: Vec<Expr> = mine.iter().zip(&theirs).map(|(a, b)| a - b).collect();
-                self.all_zero(&gaps, &BTreeMap::new()) == Some(true)
+                self.vanish(&gaps, &Values::new())
             })
         });
         asked.map(|q| Symbol::from(q.name.as_str()))
@@ -382,7 +381,7 @@ impl Desk<'_> {
             .iter()
             .any(|a| *a.name == **name);
         let again = Expr::call(inverse, sides[0].expr()?.clone()) - angle;
-        let unique = asked && self.all_zero(&[again], &BTreeMap::new()) == Some(true);
+        let unique = asked && self.is_zero(&again);
         let solved = [angle.clone(), Expr::call(inverse, value.clone())].map(Content::Scalar);
         let sign = signs.last().copied()?;
         unique.then(|| reading.with(Content::Relations(solved.into(), vec![sign])))
@@ -390,12 +389,7 @@ impl Desk<'_> {
 
     /// Keeps what a line says of a quantity that is asked for, where it ends in what is given; `there` are the values of another
     /// moment or case of which it speaks.
-    pub(super) fn note_final(
-        &mut self,
-        text: &str,
-        reading: &Reading,
-        there: &BTreeMap<Symbol, Expr>,
-    ) {
+    pub(super) fn note_final(&mut self, text: &str, reading: &Reading, there: &Values) {
         if let Some(angle) = self.for_angle(reading) {
             return self.note_final(text, &angle, there);
         }

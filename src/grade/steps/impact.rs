@@ -6,6 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::bind::Values;
 use crate::derive::Names;
 use crate::expr::{Expr, Symbol, Vector, cross, minus};
 use crate::formula;
@@ -49,7 +50,7 @@ pub(super) struct Stand {
     /// Words for the moment and the system.
     pub when: String,
     /// Components by name.
-    pub values: BTreeMap<Symbol, Expr>,
+    pub values: Values,
     /// Of impulses and points that two bodies share: on which of them, by letter and index.
     pub of: BTreeMap<String, usize>,
     /// What is the same before and after.
@@ -396,7 +397,7 @@ impl<'a> Impact<'a> {
     }
 
     /// The vectors of each system in whatever motion, first of all that moves.
-    pub fn of_whatever_motion(&self, names: &[(Symbol, Symbol)]) -> Vec<BTreeMap<Symbol, Expr>> {
+    pub fn of_whatever_motion(&self, names: &[(Symbol, Symbol)]) -> Vec<Values> {
         let systems = self.systems().into_iter();
         systems
             .map(|system| self.of_system(system, names, When::Whatever))
@@ -404,16 +405,11 @@ impl<'a> Impact<'a> {
     }
 
     /// The vectors of all that moves at the end of a motion, which the scene is of.
-    pub fn of_a_motion(&self, names: &[(Symbol, Symbol)]) -> BTreeMap<Symbol, Expr> {
+    pub fn of_a_motion(&self, names: &[(Symbol, Symbol)]) -> Values {
         self.of_system(self.moving(), names, When::Moving)
     }
 
-    fn of_system(
-        &self,
-        system: Vec<usize>,
-        names: &[(Symbol, Symbol)],
-        when: When,
-    ) -> BTreeMap<Symbol, Expr> {
+    fn of_system(&self, system: Vec<usize>, names: &[(Symbol, Symbol)], when: When) -> Values {
         let meant = Meant {
             system,
             on: None,
@@ -432,7 +428,7 @@ impl<'a> Impact<'a> {
     }
 
     /// The components of all that have a value.
-    fn components(&self, names: &[(Symbol, Symbol)], meant: &Meant) -> BTreeMap<Symbol, Expr> {
+    fn components(&self, names: &[(Symbol, Symbol)], meant: &Meant) -> Values {
         let known = names.iter().filter_map(|(name, key)| {
             let vector = self.vector(name, meant)?;
             let along = |axis: &str| Symbol::from(format!("{key}_{axis}"));

@@ -4,14 +4,16 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::Diagnosis;
 use super::super::relation::solve_for;
+use super::bind::Values;
 use super::cause::{MOST_STEPS, size_in, under_root};
+use super::desk::all_of;
 use super::impact::Stand;
 use super::rounded::is_near;
 use super::text::{beside, equations, supposition};
 use super::{Desk, Status};
 use crate::algebra::{self, Sign};
 use crate::answer::limit;
-use crate::equality::{self, Equality};
+use crate::equality;
 use crate::expr::{Expr, Function, Symbol, effort};
 use crate::formula::{self, Content, Reading, Relation};
 use crate::scene::{Ask, Question};
@@ -24,8 +26,30 @@ pub(super) struct Link {
     pub differences: Vec<Expr>,
 }
 
+impl Link {
+    /// Left minus right, where it is no equality of vectors.
+    pub fn gap(&self) -> Option<&Expr> {
+        match self.differences.as_slice() {
+            [one] => Some(one),
+            _ => None,
+        }
+    }
+}
+
+/// All that vanishes where links hold.
+pub(super) fn gaps(links: &[Link]) -> Vec<Expr> {
+    let all = links.iter().flat_map(|link| &link.differences);
+    all.cloned().collect()
+}
+
+/// The names in links.
+pub(super) fn names_in(links: &[Link]) -> BTreeSet<Symbol> {
+    let sides = links.iter().flat_map(|link| &link.sides);
+    sides.flat_map(Content::symbols).collect()
+}
+
 /// Words for a moment, its values, and the bodies of which shared vectors are.
-type Elsewhere<'d> = (String, &'d BTreeMap<Symbol, Expr>, BTreeMap<String, usize>);
+type Elsewhere<'d> = (String, &'d Values, BTreeMap<String, usize>);
 
 /// What is found of the links of a line.
 pub(super) enum Weighed {
@@ -49,7 +73,7 @@ impl Desk<'_> {
     /// The components of a vector that is asked for, or of a spin as a vector out of the page.
     pub(super) fn components(&self, name: &str) -> Option<[Expr; 3]> {
         // At another moment the vector may be another one.
-        let over = |values: &BTreeMap<Symbol, Expr>| values.contains_key(&*format!("{name}_z"));
+        let over = |values: &Values| values.contains_key(&*format!("{name}_z"));
         if self.vectors.iter().any(|stand| over(&stand.values)) {
             return Some(["x", "y", "z"].map(|axis| Expr::symbol(&format!("{name}_{axis}"))));
         }
@@ -137,7 +161,7 @@ impl Desk<'_> {
         let known = vector
             .as_symbol()
             .is_some_and(|name| self.closed.contains_key(name));
-        known && self.all_zero(&[vector - value], &BTreeMap::new()) == Some(true)
+        known && self.is_zero(&(vector - value))
     }
 
     /// The links of a chain of equalities.
@@ -168,7 +192,7 @@ impl Desk<'_> {
             Some(self.measured(part, &reading).unwrap_or(reading))
         };
         let then: Vec<Reading> = behind.into_iter().map(read).collect::<Option<_>>()?;
-        let is_parameter = |name: &Symbol| self.sheet.scene.parameter(name).is_some();
+        let is_parameter = |name: &Symbol| self.is_given(name);
         let symbol = |side: &Content| side.expr().and_then(Expr::as_symbol).cloned();
         let mut there = BTreeMap::new();
         for part in equations(given) {
@@ -194,7 +218,7 @@ impl Desk<'_> {
                 _ => return None,
             };
             // `for s = d` puts what s is for d.
-            if self.put_in(value, &BTreeMap::new()).mentions(&name) {
+            if self.truth(value).mentions(&name) {
                 return None;
             }
             there.insert(name, value.clone());
@@ -202,15 +226,15 @@ impl Desk<'_> {
         let links: Option<Vec<Vec<Link>>> = then.iter().map(|then| self.links(then)).collect();
         let links: Vec<Link> = links?.into_iter().flatten().collect();
         let domains = &self.sheet.scene.domains;
-        let at = |e: &Expr, instead: &BTreeMap<Symbol, Expr>| {
+        let at = |e: &Expr, instead: &Values| {
             let there = there.iter();
             let there = there.map(|(name, value)| (name.clone(), self.put_in(value, instead)));
-            let there: BTreeMap<Symbol, Expr> = there.collect();
+            let there: Values = there.collect();
             let value = self.put_in(e, instead).substitute(&there);
             self.at_sought(value).substitute(&there)
         };
         let values = self.sheet.scene.values();
-        let zero = |instead: &BTreeMap<Symbol, Expr>| {
+        let zero = |instead: &Values| {
             // Without a value there, nothing is said.
             let zero = links.iter().map(|link| {
                 let number = |side: &Content| Some(at(side.expr()?, instead).substitute(&values));
@@ -223,27 +247,15 @@ impl Desk<'_> {
                     .differences
                     .iter()
                     .map(|d| equality::decide(&at(d, instead), &Expr::zero(), domains).equality);
-                match parts.find(|part| !matches!(part, Equality::Same { .. })) {
+                match parts.find(|part| !part.is_same()) {
                     None => Some(true),
                     Some(_) if rounded => Some(true),
                     Some(part) => part.is_different().then_some(false),
                 }
             });
-            let zero: Vec<Option<bool>> = zero.collect();
-            match zero.contains(&Some(false)) {
-                true => Some(false),
-                false => zero.iter().all(Option::is_some).then_some(true),
-            }
+            all_of(zero)
         };
-        let mut implied = self.believed.iter().rev();
-        Some(match zero(&BTreeMap::new()) {
-            Some(true) => Status::Holds,
-            None => Status::Undecided,
-            Some(false) => match implied.find(|(_, values)| zero(values) == Some(true)) {
-                Some((cause, _)) => Status::Carried(*cause),
-                None => Status::Wrong,
-            },
-        })
+        Some(self.found(zero, Status::Undecided))
     }
 
     /// Judges links one by one.
@@ -251,7 +263,7 @@ impl Desk<'_> {
         if let Some(at) = self.in_another_unit(links) {
             return Weighed::Slip(at);
         }
-        let none = BTreeMap::new();
+        let none = Values::new();
         let (mut rounded, mut open, mut carried) = (false, false, None);
         for (at, link) in links.iter().enumerate() {
             match self.all_zero(&link.differences, &none) {
@@ -276,8 +288,8 @@ impl Desk<'_> {
     /// When or where all links of a line hold that do not as the scene goes first: just after another impact, or in another case;
     /// with the bodies of which shared vectors are then.
     pub(super) fn at_another_moment(&self, links: &[Link]) -> Option<Elsewhere<'_>> {
-        let all: Vec<Expr> = links.iter().flat_map(|l| l.differences.clone()).collect();
-        let holds = |values: &BTreeMap<Symbol, Expr>| self.all_zero(&all, values) == Some(true);
+        let all = gaps(links);
+        let holds = |values: &Values| self.vanish(&all, values);
         // What still speaks of a parameter is no line about one value of it.
         let own: Vec<Expr> = all.iter().map(|d| self.with_own(d)).collect();
         let is_open = |name: &Symbol| {
@@ -286,11 +298,11 @@ impl Desk<'_> {
         };
         // In a case in which nothing moves everything is nothing.
         let used: BTreeSet<Symbol> = all.iter().flat_map(Expr::symbols).collect();
-        let is_idle = |values: &BTreeMap<Symbol, Expr>| {
+        let is_idle = |values: &Values| {
             let found: Vec<&Expr> = used.iter().filter_map(|name| values.get(name)).collect();
             found.len() > 1 && found.into_iter().all(Expr::is_zero)
         };
-        let fits = |values: &BTreeMap<Symbol, Expr>| {
+        let fits = |values: &Values| {
             !values.keys().any(is_open)
                 && !is_idle(values)
                 && holds(values)
@@ -343,11 +355,9 @@ impl Desk<'_> {
     /// a parameter gives both, as √e for e does in `h_1 = e h` and `h_2 = e² h`, and v (m+M)/M for v in `u = m v/M` and
     /// `t = m v/(μ g M)`.
     fn again(&self, link: &Link) -> Option<usize> {
-        let (scene, none) = (&self.sheet.scene, BTreeMap::new());
+        let scene = &self.sheet.scene;
         let value = |name: &Symbol, d: &Expr| solve_for(d, name, &scene.domains);
-        let [one] = link.differences.as_slice() else {
-            return None;
-        };
+        let one = link.gap()?;
         let name = link.sides[0].expr()?.as_symbol()?;
         let mut sought = self.sought.iter();
         let asked = sought.find(|s| s.is_named(name));
@@ -357,13 +367,11 @@ impl Desk<'_> {
         if let Some(Ask::Limit { of, parameter, to }) =
             questions.find(|q| *q.name == **name).map(|q| &q.ask)
         {
-            let mut implied = self.believed.iter().rev();
-            let found = implied.find(|(_, values)| {
+            return self.implied(|values| {
                 let of = self.put_in(of, values);
                 let end = limit::of(&of, parameter, to.as_ref(), &scene.domains).flatten();
-                end.is_some_and(|end| self.all_zero(&[end - &mine], &none) == Some(true))
+                end.is_some_and(|end| self.is_zero(&(end - &mine)))
             });
-            return found.map(|(cause, _)| *cause);
         }
         let number = Symbol::from("another value");
         let stands_for = |p: &Symbol, right: &Expr, mine: &Expr| {
@@ -374,13 +382,12 @@ impl Desk<'_> {
             let mut ways = ways.flat_map(|way| lines.iter().map(move |line| (way, line)));
             ways.find_map(|(way, line)| way(line, &number, &scene.domains))
         };
-        let repeats = |values: &BTreeMap<Symbol, Expr>, name: &Symbol, p: &Symbol| {
+        let repeats = |values: &Values, name: &Symbol, p: &Symbol| {
             let theirs = &values[name];
             let first = self.closed.get(name).filter(|first| first.mentions(p));
             let other = first.and_then(|first| stands_for(p, first, theirs));
             other.is_some_and(|other| {
-                let off = right.put(p, &other) - mine.substitute(values);
-                self.all_zero(&[off], &none) == Some(true)
+                self.is_zero(&(right.put(p, &other) - mine.substitute(values)))
             })
         };
         let parameters = scene.parameters.iter().map(|p| &p.name);

@@ -1,6 +1,6 @@
 //! Names the student introduces: what they stand for, said before or further down, and with which slip.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use super::super::relation::solve_for;
 use super::cause::size_in;
@@ -184,10 +184,8 @@ impl Desk<'_> {
             let off = |name: &Symbol, truth: &Expr| self.with_own(&Expr::symbol(name)) - truth;
             let mine = self.with_own(&first) - &true_value;
             let mut earlier = self.slipped.iter();
-            let none = BTreeMap::new();
             let cause = earlier.find(|(_, name, truth)| {
-                name.starts_with("I_")
-                    && self.all_zero(&[&off(name, truth) - &mine], &none) == Some(true)
+                name.starts_with("I_") && self.is_zero(&(&off(name, truth) - &mine))
             });
             let cause = cause.map(|(cause, ..)| *cause);
             self.own.insert(name.clone(), last);
@@ -475,10 +473,7 @@ impl Desk<'_> {
         let [link] = &self.links(&reading)?[..] else {
             return None;
         };
-        let [one] = link.differences.as_slice() else {
-            return None;
-        };
-        let (one, domains) = (self.with_own(one), &self.sheet.scene.domains);
+        let (one, domains) = (self.with_own(link.gap()?), &self.sheet.scene.domains);
         let value = solve_for(&one, name, domains)
             .or_else(|| size_in(&one, name, domains))
             .or_else(|| angle_in(&one, name, domains))

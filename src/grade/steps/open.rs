@@ -1,14 +1,13 @@
 //! What a line leaves open that fails as it is read: of which moment its rates are, what a name stands for that was said anew
 //! and not read, and what its words only suppose.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use super::super::believed::Story;
-use super::link::Link;
+use super::link::{Link, gaps, names_in};
 use super::names::named;
 use super::{Desk, Diagnosis, Found, MOMENT, Status};
 use crate::expr::{Expr, Symbol};
-use crate::formula::Content;
 use crate::scene::Ask;
 
 /// Words before an equation by which something given is no more than supposed.
@@ -45,25 +44,23 @@ impl Desk<'_> {
 
     /// Whether a line speaks of an own name whose last definition could not be read.
     pub(super) fn is_unclear(&self, links: &[Link]) -> bool {
-        let sides = links.iter().flat_map(|link| &link.sides);
-        let used: BTreeSet<Symbol> = sides.flat_map(Content::symbols).collect();
+        let used = names_in(links);
         !used.is_disjoint(&self.unclear)
     }
 
     /// Whether a line holds at the end of a motion, with a mark that may be of that as well as of an impact.
     fn is_of_some_end(&self, links: &[Link]) -> bool {
-        let all: Vec<Expr> = links.iter().flat_map(|l| l.differences.clone()).collect();
+        let all = gaps(links);
         let used = all.iter().flat_map(Expr::symbols).collect::<BTreeSet<_>>();
         let marked = |name: &Symbol| name.ends_with("^+") && self.of_bodies.contains_key(name);
         let mut ends = self.ends.iter().filter(|_| used.iter().any(marked));
-        ends.any(|(_, values)| self.all_zero(&all, values) == Some(true))
+        ends.any(|(_, values)| self.vanish(&all, values))
     }
 
     /// Whether a line is about given quantities alone, one of which is sought where something is largest, and its place is not one
     /// value.
     fn is_of_a_place(&self, links: &[Link]) -> bool {
-        let sides = links.iter().flat_map(|link| &link.sides);
-        let used: BTreeSet<Symbol> = sides.flat_map(Content::symbols).collect();
+        let used = names_in(links);
         let is_open = |name: &Symbol| {
             let mut questions = self.sheet.scene.questions.iter();
             let known = self.sought.iter().any(|s| s.parameter == *name);
@@ -71,7 +68,7 @@ impl Desk<'_> {
                 && questions
                     .any(|q| matches!(&q.ask, Ask::Maximum { over, .. } if over.contains(name)))
         };
-        let given = |name: &Symbol| self.sheet.scene.parameter(name).is_some();
+        let given = |name: &Symbol| self.is_given(name);
         used.iter().all(given) && used.iter().any(is_open)
     }
 
@@ -82,9 +79,7 @@ impl Desk<'_> {
         let ([link], true) = (links, story.is_some_and(Story::has_motions)) else {
             return None;
         };
-        let [gap] = &link.differences[..] else {
-            return None;
-        };
+        let gap = link.gap()?;
         let is_rate = |name: &Symbol| name.ends_with("_dot");
         let mut needed = self.own_needed(gap).into_iter();
         let (_, [_, needed]) = needed.find(|(name, _)| is_rate(name))?;
@@ -92,7 +87,7 @@ impl Desk<'_> {
             Some((_, values)) => values.values().collect(),
             None => self.ends.iter().flat_map(|(_, v)| v.values()).collect(),
         };
-        let same = |value: &Expr| self.all_zero(&[value - &needed], &BTreeMap::new()) == Some(true);
+        let same = |value: &Expr| self.is_zero(&(value - &needed));
         if all.iter().any(|value| same(value) || same(&-*value)) {
             return Some(true);
         }
@@ -113,8 +108,7 @@ impl Desk<'_> {
         let supposes =
             last.is_some_and(|last| SUPPOSED.iter().any(|w| w.eq_ignore_ascii_case(last)));
         supposes
-            && named(equation).is_some_and(|(name, _)| {
-                self.sheet.scene.parameter(&name).is_some() && self.asked_of(&name).is_empty()
-            })
+            && named(equation)
+                .is_some_and(|(name, _)| self.is_given(&name) && self.asked_of(&name).is_empty())
     }
 }

@@ -1,11 +1,10 @@
 //! Rounded numbers in a line: how far they may be off.
 
-use std::collections::BTreeMap;
-
 use num_traits::Signed;
 
 use super::super::{Tolerance, fraction, number};
 use super::Desk;
+use super::bind::Values;
 use super::link::Link;
 use crate::algebra::quotient;
 use crate::dimension;
@@ -15,23 +14,12 @@ use crate::expr::{Expr, Node, Point, Rational, Symbol, ratio};
 impl Desk<'_> {
     /// Whether a side in numbers is the value of the other, up to the rounding of the numbers in the line; the scene's
     /// values are put in. A number of the scene is exact.
-    pub(super) fn is_rounded(
-        &self,
-        text: &str,
-        link: &Link,
-        instead: &BTreeMap<Symbol, Expr>,
-    ) -> bool {
+    pub(super) fn is_rounded(&self, text: &str, link: &Link, instead: &Values) -> bool {
         self.is_rounded_from(text, link, instead, &ratio(0, 1))
     }
 
     /// The same of a line that goes on from numbers which may be off by a share `more`.
-    fn is_rounded_from(
-        &self,
-        text: &str,
-        link: &Link,
-        instead: &BTreeMap<Symbol, Expr>,
-        more: &Rational,
-    ) -> bool {
+    fn is_rounded_from(&self, text: &str, link: &Link, instead: &Values, more: &Rational) -> bool {
         if instead.is_empty() && self.is_within_own(link) {
             return true;
         }
@@ -86,7 +74,8 @@ impl Desk<'_> {
         &self,
         text: &str,
         link: &Link,
-        (cause, values): (usize, &BTreeMap<Symbol, Expr>),
+        cause: usize,
+        values: &Values,
     ) -> bool {
         let none = ratio(0, 1);
         let more = self.coarse.get(&cause).unwrap_or(&none);
@@ -105,7 +94,7 @@ impl Desk<'_> {
     fn is_near_in_terms(
         &self,
         [a, b]: [&Expr; 2],
-        instead: &BTreeMap<Symbol, Expr>,
+        instead: &Values,
         share: &Rational,
     ) -> Option<bool> {
         fn size(e: &Expr, value: &dyn Fn(&Expr) -> Option<f64>) -> Option<f64> {
@@ -126,9 +115,7 @@ impl Desk<'_> {
 
     fn mentions_given(&self, e: &Expr) -> bool {
         let names = e.symbols();
-        names
-            .iter()
-            .any(|name| self.sheet.scene.parameter(name).is_some())
+        names.iter().any(|name| self.is_given(name))
     }
 
     /// Whether the sides differ by no more than the own names in them may that were said to be decimal numbers.
@@ -196,14 +183,14 @@ impl Desk<'_> {
 }
 
 /// Whether two numbers are the same as far as the digits of a line tell, beside values that are exact.
-pub(super) fn is_near(text: &str, [a, b]: [&Expr; 2], exact: &BTreeMap<Symbol, Expr>) -> bool {
+pub(super) fn is_near(text: &str, [a, b]: [&Expr; 2], exact: &Values) -> bool {
     let share = coarsest(text, exact).map(|(share, _)| Tolerance::Relative(share));
     share.is_some_and(|room| number::within(b, a, &room) == Some(true))
 }
 
 /// How far numbers of a line may be off, as a share: half a unit in the last digit of the coarsest one. What stands last
 /// counts from two digits, what leads to it from three; values of the scene are exact. Also whether any has a decimal point.
-fn coarsest(text: &str, values: &BTreeMap<Symbol, Expr>) -> Option<(Rational, bool)> {
+fn coarsest(text: &str, values: &Values) -> Option<(Rational, bool)> {
     let last = text.rfind(['=', '≈']).unwrap_or(0);
     let share = |word: &str, least: usize| {
         let value = number::decimal(word).filter(Signed::is_positive)?;

@@ -2,8 +2,6 @@
 //!
 //! In: the lines, with names for words as far as they have any. Out: the lines with the name of what is asked in its place.
 
-use std::collections::BTreeMap;
-
 use super::Desk;
 use super::text::{relates, without_remark};
 use crate::expr::{Expr, Symbol};
@@ -135,9 +133,7 @@ impl Desk<'_> {
             let is_so = || {
                 let value = self.closed.get(meant.name.as_str());
                 let pair = reading.expr().zip(value);
-                pair.is_some_and(|(said, value)| {
-                    self.all_zero(&[said - value], &BTreeMap::new()) == Some(true)
-                })
+                pair.is_some_and(|(said, value)| self.is_zero(&(said - value)))
             };
             if !told[at] && (at_end || is_so()) {
                 told[at] = true;

@@ -1,11 +1,10 @@
 //! Parameters whose values a scene asks for, and what a solution supposes of them: the conditions that it states, in the words of
 //! the scene or in others, and what holds where they do.
 
-use std::collections::BTreeMap;
-
 use super::super::relation::{follows, proportional, solve_for};
 use super::super::sheet::Sheet;
 use super::Desk;
+use super::bind::Values;
 use super::link::{Link, Weighed};
 use crate::algebra::{Field, quotient};
 use crate::answer::Answer;
@@ -103,20 +102,17 @@ impl Desk<'_> {
 
     /// The wrong line with whose values a condition says of its parameter what an equation does.
     pub(super) fn supposed_with(&self, line: &Expr) -> Option<usize> {
-        let none = BTreeMap::new();
         let line = self.by_parameter(line);
         let sought = self.sought.iter();
         let sought = sought.filter(|s| line.mentions(&s.parameter) && self.is_solved_for(s));
         let conditions: Vec<&Expr> = sought.filter_map(|s| s.condition.as_ref()).collect();
-        let line = self.put_in(&line, &none);
-        let mut implied = self.believed.iter().rev();
-        let found = implied.find(|(_, values)| {
+        let line = self.truth(&line);
+        self.implied(|values| {
             conditions.iter().any(|condition| {
-                let [there, here] = [values, &none].map(|values| self.put_in(condition, values));
-                there != here && follows(&there, &line, &self.sheet.scene.domains)
+                let there = self.put_in(condition, values);
+                there != self.truth(condition) && follows(&there, &line, &self.sheet.scene.domains)
             })
-        });
-        found.map(|(cause, _)| *cause)
+        })
     }
 
     /// Whether the solution goes on to what a condition gives.
@@ -139,10 +135,7 @@ impl Desk<'_> {
             let ([link], Weighed::Slip(_)) = (links, weighed) else {
                 return None;
             };
-            let [one] = link.differences.as_slice() else {
-                return None;
-            };
-            let one = self.with_own(one);
+            let one = self.with_own(link.gap()?);
             let in_words = |s: &Sought| {
                 self.brings_in(&one, s)
                     || self.is_balance(link, &one, s)
@@ -158,8 +151,8 @@ impl Desk<'_> {
     /// Whether a line states the condition of a parameter that is sought; a chain `s = u²/(2 μ g) = d` does so between its
     /// ends, where the rest holds with it.
     pub(super) fn states(&self, links: &[Link], sought: &Sought) -> bool {
-        let is = |link: &Link| match (&sought.condition, link.differences.as_slice()) {
-            (Some(c), [one]) => {
+        let is = |link: &Link| match (&sought.condition, link.gap()) {
+            (Some(c), Some(one)) => {
                 let one = self.with_own(one);
                 self.is_multiple(&one, c) || self.is_closed_form_of(&one, c, &sought.parameter)
             }
@@ -169,9 +162,7 @@ impl Desk<'_> {
             [first, .., last] => self.link(&first.sides[0], &last.sides[1]),
             _ => None,
         };
-        let none = BTreeMap::new();
-        let holds = |link: &Link| self.all_zero(&link.differences, &none) == Some(true);
-        let fits = |link: &Link| is(link) || holds(link) || self.holds_where(link, sought);
+        let fits = |link: &Link| is(link) || self.holds(link) || self.holds_where(link, sought);
         links.iter().chain(&ends).any(is) && links.iter().all(fits)
     }
 
@@ -181,7 +172,7 @@ impl Desk<'_> {
         if !line.mentions(parameter) || line.symbols().iter().any(|n| self.closed.contains_key(n)) {
             return false;
         }
-        let none = BTreeMap::new();
+        let none = Values::new();
         let others = self.moments.iter().map(|(_, values)| values);
         std::iter::once(&none).chain(others).any(|values| {
             let told = self.put_in(condition, values);
@@ -200,8 +191,7 @@ impl Desk<'_> {
             let (field, line, condition) = Field::pair(&domains, line, condition).ok()?;
             Some(field.expr(&field.div(&line, &condition).ok()?))
         };
-        let given =
-            |name: &Symbol| self.sheet.scene.parameter(name).is_some() && !self.is_found(name);
+        let given = |name: &Symbol| self.is_given(name) && !self.is_found(name);
         factor().is_some_and(|k| !k.is_zero() && k.symbols().iter().all(given))
     }
 
@@ -216,7 +206,7 @@ impl Desk<'_> {
             return false;
         };
         let named = |side: &Content| side.expr().is_some_and(|e| e.as_symbol().is_some());
-        let [here, there] = [line, &Expr::symbol(energy)].map(|e| self.put_in(e, &BTreeMap::new()));
+        let [here, there] = [line, &Expr::symbol(energy)].map(|e| self.truth(e));
         is_energy(energy)
             && !line.symbols().contains(energy)
             && !link.sides.iter().any(named)
@@ -232,7 +222,7 @@ impl Desk<'_> {
     /// The value of the parameter that is sought.
     fn value_of(&self, sought: &Sought) -> Option<Expr> {
         let solved = || {
-            let condition = self.put_in(sought.condition.as_ref()?, &BTreeMap::new());
+            let condition = self.truth(sought.condition.as_ref()?);
             solve_for(&condition, &sought.parameter, &self.sheet.scene.domains)
         };
         sought.value.clone().or_else(solved)
@@ -246,12 +236,9 @@ impl Desk<'_> {
 
     /// Whether expressions vanish at the value that is sought.
     pub(super) fn is_zero_where(&self, all: &[&Expr], sought: &Sought) -> bool {
-        let none = BTreeMap::new();
-        let there = all
-            .iter()
-            .map(|d| self.at_value(&self.put_in(d, &none), sought));
+        let there = all.iter().map(|d| self.at_value(&self.truth(d), sought));
         let there: Option<Vec<Expr>> = there.collect();
-        there.is_some_and(|there| self.all_zero(&there, &none) == Some(true))
+        there.is_some_and(|there| self.vanish(&there, &Values::new()))
     }
 
     /// An expression in what is given at the value that is sought.
@@ -268,7 +255,7 @@ impl Desk<'_> {
         let mut found = symbols.iter().filter_map(|name| self.closed.get(name));
         found.any(|value| {
             let there = [value.put(&sought.parameter, &root)];
-            self.all_zero(&there, &BTreeMap::new()) != Some(false)
+            self.all_zero(&there, &Values::new()) != Some(false)
         })
     }
 

@@ -1,13 +1,12 @@
 //! What a worked solution says of limits: `For M ≫ m, u → v`, `u → 0 as M → ∞`, `\lim_{M\to\infty} u = 0`, `For large M: …`.
 
-use std::collections::BTreeMap;
-
-use super::super::Verdict;
+use super::bind::Values;
 use super::cause::MOST_STEPS;
+use super::desk::all_of;
 use super::link::Link;
 use super::{Desk, Status, text};
 use crate::answer::limit;
-use crate::equality::{self, Equality};
+use crate::equality;
 use crate::expr::{Expr, Symbol, effort};
 use crate::formula;
 use crate::scene::Ask;
@@ -79,12 +78,10 @@ impl Desk<'_> {
         if !tends(&signs) && !tends(line) {
             return None;
         }
-        let none = BTreeMap::new();
-        let zero = |link: &Link| self.all_zero(&link.differences, &none) == Some(true);
         let equations = text::equations(line).into_iter();
         let links: Option<Vec<Link>> = self.links_of(equations);
-        let hold = |links: &Vec<Link>| !links.is_empty() && links.iter().all(zero);
-        if links.as_ref().is_some_and(hold) {
+        let hold = |links: &Vec<Link>| links.iter().all(|link| self.holds(link));
+        if links.is_some_and(|links| !links.is_empty() && hold(&links)) {
             return None;
         }
         let Some((goes, links)) = self.parted(&signs) else {
@@ -100,29 +97,13 @@ impl Desk<'_> {
         }) {
             return None;
         }
-        let so = |instead: &BTreeMap<Symbol, Expr>| {
-            let each = links
-                .iter()
-                .map(|link| self.tend_together(link, &goes, instead));
-            let each: Vec<Option<bool>> = each.collect();
-            match each.contains(&Some(false)) {
-                true => Some(false),
-                false => each.iter().all(Option::is_some).then_some(true),
-            }
+        let so = |instead: &Values| {
+            let each = links.iter();
+            all_of(each.map(|link| self.tend_together(link, &goes, instead)))
         };
-        let mut implied = self.believed.iter().rev();
-        let status = effort::within(MOST_STEPS, || {
-            Some(match so(&none) {
-                Some(true) => Status::Holds,
-                None => Status::Comment,
-                Some(false) => match implied.find(|(_, values)| so(values) == Some(true)) {
-                    Some((cause, _)) => Status::Carried(*cause),
-                    None => Status::Wrong,
-                },
-            })
-        });
+        let status = effort::within(MOST_STEPS, || self.found(so, Status::Comment));
         self.note_limit(line, &goes, &links);
-        status
+        Some(status)
     }
 
     /// Keeps `M ≫ m: H = 9h` as an answer where this limit is asked for.
@@ -147,11 +128,7 @@ impl Desk<'_> {
         });
         let right = asked.and_then(|q| Some((q, self.closed.get(q.name.as_str())?)));
         if let (Some((asked, right)), Some(value)) = (right, value) {
-            let verdict = match self.all_zero(&[value - right], &BTreeMap::new()) {
-                Some(true) => Verdict::Equivalent,
-                Some(false) => Verdict::Different,
-                None => Verdict::Undecided,
-            };
+            let verdict = self.all_zero(&[value - right], &Values::new()).into();
             self.give(asked.name.clone(), line, verdict);
         }
     }
@@ -240,12 +217,7 @@ impl Desk<'_> {
     }
 
     /// Whether both sides tend to the same in one of the ways that a condition may mean; `None` where that is not known of all.
-    fn tend_together(
-        &self,
-        link: &Link,
-        goes: &[Goes],
-        instead: &BTreeMap<Symbol, Expr>,
-    ) -> Option<bool> {
+    fn tend_together(&self, link: &Link, goes: &[Goes], instead: &Values) -> Option<bool> {
         let [a, b] = link
             .sides
             .each_ref()
@@ -256,24 +228,15 @@ impl Desk<'_> {
             .iter()
             .filter(|(name, to)| limit::comes(name, to.as_ref(), domains))
             .map(|(name, to)| self.tends_as(&a, &b, name, to.as_ref()));
-        let ways: Vec<Option<bool>> = ways.collect();
-        match ways.contains(&Some(true)) {
-            true => Some(true),
-            false => {
-                let known = !ways.is_empty() && ways.iter().all(Option::is_some);
-                known.then_some(false)
-            }
-        }
+        let mut ways = ways.map(|so| so.map(|so| !so)).peekable();
+        ways.peek()?;
+        all_of(ways).map(|none| !none)
     }
 
     /// Whether two formulas tend to the same value, or vanish or grow alike: `u ≈ m v/M` for M beyond all bounds.
     fn tends_as(&self, a: &Expr, b: &Expr, name: &Symbol, to: Option<&Expr>) -> Option<bool> {
         let domains = &self.sheet.scene.domains;
-        let same = |a: &Expr, b: &Expr| match equality::decide(a, b, domains).equality {
-            Equality::Same { .. } => Some(true),
-            Equality::Different(_) | Equality::Invalid { .. } => Some(false),
-            Equality::Undecided { .. } => None,
-        };
+        let same = |a: &Expr, b: &Expr| equality::decide(a, b, domains).equality.holds();
         let end = |e: &Expr| limit::of(e, name, to, domains);
         let zero = Expr::zero();
         let is_zero = |e: &Expr| same(e, &zero);

@@ -7,9 +7,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::believed::Story;
 use super::Desk;
+use super::bind::Values;
 use super::impact::{Impact, Stand, shared_key};
 use super::letters::readings;
-use super::link::Link;
+use super::link::{Link, gaps, names_in};
 use crate::derive::Names;
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{self, Content, Reading, Symbols};
@@ -203,22 +204,22 @@ impl Desk<'_> {
 
     /// Whether a line that fails holds at the end of the motion it stands in or, where that is not known, at some moment.
     pub(super) fn holds_there(&self, links: &[Link]) -> bool {
-        let all: Vec<Expr> = links.iter().flat_map(|l| l.differences.clone()).collect();
+        let all = gaps(links);
         match self.end_here().filter(|end| self.knows(end, links)) {
-            Some((_, values)) => self.all_zero(&all, values) == Some(true),
+            Some((_, values)) => self.vanish(&all, values),
             None => self.at_another_moment(links).is_some(),
         }
     }
 
     /// Whether all vectors of a line have values at the end of a motion.
-    fn knows(&self, (_, values): &(String, BTreeMap<Symbol, Expr>), links: &[Link]) -> bool {
+    fn knows(&self, (_, values): &(String, Values), links: &[Link]) -> bool {
         Desk::arrows(links)
             .iter()
             .all(|name| self.spins.contains_key(name) || values.contains_key(&*format!("{name}_z")))
     }
 
     /// What is known of the end of the motion whose heading stands above, or of the only one where nothing collides.
-    pub(super) fn end_here(&self) -> Option<&(String, BTreeMap<Symbol, Expr>)> {
+    pub(super) fn end_here(&self) -> Option<&(String, Values)> {
         let lone = self.sheet.impacts.is_empty() && self.ends.len() == 1;
         let mut ends = self.ends.iter();
         ends.find(|(stage, _)| lone || self.under.as_ref() == Some(stage))
@@ -226,20 +227,14 @@ impl Desk<'_> {
 
     /// The vectors with arrows that a line names.
     fn arrows(links: &[Link]) -> BTreeSet<Symbol> {
-        let sides = links.iter().flat_map(|link| &link.sides);
-        let names = sides.flat_map(Content::symbols);
-        names.filter_map(|name| arrowed(&name)).collect()
+        let names = names_in(links);
+        names.iter().filter_map(arrowed).collect()
     }
 
     /// Whether a line says more than that nothing is nothing: one of the vectors in it does not vanish at a moment, none of the
     /// velocities without a mark vanishes beside others, since a term with it could be any, or it holds of whatever motion;
     /// with `all` none that has one either.
-    pub(super) fn says_enough(
-        &self,
-        links: &[Link],
-        values: &BTreeMap<Symbol, Expr>,
-        all: bool,
-    ) -> bool {
+    pub(super) fn says_enough(&self, links: &[Link], values: &Values, all: bool) -> bool {
         let of_moment = |name: &Symbol, bases: &[&str]| {
             let named = formula::vector_name(name);
             named
@@ -248,7 +243,7 @@ impl Desk<'_> {
         };
         let vanishes = |name: &Symbol| {
             let along = ["x", "y", "z"].map(|axis| Expr::symbol(&format!("{name}_{axis}")));
-            self.all_zero(&along, values) == Some(true)
+            self.vanish(&along, values)
         };
         let names = Desk::arrows(links);
         let bases = ["v", "omega", "H", "P"];
@@ -277,20 +272,20 @@ impl Desk<'_> {
             .is_some_and(|all| self.is_law_of(links, all))
     }
 
-    fn is_law_of(&self, links: &[Link], whatever: &BTreeMap<Symbol, Expr>) -> bool {
+    fn is_law_of(&self, links: &[Link], whatever: &Values) -> bool {
         let marks = Desk::arrows(links).into_iter();
         let marks: BTreeSet<String> = marks
             .filter_map(|n| Some(formula::vector_name(&n)?.2))
             .collect();
-        let all: Vec<Expr> = links.iter().flat_map(|l| l.differences.clone()).collect();
+        let all = gaps(links);
         let one = marks.iter().filter(|mark| !mark.is_empty()).count() < 2;
-        one && self.all_zero(&all, whatever) == Some(true)
+        one && self.vanish(&all, whatever)
     }
 
     /// Whether a line about angular momenta holds of one body, of which so much vanishes that it could be any: that it is
     /// kept where it is nothing, or what it is made of in whatever motion.
     pub(super) fn is_lost_in_a_body(&self, links: &[Link]) -> bool {
-        let all: Vec<Expr> = links.iter().flat_map(|l| l.differences.clone()).collect();
+        let all = gaps(links);
         let bases = Desk::arrows(links).into_iter();
         let bases = bases.filter_map(|name| Some(formula::vector_name(&name)?.0));
         let bases: BTreeSet<String> = bases.collect();
@@ -303,7 +298,7 @@ impl Desk<'_> {
             .filter(|stand| fits && stand.when.ends_with(" alone"));
         alone.any(|stand| {
             let values = &stand.values;
-            self.all_zero(&all, values) == Some(true) && !self.says_enough(links, values, false)
+            self.vanish(&all, values) && !self.says_enough(links, values, false)
         })
     }
 
@@ -342,12 +337,12 @@ impl Desk<'_> {
 
     /// Keeps of which bodies shared vectors are in a line that holds for these alone.
     pub(super) fn count(&mut self, links: &[Link], of: &BTreeMap<String, usize>) {
-        let all: Vec<Expr> = links.iter().flat_map(|l| l.differences.clone()).collect();
+        let all = gaps(links);
         for (key, first) in self.shared_in(links) {
             let meant = of.get(&key).copied().unwrap_or(first);
             let other = |stand: &&Stand| stand.of.get(&key).is_some_and(|b| *b != meant);
             let mut others = self.vectors.iter().filter(other);
-            if !others.any(|stand| self.all_zero(&all, &stand.values) == Some(true)) {
+            if !others.any(|stand| self.vanish(&all, &stand.values)) {
                 self.counted.entry(key).or_insert(meant);
             }
         }

@@ -282,10 +282,7 @@ impl Desk<'_> {
         // What only has another name was not worked out.
         let value = self.with_own(self.own.get(name)?);
         let value = Some(&value).filter(|value| value.as_symbol().is_none())?;
-        let given = |e: &Expr| {
-            e.as_symbol()
-                .is_some_and(|n| self.sheet.scene.parameter(n).is_some())
-        };
+        let given = |e: &Expr| e.as_symbol().is_some_and(|n| self.is_given(n));
         let part = |e: &Expr| value.terms().contains(e) || value.terms().contains(&-e);
         let early = self.early.contains(name);
         let truth = needed.and_then(|needed| self.of_scene(needed));
@@ -310,7 +307,7 @@ impl Desk<'_> {
         };
         let mut others = others
             .chain(exchanged)
-            .filter(|other| self.all_zero(&[gap.put(name, other)], &BTreeMap::new()) == Some(true));
+            .filter(|other| self.is_zero(&gap.put(name, other)));
         others.next()
     }
 
@@ -337,8 +334,7 @@ impl Desk<'_> {
 
     /// What the scene has that a value is: a moment of inertia, or a velocity or spin, also as it comes into an impact.
     fn of_scene(&self, value: &Expr) -> Option<Expr> {
-        let none = BTreeMap::new();
-        let value = self.put_in(value, &none);
+        let value = self.truth(value);
         if self.is_inertia(&value) {
             return Some(value);
         }
@@ -349,7 +345,7 @@ impl Desk<'_> {
         let before = bodies.flat_map(|b| b.velocity.iter().chain([&b.spin]));
         let all = all.chain(before).chain(&momenta);
         let all: BTreeSet<&Expr> = all.filter(|e| !e.is_zero()).collect();
-        let same = |truth: &&Expr| self.all_zero(&[&value - *truth], &none) == Some(true);
+        let same = |truth: &&Expr| self.is_zero(&(&value - *truth));
         all.into_iter().take(MOST_VALUES).find(same).cloned()
     }
 
@@ -367,10 +363,7 @@ impl Desk<'_> {
             let places = places.flat_map(|at| [-&at, at]).filter(|at| !at.is_zero());
             let places: BTreeSet<Expr> = places.collect();
             let mut others = places.iter().filter(|at| **at != arm);
-            let needed = others.find(|at| {
-                let gap = &rest + &(*at * truth);
-                self.all_zero(&[gap], &BTreeMap::new()) == Some(true)
-            })?;
+            let needed = others.find(|at| self.is_zero(&(&rest + &(*at * truth))))?;
             let [needed, arm] = [needed, &arm].map(|e| {
                 let text = formula::write_plain(e);
                 text.trim_start_matches('-').to_string()
@@ -413,7 +406,7 @@ impl Desk<'_> {
             let meant = &gap + &(&other - term) * Expr::from(k);
             let holds = match sought {
                 Some(s) => !self.vanishes(&meant, s) && self.is_zero_where(&[&meant], s),
-                None => self.all_zero(&[meant], &BTreeMap::new()) == Some(true),
+                None => self.is_zero(&meant),
             };
             holds.then_some((term, other))
         });
@@ -429,7 +422,7 @@ impl Desk<'_> {
         if questions.iter().any(is_energy) {
             return None;
         }
-        let gap = self.put_in(gap, &BTreeMap::new());
+        let gap = self.truth(gap);
         let sought = self.sought.iter().filter(|s| self.gives(s));
         let there = sought.filter_map(|s| self.at_value(&gap, s));
         let gaps: Vec<Expr> = there.chain([gap.clone()]).collect();
