@@ -213,29 +213,39 @@ impl Content {
 
     /// The names that occur.
     pub fn symbols(&self) -> BTreeSet<Symbol> {
-        let mut names = BTreeSet::new();
-        self.each(&mut |e| names.append(&mut e.symbols()));
-        names
+        self.exprs().into_iter().flat_map(Expr::symbols).collect()
     }
 
     /// Whether a name occurs.
     pub fn mentions(&self, name: &str) -> bool {
-        let mut found = false;
-        self.each(&mut |e| found = found || e.mentions(name));
-        found
+        self.exprs().iter().any(|e| e.mentions(name))
     }
 
-    /// Calls `visit` for every expression inside.
-    pub fn each(&self, visit: &mut dyn FnMut(&Expr)) {
+    /// The expressions inside.
+    pub fn exprs(&self) -> Vec<&Expr> {
         match self {
-            Content::Scalar(e) => visit(e),
-            Content::Either(values) => values.iter().for_each(visit),
-            Content::Vector(components) => components.iter().for_each(visit),
-            Content::Matrix(rows) => rows.iter().flatten().for_each(visit),
-            Content::Quantity(q) => visit(&q.value),
+            Content::Scalar(e) => vec![e],
+            Content::Either(values) => values.iter().collect(),
+            Content::Vector(components) => components.iter().collect(),
+            Content::Matrix(rows) => rows.iter().flatten().collect(),
+            Content::Quantity(q) => vec![&q.value],
             Content::Relations(parts, _) | Content::Joined(_, parts) => {
-                parts.iter().for_each(|part| part.each(visit));
+                parts.iter().flat_map(Content::exprs).collect()
             }
+        }
+    }
+
+    /// The expressions inside, with all their parts.
+    pub(crate) fn parts(&self) -> impl Iterator<Item = &Expr> {
+        self.exprs().into_iter().flat_map(Expr::parts)
+    }
+
+    /// The sides of the relations inside, chain by chain.
+    pub(crate) fn chains(&self) -> Vec<&[Content]> {
+        match self {
+            Content::Relations(sides, _) => vec![sides],
+            Content::Joined(_, parts) => parts.iter().flat_map(Content::chains).collect(),
+            _ => Vec::new(),
         }
     }
 }

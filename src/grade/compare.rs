@@ -6,8 +6,8 @@ mod scalar;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{
-    Apart, Diagnosis, Key, Options, Proof, Strength, Verdict, number, partial, relation, several,
-    show, unit,
+    Diagnosis, Grade, Key, Options, Strength, Verdict, number, partial, relation, several, show,
+    unit,
 };
 use crate::algebra;
 use crate::dimension::Dimension;
@@ -16,88 +16,6 @@ use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Content, Reading, Relation, write_unicode};
 use named::{is_size, named_values, of_two_names, only_unknown, solved};
 pub(crate) use scalar::{WRITTEN, is_short, quotient, same_number, scalars};
-
-/// What a comparison found; the grade without what concerns the text.
-#[derive(Clone, Debug)]
-pub(crate) struct Finding {
-    pub verdict: Verdict,
-    pub note: &'static str,
-    pub proof: Proof,
-    pub assumed: Vec<String>,
-    pub counterexample: Option<Apart>,
-    pub diagnosis: Vec<Diagnosis>,
-}
-
-impl Finding {
-    pub(crate) fn new(
-        verdict: Verdict,
-        note: &'static str,
-        kind: &'static str,
-        words: impl Into<String>,
-    ) -> Finding {
-        Finding {
-            verdict,
-            note,
-            proof: Proof::of(kind, words),
-            assumed: Vec::new(),
-            counterexample: None,
-            diagnosis: Vec::new(),
-        }
-    }
-
-    pub(crate) fn different(
-        note: &'static str,
-        kind: &'static str,
-        words: impl Into<String>,
-    ) -> Finding {
-        Finding::new(Verdict::Different, note, kind, words)
-    }
-
-    /// Different, as the diagnosis tells in the same words; its code is the note without `DIFF_`.
-    pub(super) fn told(
-        note: &'static str,
-        kind: &'static str,
-        words: impl Into<String>,
-        hint: impl Into<String>,
-    ) -> Finding {
-        let words = words.into();
-        let code = note.strip_prefix("DIFF_").unwrap_or(note);
-        Finding::different(note, kind, words.clone()).with(Diagnosis::new(code, words, hint))
-    }
-
-    pub(super) fn is_equivalent(&self) -> bool {
-        self.verdict == Verdict::Equivalent
-    }
-
-    /// Adds what another finding assumed.
-    pub(super) fn assume(&mut self, more: Vec<String>) {
-        for words in more {
-            if !self.assumed.contains(&words) {
-                self.assumed.push(words);
-            }
-        }
-    }
-
-    /// No steps are left: what no proof and no point settled before is undecided for that reason.
-    pub(super) fn stopped(&mut self) {
-        let settled = match self.verdict {
-            Verdict::Different => self.counterexample.is_some(),
-            Verdict::Equivalent => true,
-            // Without steps left values are unknown, not absent.
-            Verdict::Invalid => self.note != "INVALID_UNDEFINED",
-            Verdict::Undecided => false,
-        };
-        if !settled {
-            let words = "the two were not settled within the limit of work";
-            *self = Finding::new(Verdict::Undecided, "UNDECIDED_LIMIT", "none", words);
-        }
-    }
-
-    pub(crate) fn with(mut self, diagnosis: Diagnosis) -> Finding {
-        self.diagnosis.push(diagnosis);
-        self
-    }
-}
 
 /// What a comparison works with.
 pub(crate) struct Context<'a> {
@@ -141,7 +59,7 @@ impl<'a> Context<'a> {
 }
 
 /// Compares a reading with the key.
-pub(crate) fn contents(key: &Key, answer: &Reading, options: &Options) -> Finding {
+pub(crate) fn contents(key: &Key, answer: &Reading, options: &Options) -> Grade {
     let diagnose = options.strength == Strength::Identity;
     tolerated(&Context::new(key, options, diagnose), answer)
 }
@@ -152,7 +70,7 @@ pub(crate) fn verdict_of(key: &Key, answer: &Reading, options: &Options) -> Verd
 }
 
 /// Compares with every number of the answer that the tolerance allows in the place of the expected one.
-fn tolerated(ctx: &Context, answer: &Reading) -> Finding {
+fn tolerated(ctx: &Context, answer: &Reading) -> Grade {
     let found = compare(ctx, answer);
     let (expected, domains) = (&ctx.key.reading.content, &ctx.key.question.domains);
     let changed = |content: &Content| *content != answer.content;
@@ -175,14 +93,14 @@ fn tolerated(ctx: &Context, answer: &Reading) -> Finding {
         let exact = compare(&ctx.plain(), &near);
         if exact.is_equivalent() {
             let (note, words) = ("EQUIV_TOLERANCE", tolerance.words());
-            let mut finding = Finding::new(Verdict::Equivalent, note, "tolerance", words);
+            let mut finding = Grade::new(Verdict::Equivalent, note, "tolerance", words);
             // Numbers near those of a difference say nothing of its value.
             if let [Some(e), Some(a), Some(near)] =
                 [&ctx.key.reading, answer, &near].map(Reading::expr)
                 && !(scalar::has_one_sign(ctx, near) || scalar::is_near(ctx, e, a, tolerance))
             {
                 let words = "the numbers in it are near enough, and it is not shown that the value always is";
-                finding = Finding::new(Verdict::Undecided, "UNDECIDED_TOLERANCE", "none", words);
+                finding = Grade::new(Verdict::Undecided, "UNDECIDED_TOLERANCE", "none", words);
             }
             finding.assume(exact.assumed);
             return finding;
@@ -206,13 +124,7 @@ fn claim(content: &Content) -> Claim<'_> {
                 .and_then(Expr::as_symbol)
                 .filter(|name| &***name != "pi");
             let value = content.answer();
-            let free = |name: &Symbol| {
-                let mut free = true;
-                sides[1..]
-                    .iter()
-                    .for_each(|s| s.each(&mut |e| free &= !e.symbols().contains(name)));
-                free
-            };
+            let free = |name: &Symbol| !sides[1..].iter().any(|side| side.mentions(name));
             match name {
                 Some(name) if !std::ptr::eq(value, content) && free(name) => {
                     Claim::Value(Some(name), value)
@@ -272,7 +184,7 @@ fn may_all_hold(ctx: &Context, list: &Content) -> bool {
 /// The finding where values of one name are a list of which each will do: unless the other side says that they are all the same,
 /// or speaks of several, as `y = x² and y = x` does beside `x = 1 and y = 1`. Solutions of a single equation are such a list in
 /// any case.
-fn lists(ctx: &Context, answer: &Reading) -> Option<Finding> {
+fn lists(ctx: &Context, answer: &Reading) -> Option<Grade> {
     let expected = &ctx.key.reading.content;
     let several = match expected {
         Content::Relations(..) => matches!(expected.answer(), Content::Either(_)),
@@ -300,7 +212,7 @@ fn lists(ctx: &Context, answer: &Reading) -> Option<Finding> {
     Some(compare(ctx, &answer.with(list)))
 }
 
-fn compare(ctx: &Context, answer: &Reading) -> Finding {
+fn compare(ctx: &Context, answer: &Reading) -> Grade {
     if let Some(found) = lists(ctx, answer) {
         return found;
     }
@@ -338,7 +250,7 @@ fn compare(ctx: &Context, answer: &Reading) -> Finding {
                 Verdict::Equivalent | Verdict::Invalid => finding,
                 _ if same => {
                     let words = "the same relation";
-                    Finding::new(Verdict::Equivalent, "EQUIV_SOLUTIONS", "identity", words)
+                    Grade::new(Verdict::Equivalent, "EQUIV_SOLUTIONS", "identity", words)
                 }
                 _ => finding,
             }
@@ -395,13 +307,13 @@ fn spread(sides: &[Content]) -> Vec<Content> {
     sides.iter().map(spread).collect()
 }
 
-pub(super) fn kind(words: &str) -> Finding {
-    Finding::told("DIFF_KIND", "kind", words, words)
+pub(super) fn kind(words: &str) -> Grade {
+    Grade::told("DIFF_KIND", "kind", words, words)
 }
 
 /// In `ω = a = b` all sides after the name should be equal; the last one decides, and is not right where what leads to it is
 /// wrong for sure.
-fn chain(ctx: &Context, answer: &Reading, finding: &mut Finding) {
+fn chain(ctx: &Context, answer: &Reading, finding: &mut Grade) {
     let Content::Relations(sides, signs) = &answer.content else {
         return;
     };
@@ -420,10 +332,10 @@ fn chain(ctx: &Context, answer: &Reading, finding: &mut Finding) {
 }
 
 /// The finding of two sides that are not equal.
-fn chain_apart(ctx: &Context, [one, two]: [&Expr; 2]) -> Finding {
+fn chain_apart(ctx: &Context, [one, two]: [&Expr; 2]) -> Grade {
     let words = format!("{} and {} are not equal", ctx.say(one), ctx.say(two));
     let hint = "two sides of your chain of equations are not equal";
-    Finding::told("DIFF_CHAIN", "kind", words, hint)
+    Grade::told("DIFF_CHAIN", "kind", words, hint)
 }
 
 /// Two neighbouring values that are not equal although a chain says so, and not what is rounded for the other; names that the
@@ -471,7 +383,7 @@ fn apart<'a>(ctx: &Context, sides: &'a [Content], signs: &[Relation]) -> Option<
     Some([pair[0], pair[1]])
 }
 
-pub(super) fn values(ctx: &Context, expected: &Content, answer: &Content) -> Finding {
+pub(super) fn values(ctx: &Context, expected: &Content, answer: &Content) -> Grade {
     match (expected, answer) {
         (Content::Scalar(e), Content::Scalar(a)) => scalars(ctx, e, a),
         (Content::Quantity(e), Content::Quantity(a)) => unit::quantities(ctx, e, a),
@@ -494,7 +406,7 @@ pub(super) fn values(ctx: &Context, expected: &Content, answer: &Content) -> Fin
                 (false, 2) => "two values are expected",
                 (false, _) => "several values are expected",
             };
-            Finding::told("DIFF_ONE_OF_TWO", "kind", words, "there are two values")
+            Grade::told("DIFF_ONE_OF_TWO", "kind", words, "there are two values")
         }
         (Content::Scalar(e), Content::Either(a)) => {
             let right = a.iter().filter(|a| equal(ctx, e, a)).count();
@@ -507,7 +419,7 @@ pub(super) fn values(ctx: &Context, expected: &Content, answer: &Content) -> Fin
                 _ => "one of the two values is the expected one; the other is not",
             };
             let hint = "the answer is a single value: decide which sign it has";
-            Finding::told("DIFF_TWO_FOR_ONE", "kind", words, hint)
+            Grade::told("DIFF_TWO_FOR_ONE", "kind", words, hint)
         }
         (Content::Quantity(e), Content::Either(_)) => {
             values(ctx, &Content::Scalar(e.value.clone()), answer)
@@ -524,7 +436,7 @@ pub(super) fn values(ctx: &Context, expected: &Content, answer: &Content) -> Fin
                 false => "a vector is expected, and the answer is a number",
             };
             let hint = "a vector is asked: give its direction or components";
-            Finding::told("DIFF_KIND", "kind", message, hint)
+            Grade::told("DIFF_KIND", "kind", message, hint)
         }
         (Content::Scalar(e), Content::Vector(a)) => {
             // `-(3v/2l) k` for a spin: only the sense of rotation is left of the vector.
@@ -542,7 +454,7 @@ fn equal(ctx: &Context, expected: &Expr, answer: &Expr) -> bool {
 }
 
 /// Matrices, entry by entry.
-fn matrices(ctx: &Context, expected: &[Vec<Expr>], answer: &[Vec<Expr>]) -> Finding {
+fn matrices(ctx: &Context, expected: &[Vec<Expr>], answer: &[Vec<Expr>]) -> Grade {
     let columns = expected[0].len();
     if [expected.len(), columns] != [answer.len(), answer[0].len()] {
         let size = |m: &[Vec<Expr>]| format!("{} × {}", m.len(), m[0].len());
@@ -583,10 +495,10 @@ fn all_of<'e>(
     ctx: &Context,
     pairs: impl Iterator<Item = (&'e Expr, &'e Expr)>,
     explained: impl Fn(usize) -> Vec<Diagnosis>,
-) -> Finding {
+) -> Grade {
     let plain = ctx.plain();
     let mut undecided = None;
-    let mut total: Option<Finding> = None;
+    let mut total: Option<Grade> = None;
     for (i, (e, a)) in pairs.enumerate() {
         let mut finding = scalars(&plain, e, a);
         match finding.verdict {

@@ -25,9 +25,7 @@ pub(super) fn power_of_function(content: &Content) -> Option<Content> {
     fn lift(e: &Expr) -> Expr {
         lifted(e).unwrap_or_else(|| e.map_parts(lift))
     }
-    let mut occurs = false;
-    content.each(&mut |e| occurs |= e.parts().any(|part| lifted(part).is_some()));
-    if !occurs {
+    if !content.parts().any(|part| lifted(part).is_some()) {
         return None;
     }
     let changed = match content {
@@ -40,37 +38,24 @@ pub(super) fn power_of_function(content: &Content) -> Option<Content> {
 /// `e^x` against `exp(x)` with an e that nobody declared: only one of them knows a symbol e. Where they are equal with e as
 /// the base of the natural logarithm, that is what was meant, unless an expected e may be a restitution to the power of a
 /// count: then nothing is decided, unless a logarithm takes part and no letter that counts.
-pub(super) fn euler(
-    key: &Key,
-    reading: &Reading,
-    options: &Options,
-    finding: &mut compare::Finding,
-) {
+pub(super) fn euler(key: &Key, reading: &Reading, options: &Options, finding: &mut Grade) {
     let (expected, answer) = (&key.reading.content, &reading.content);
-    let mut logarithm = false;
-    for content in [expected, answer] {
-        let is_ln = |part: &Expr| {
-            use Function::{Cosh, Ln, Sinh, Tanh};
-            matches!(part.node(), Node::Call(Ln | Sinh | Cosh | Tanh, _))
-        };
-        content.each(&mut |e| logarithm |= e.parts().any(is_ln));
-    }
-    let is_e = |e: &Expr| e.as_symbol().is_some_and(|s| &**s == "e");
-    fn number(e: &Expr, is_e: &dyn Fn(&Expr) -> bool, alone: bool) -> Expr {
+    let is_ln = |part: &Expr| {
+        use Function::{Cosh, Ln, Sinh, Tanh};
+        matches!(part.node(), Node::Call(Ln | Sinh | Cosh | Tanh, _))
+    };
+    let logarithm = expected.parts().chain(answer.parts()).any(is_ln);
+    fn number(e: &Expr, alone: bool) -> Expr {
         match e.node() {
-            Node::Power(base, k) if is_e(base) => Expr::call(Function::Exp, number(k, is_e, alone)),
+            Node::Power(base, k) if is_e(base) => Expr::call(Function::Exp, number(k, alone)),
             Node::Call(Function::Ln, x) if is_e(x) => Expr::one(),
             Node::Symbol(_) if alone && is_e(e) => Expr::call(Function::Exp, Expr::one()),
-            _ => e.map_parts(|part| number(part, is_e, alone)),
+            _ => e.map_parts(|part| number(part, alone)),
         }
     }
     // Alone it is a number beside a logarithm or a hyperbolic function only: `ln x = 1` and `x = e`.
-    let number = |e: &Expr| number(e, &is_e, logarithm);
-    let occurs = |content: &Content| {
-        let mut found = false;
-        content.each(&mut |e| found |= e.mentions("e"));
-        found
-    };
+    let number = |e: &Expr| number(e, logarithm);
+    let occurs = |content: &Content| content.mentions("e");
     if finding.verdict != Verdict::Different || occurs(expected) == occurs(answer) || key.declares_e
     {
         return;
@@ -93,42 +78,43 @@ pub(super) fn euler(
         // Beside an exponential function or a logarithm e is no symbol that is too much.
         let is_exp =
             |part: &Expr| matches!(part.node(), Node::Call(Function::Exp | Function::Ln, _));
-        let mut exponential = false;
-        expected.each(&mut |e| exponential |= e.parts().any(is_exp));
-        if exponential {
+        if expected.parts().any(is_exp) {
             *finding = found;
         }
         return;
     }
-    let mut counts = occurs(expected);
-    let mut note = |part: &Expr| {
-        if let Node::Power(base, k) = part.node()
-            && is_e(base)
-        {
-            let counter = |name: &Symbol| matches!(&**name, "n" | "N" | "k" | "i" | "j");
-            counts &= is_count(k) && (!logarithm || k.symbols().iter().any(counter));
-        }
-    };
-    expected.each(&mut |e| e.parts().for_each(&mut note));
-    if !counts {
+    let counter = |name: &Symbol| matches!(&**name, "n" | "N" | "k" | "i" | "j");
+    let mut exponents = expected.parts().filter_map(|part| match part.node() {
+        Node::Power(base, k) if is_e(base) => Some(k),
+        _ => None,
+    });
+    let counts = |k: &Expr| is_count(k) && (!logarithm || k.symbols().iter().any(counter));
+    if !(occurs(expected) && exponents.all(counts)) {
         *finding = found;
         let given = "e is the base of the natural logarithm";
         finding.assumed.push(given.into());
         return;
     }
     let words = "e is a symbol; as the base of the natural logarithm it would be right";
-    undecide(finding, words);
     let hint = "write exp(x) for the exponential function";
-    finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
+    ambiguous(finding, words, hint);
+}
+
+fn is_e(e: &Expr) -> bool {
+    e.as_symbol().is_some_and(|name| &**name == "e")
+}
+
+/// What e is raised to.
+fn exponent(e: &Expr) -> Option<&Expr> {
+    match e.node() {
+        Node::Power(base, k) if is_e(base) => Some(k),
+        Node::Call(Function::Exp, k) => Some(k),
+        _ => None,
+    }
 }
 
 /// `y'` for `dy/dx`, which would be right if it is that: a prime does not say by what.
-pub(super) fn primes(
-    key: &Key,
-    reading: &Reading,
-    options: &Options,
-    finding: &mut compare::Finding,
-) {
+pub(super) fn primes(key: &Key, reading: &Reading, options: &Options, finding: &mut Grade) {
     let primed = |name: &Symbol| {
         let (of, _) = name.strip_prefix('d')?.split_once("/d")?;
         Some((name.clone(), Expr::symbol(&Symbol::from(format!("{of}'")))))
@@ -146,27 +132,17 @@ pub(super) fn primes(
     };
     if compare::contents(&other, &reading.with(mine), options).verdict == Verdict::Equivalent {
         let words = "a prime does not say by what is differentiated; it would be right as the derivative that is asked for";
-        undecide(finding, words);
         let hint = "write the derivative as a quotient, as in dy/dx";
-        finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
+        ambiguous(finding, words, hint);
     }
 }
 
 /// `e^(i theta)` with an i that the question does not know: what sets the two apart is told of a symbol, and is no belief
 /// where the imaginary unit was meant.
-pub(super) fn imaginary(key: &Key, reading: &Reading, finding: &mut compare::Finding) {
-    let is_exponent = |k: &Expr| !is_count(k) && (k.mentions("i") || k.mentions("j"));
-    let mut found = false;
-    let mut note = |part: &Expr| match part.node() {
-        Node::Power(base, k) => {
-            found |= base.as_symbol().is_some_and(|s| &**s == "e") && is_exponent(k);
-        }
-        Node::Call(Function::Exp, k) => found |= is_exponent(k),
-        _ => {}
-    };
-    for content in [&key.reading.content, &reading.content] {
-        content.each(&mut |e| e.parts().for_each(&mut note));
-    }
+pub(super) fn imaginary(key: &Key, reading: &Reading, finding: &mut Grade) {
+    let turns = |k: &Expr| !is_count(k) && (k.mentions("i") || k.mentions("j"));
+    let all = key.reading.content.parts().chain(reading.content.parts());
+    let found = all.filter_map(exponent).any(turns);
     if finding.verdict == Verdict::Different && found && !key.declares_i {
         let words = "i or j in an exponent is read as a symbol; complex numbers are not compared";
         let hint = "write cosines and sines, or declare i and j where they are quantities";
@@ -179,19 +155,13 @@ pub(super) fn imaginary(key: &Key, reading: &Reading, finding: &mut compare::Fin
         && agree_as_complex(&turning(&(a - b)), &key.question.domains)
     {
         let words = "i is read as a symbol; as the imaginary unit it would be right";
-        undecide(finding, words);
         let hint = "complex numbers are not compared: ask for real and imaginary part";
-        finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
+        ambiguous(finding, words, hint);
     }
 }
 
 /// cos x + i sin x for e to the power of i x.
 fn turning(e: &Expr) -> Expr {
-    let exponent = match e.node() {
-        Node::Power(base, k) if base.as_symbol().is_some_and(|s| &**s == "e") => Some(k),
-        Node::Call(Function::Exp, k) => Some(k),
-        _ => None,
-    };
     let factor = |k: &Expr| match k.node() {
         Node::Product(parts) => {
             let (units, others): (Vec<_>, Vec<_>) = parts
@@ -203,7 +173,7 @@ fn turning(e: &Expr) -> Expr {
         }
         _ => (*k == Expr::symbol("i")).then(Expr::one),
     };
-    match exponent.and_then(factor) {
+    match exponent(e).and_then(factor) {
         Some(x) => {
             Expr::call(Function::Cos, x.clone()) + Expr::symbol("i") * Expr::call(Function::Sin, x)
         }
@@ -227,7 +197,7 @@ fn agree_as_complex(difference: &Expr, domains: &Domains) -> bool {
 }
 
 /// `x = n pi` for an equation in sines: its n may stand for any whole number, which is told of no symbol.
-pub(super) fn any_whole_number(key: &Key, reading: &Reading, finding: &mut compare::Finding) {
+pub(super) fn any_whole_number(key: &Key, reading: &Reading, finding: &mut Grade) {
     let asked = key.reading.content.symbols();
     let said = reading.content.symbols();
     let is_count = |name: &Symbol| matches!(&**name, "n" | "k" | "m" | "N" | "j");
@@ -237,30 +207,25 @@ pub(super) fn any_whole_number(key: &Key, reading: &Reading, finding: &mut compa
     let Some(count) = counts.next() else {
         return;
     };
-    let (mut turns, mut periodic) = (false, false);
-    reading.content.each(&mut |e| {
-        let product = |part: &Expr| matches!(part.node(), Node::Product(_));
-        let is_turn = |part: &Expr| product(part) && part.mentions(count) && part.mentions("pi");
-        turns |= e.parts().any(is_turn);
-    });
-    key.reading.content.each(&mut |e| {
-        let is_arc = |f: &Function| matches!(f, Function::Sin | Function::Cos | Function::Tan);
-        periodic |= e
-            .parts()
-            .any(|part| matches!(part.node(), Node::Call(f, _) if is_arc(f)));
-    });
+    let is_turn = |part: &Expr| {
+        matches!(part.node(), Node::Product(_)) && part.mentions(count) && part.mentions("pi")
+    };
+    let is_arc = |part: &Expr| {
+        use Function::{Cos, Sin, Tan};
+        matches!(part.node(), Node::Call(Sin | Cos | Tan, _))
+    };
+    let turns = reading.content.parts().any(is_turn);
+    let periodic = key.reading.content.parts().any(is_arc);
     if finding.verdict == Verdict::Different && turns && periodic {
         let words =
             format!("{count} is read as a symbol; what holds for any whole number is not compared");
-        undecide(finding, &words);
-        let hint = "give the solutions of one period";
-        finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
+        ambiguous(finding, &words, "give the solutions of one period");
     }
 }
 
 /// `(1, 2) or (2, 1)`: an interval whose ends stand the wrong way round holds nothing and would agree with anything; it is a
 /// point, or a slip.
-pub(super) fn backwards(key: &Key, reading: &Reading, finding: &mut compare::Finding) {
+pub(super) fn backwards(key: &Key, reading: &Reading, finding: &mut Grade) {
     let value = |side: &Content| side.expr()?.evaluate(&Point::default());
     let empty = |part: &Content| match part {
         Content::Relations(sides, signs) => match (&sides[..], &signs[..]) {
@@ -288,7 +253,7 @@ pub(super) fn backwards(key: &Key, reading: &Reading, finding: &mut compare::Fin
 
 /// `e^2x` that is wrong as it stands, and would be right with all of 2x in the exponent: many who type mean that. What would
 /// be right with a quotient there, `x^1/2`, stays wrong and is told.
-pub(super) fn raised(key: &Key, answer: &str, options: &Options, finding: &mut compare::Finding) {
+pub(super) fn raised(key: &Key, answer: &str, options: &Options, finding: &mut Grade) {
     if finding.verdict != Verdict::Different || answer.len() > LONGEST {
         return;
     }
@@ -335,12 +300,18 @@ fn raised_further(text: &str, signs: &str) -> Option<String> {
 }
 
 /// Nothing is decided, for a text has two meanings.
-fn undecide(finding: &mut compare::Finding, words: &str) {
+fn undecide(finding: &mut Grade, words: &str) {
     finding.verdict = Verdict::Undecided;
     finding.note = "UNDECIDED_AMBIGUOUS";
     finding.proof = Proof::of("none", words);
     finding.counterexample = None;
     finding.diagnosis.clear();
+}
+
+/// The same, with words on what could be written in place of it.
+fn ambiguous(finding: &mut Grade, words: &str, hint: &str) {
+    undecide(finding, words);
+    finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
 }
 
 /// Whether an exponent may count something: a whole number, a symbol, or a sum of such with positive factors.
@@ -368,7 +339,7 @@ pub(super) fn turned(
     answer: &str,
     options: &Options,
     reading: &mut Reading,
-    finding: &mut compare::Finding,
+    finding: &mut Grade,
 ) {
     let arc = |notes: &[Note], arc| {
         let remark = Remark::ArcOrFactor { arc };
@@ -557,7 +528,7 @@ pub(super) fn unit_behind(
     answer: &str,
     options: &Options,
     reading: &mut Reading,
-    finding: &mut compare::Finding,
+    finding: &mut Grade,
 ) {
     let known = |word: &str| key.question.symbols.iter().any(|g| *g.name == *word);
     // `0.25 m g h J` is a number of units where m, g and h are the symbols of a formula.
@@ -636,7 +607,7 @@ pub(super) fn ambiguity(
     answer: &str,
     options: &Options,
     reading: &Reading,
-    finding: &mut compare::Finding,
+    finding: &mut Grade,
 ) {
     if !matches!(finding.verdict, Verdict::Equivalent | Verdict::Different) {
         return;

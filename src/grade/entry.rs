@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value};
 
-use super::{Form, Given, Grade, Key, Options, Proof, Question, Tolerance, Verdict, number};
+use super::{Form, Given, Grade, Key, Options, Question, Tolerance, number};
 use crate::dimension;
 use crate::domain::{Domain, Limit};
 use crate::expr::Rational;
@@ -300,11 +300,8 @@ impl Keys {
 
 /// The grade of a line that cannot be judged for a reason outside the formulas.
 pub fn refused(message: String) -> Grade {
-    let mut grade = super::unreadable_key(*Fault::new(message, 0, 0));
-    grade.note = "INVALID_LINE";
-    grade.proof = Proof::of("none", "the line cannot be judged");
-    grade.verdict = Verdict::Invalid;
-    grade
+    let fault = *Fault::new(message, 0, 0);
+    Grade::invalid("INVALID_LINE", "the line cannot be judged", fault)
 }
 
 /// Judges an entry; `in_scene` judges those that name a scene.

@@ -1,7 +1,6 @@
 //! Demands on the way an answer is written: simplified, factored, in given symbols, to so many digits, with a unit.
 
-use super::compare::Finding;
-use super::{Diagnosis, Key, Verdict};
+use super::{Diagnosis, Grade, Key, Verdict};
 use crate::algebra::{Element, Field, tidy};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Content, Link, Reading, Shape, Written};
@@ -46,103 +45,66 @@ impl Form {
 }
 
 /// Turns a right answer that does not have the form demanded into a different one.
-pub(super) fn demand(forms: &[Form], key: &Key, answer: &Reading, finding: &mut Finding) {
+pub(super) fn demand(forms: &[Form], key: &Key, answer: &Reading, finding: &mut Grade) {
     if finding.is_equivalent()
-        && let Some((note, diagnosis)) = unmet(forms, key, answer)
+        && let Some((note, words)) = forms.iter().find_map(|form| unmet(form, key, answer))
     {
         finding.verdict = Verdict::Different;
         finding.note = note;
-        finding.diagnosis.insert(0, diagnosis);
+        let code = note.trim_start_matches("DIFF_");
+        let found = Diagnosis::new(code, format!("right, but {words}"), words);
+        finding.diagnosis.insert(0, found);
     }
 }
 
-/// The first demand that is not met.
-fn unmet(forms: &[Form], key: &Key, answer: &Reading) -> Option<(&'static str, Diagnosis)> {
-    forms.iter().find_map(|form| {
-        let (note, code, words) = check(form, key, answer)?;
-        Some((
-            note,
-            Diagnosis::new(code, format!("right, but {words}"), words),
-        ))
+/// The note and the words for a demand that is not met.
+fn unmet(form: &Form, key: &Key, answer: &Reading) -> Option<(&'static str, String)> {
+    let content = answer.content.answer();
+    let all = content.exprs();
+    Some(match form {
+        Form::Simplified if is_long(key, answer) => {
+            ("DIFF_FORM_SIMPLIFIED", "it can be simplified".into())
+        }
+        Form::Factored if !all.iter().all(|e| factored(e, key)) => {
+            let words = "it is to be written as a product of factors";
+            ("DIFF_FORM_FACTORED", words.into())
+        }
+        Form::Only(names) => {
+            let mut used = all.into_iter().flat_map(Expr::symbols);
+            let other = used.find(|name| !names.contains(name))?;
+            let words = format!("it is to be written without {other}");
+            ("DIFF_FORM_SYMBOLS", words)
+        }
+        Form::Digits(n) => {
+            let words = match answer.literal.as_ref().map(|literal| literal.digits) {
+                Some(digits) if digits == *n => return None,
+                Some(digits) => {
+                    format!("{n} significant digits are asked for, and it has {digits}")
+                }
+                None => format!("a decimal number with {n} significant digits is asked for"),
+            };
+            ("DIFF_FORM_DIGITS", words)
+        }
+        Form::WithUnit if !matches!(content, Content::Quantity(_)) => {
+            ("DIFF_FORM_UNIT", "a unit is to be given".into())
+        }
+        _ => return None,
     })
 }
 
-fn check(form: &Form, key: &Key, answer: &Reading) -> Option<(&'static str, &'static str, String)> {
-    match form {
-        Form::Simplified => {
-            let mut long = false;
-            let mut shortest = usize::MAX;
-            key.reading
-                .content
-                .each(&mut |e| shortest = shortest.min(e.size()));
-            answer.content.answer().each(&mut |e| {
-                let read = Field::of(&key.question.domains, e).ok();
-                let tidy = read
-                    .filter(|(_, x)| x.terms() <= super::compare::WRITTEN)
-                    .map_or(usize::MAX, |(field, x)| field.expr(&x).size())
-                    .min(shortest);
-                long |= tidy != usize::MAX && 2 * e.size() > 3 * tidy + 4 || repeats(e);
-            });
-            long |= answer.written.last().is_some_and(reducible);
-            long.then(|| {
-                (
-                    "DIFF_FORM_SIMPLIFIED",
-                    "FORM_SIMPLIFIED",
-                    "it can be simplified".to_string(),
-                )
-            })
-        }
-        Form::Factored => {
-            let mut open = false;
-            answer
-                .content
-                .answer()
-                .each(&mut |e| open |= !factored(e, key));
-            open.then(|| {
-                (
-                    "DIFF_FORM_FACTORED",
-                    "FORM_FACTORED",
-                    "it is to be written as a product of factors".to_string(),
-                )
-            })
-        }
-        Form::Only(names) => {
-            let mut others = Vec::new();
-            answer.content.answer().each(&mut |e| {
-                others.extend(e.symbols().into_iter().filter(|s| !names.contains(s)))
-            });
-            let first = others.first()?;
-            Some((
-                "DIFF_FORM_SYMBOLS",
-                "FORM_SYMBOLS",
-                format!("it is to be written without {first}"),
-            ))
-        }
-        Form::Digits(n) => match &answer.literal {
-            Some(literal) if literal.digits == *n => None,
-            Some(literal) => Some((
-                "DIFF_FORM_DIGITS",
-                "FORM_DIGITS",
-                format!(
-                    "{n} significant digits are asked for, and it has {}",
-                    literal.digits
-                ),
-            )),
-            None => Some((
-                "DIFF_FORM_DIGITS",
-                "FORM_DIGITS",
-                format!("a decimal number with {n} significant digits is asked for"),
-            )),
-        },
-        Form::WithUnit => match answer.content.answer() {
-            Content::Quantity(_) => None,
-            _ => Some((
-                "DIFF_FORM_UNIT",
-                "FORM_UNIT",
-                "a unit is to be given".to_string(),
-            )),
-        },
-    }
+/// Whether an answer is longer than half again the shortest form known, or has like parts that are not gathered.
+fn is_long(key: &Key, answer: &Reading) -> bool {
+    let known = key.reading.content.exprs().into_iter().map(Expr::size);
+    let shortest = known.min().unwrap_or(usize::MAX);
+    let long = |e: &&Expr| {
+        let read = Field::of(&key.question.domains, e).ok();
+        let tidy = read
+            .filter(|(_, x)| x.terms() <= super::compare::WRITTEN)
+            .map_or(usize::MAX, |(field, x)| field.expr(&x).size())
+            .min(shortest);
+        tidy != usize::MAX && 2 * e.size() > 3 * tidy + 4 || repeats(e)
+    };
+    answer.content.answer().exprs().iter().any(long) || answer.written.last().is_some_and(reducible)
 }
 
 /// Whether equal terms or factors stand side by side.

@@ -297,16 +297,8 @@ pub fn judge(expected: &str, answer: &str, question: &Question, options: &Option
 
 /// The grade where the expected formula itself cannot be read.
 pub fn unreadable_key(fault: Fault) -> Grade {
-    Grade {
-        verdict: Verdict::Invalid,
-        note: "INVALID_EXPECTED",
-        proof: Proof::of("none", "the expected formula cannot be read"),
-        assumed: Vec::new(),
-        counterexample: None,
-        error: Some(fault),
-        diagnosis: Vec::new(),
-        content: None,
-    }
+    let words = "the expected formula cannot be read";
+    Grade::invalid("INVALID_EXPECTED", words, fault)
 }
 
 /// Most steps that one judgement takes in all its stages: readings, points, proof, solutions, what is wrong.
@@ -436,24 +428,14 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
             .extend(doubt::remarks(&reading, answer, finding.verdict));
     }
     Grade {
-        verdict: finding.verdict,
-        note: finding.note,
-        proof: finding.proof,
-        assumed: finding.assumed,
-        counterexample: finding.counterexample,
-        error: None,
-        diagnosis: finding.diagnosis,
         content: Some(reading.content),
+        ..finding
     }
 }
 
 /// The grade of an answer that cannot be read.
 fn unreadable(fault: Fault) -> Grade {
-    Grade {
-        note: "INVALID_SYNTAX",
-        proof: Proof::of("none", "the answer cannot be read"),
-        ..unreadable_key(fault)
-    }
+    Grade::invalid("INVALID_SYNTAX", "the answer cannot be read", fault)
 }
 
 /// A content in plain notation.

@@ -429,8 +429,6 @@ pub(super) fn sizes<'a>(
     if components.is_empty() {
         return None;
     }
-    let mut names = std::collections::BTreeSet::new();
-    content.each(&mut |e| names.append(&mut e.symbols()));
     let size = |name: Symbol| {
         let arrow = formula::with_arrow(&name)?;
         let along = ["x", "y", "z"].map(|axis| format!("{arrow}_{axis}"));
@@ -438,7 +436,10 @@ pub(super) fn sizes<'a>(
         let squares = along.map(|c| Expr::symbol(&c).powi(2));
         here.then(|| (name, Expr::sum(squares.to_vec()).sqrt()))
     };
-    let free = names.into_iter().filter(|name| !known.contains(&name));
+    let free = content
+        .symbols()
+        .into_iter()
+        .filter(|name| !known.contains(&name));
     let same: BTreeMap<Symbol, Expr> = free.filter_map(size).collect();
     (!same.is_empty()).then(|| content.map(&|e| e.substitute(&same)))
 }

@@ -24,8 +24,8 @@ mod zeros;
 use std::collections::BTreeSet;
 use std::slice::from_ref;
 
-use super::compare::{Context, Finding};
-use super::{Apart, Verdict};
+use super::compare::Context;
+use super::{Apart, Grade, Verdict};
 use crate::algebra::{self, Element, Field, Sign};
 use crate::domain::{Domain, Domains, roles};
 use crate::expr::{Expr, Function, Node, Symbol, ratio};
@@ -67,10 +67,10 @@ pub(crate) fn compare(
     ctx: &Context,
     (sides, signs): (&[Content], &[Relation]),
     (mine, my_signs): (&[Content], &[Relation]),
-) -> Finding {
+) -> Grade {
     let (Some(expected), Some(answer)) = (links(sides, signs), links(mine, my_signs)) else {
         let words = "the relation holds something that is not a plain expression";
-        return Finding::different("DIFF_KIND", "kind", words);
+        return Grade::different("DIFF_KIND", "kind", words);
     };
     let domains = &ctx.key.question.domains;
     if let Some(found) = listed::beyond(ctx, &expected, mine) {
@@ -97,7 +97,7 @@ pub(crate) fn compare(
 
 /// An equivalence of the relations of two systems beside what must not be zero, unless in one symbol one system has no value
 /// where the other holds.
-fn where_defined(found: Finding, [expected, answer]: [&[Normal]; 2], domains: &Domains) -> Finding {
+fn where_defined(found: Grade, [expected, answer]: [&[Normal]; 2], domains: &Domains) -> Grade {
     let (Some((e, _)), Some((a, _))) = (main(expected), main(answer)) else {
         return found;
     };
@@ -125,13 +125,11 @@ pub(super) fn unsigned(content: &Content) -> Vec<Symbol> {
         Content::Joined(_, parts) => return parts.iter().flat_map(unsigned).collect(),
         _ => return Vec::new(),
     };
-    let mut all = Vec::new();
-    content.each(&mut |e| all.push(e.clone()));
-    let uses = roles(&all.iter().collect::<Vec<_>>()).symbols;
+    let uses = roles(&content.exprs()).symbols;
     let mut uses = uses.iter();
     if let (Some((name, role)), None) = (uses.next(), uses.next()) {
         let logarithm = |part: &Expr| matches!(part.node(), Node::Call(Function::Ln, x) if x.as_symbol() == Some(name));
-        let positive = all.iter().any(|e| e.parts().any(logarithm));
+        let positive = content.parts().any(logarithm);
         let either = !(role.turns || is_angle_name(name) || positive);
         return Vec::from_iter(either.then(|| name.clone()));
     }
@@ -159,10 +157,10 @@ fn between_bars(side: &Content) -> Option<Symbol> {
 }
 
 /// Compares relations of which all hold, or one, with others.
-pub(crate) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Finding {
+pub(crate) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Grade {
     let (Some(mine), Some(theirs)) = (cases(expected), cases(answer)) else {
         let words = "the relation holds something that is not a plain expression";
-        return Finding::different("DIFF_KIND", "kind", words);
+        return Grade::different("DIFF_KIND", "kind", words);
     };
     let domains = &ctx.key.question.domains;
     if let Some(found) = system::in_one_symbol(ctx, &mine, &theirs, domains) {
@@ -391,7 +389,7 @@ fn rooted(difference: Expr) -> Expr {
 }
 
 /// Two relations as they are written, or else with the functions undone that stand around both sides.
-fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
+fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {
     let mut pair = [expected.clone(), answer.clone()];
     let domains = (ctx.key.question.domains).of(&[&expected.difference, &answer.difference]);
     if expected.relation == Relation::Equal && answer.relation == Relation::Equal {
@@ -506,7 +504,7 @@ fn divide(n: &mut Normal, sought: &BTreeSet<Symbol>, domains: &Domains) -> Vec<S
     free.iter().filter(open).map(not_zero).collect()
 }
 
-fn as_written(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
+fn as_written(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {
     let is_equation = |n: &Normal| !matches!(n.relation, Relation::Less | Relation::LessEqual);
     match (is_equation(expected), is_equation(answer)) {
         (true, true) if expected.relation == answer.relation => equations(ctx, expected, answer),
@@ -520,9 +518,9 @@ fn as_written(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
             let [asked, given] = [said(expected), said(answer)];
             let words = format!("{asked} is expected, and the answer is {given}");
             match apart_at_points(ctx, from_ref(expected), from_ref(answer)) {
-                Some(apart) => Finding {
+                Some(apart) => Grade {
                     counterexample: apart.counterexample,
-                    ..Finding::told("DIFF_RELATION", "kind", words.clone(), words)
+                    ..Grade::told("DIFF_RELATION", "kind", words.clone(), words)
                 },
                 None => undecided(&words),
             }
@@ -530,30 +528,30 @@ fn as_written(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
     }
 }
 
-fn same_solutions(words: &str) -> Finding {
-    Finding::new(Verdict::Equivalent, "EQUIV_SOLUTIONS", "solutions", words)
+fn same_solutions(words: &str) -> Grade {
+    Grade::new(Verdict::Equivalent, "EQUIV_SOLUTIONS", "solutions", words)
 }
 
 /// What equations may differ by.
 const APART: &str = "the two differ by factors without the sought quantity";
 
 /// The same solutions where nothing is zero of what sets the two apart.
-fn given_not_zero(words: &str, assumed: Vec<String>) -> Finding {
+fn given_not_zero(words: &str, assumed: Vec<String>) -> Grade {
     let words = format!("{words}, given that no factor is zero");
-    Finding {
+    Grade {
         assumed,
-        ..Finding::new(Verdict::Equivalent, "EQUIV_ASSUMED", "solutions", words)
+        ..Grade::new(Verdict::Equivalent, "EQUIV_ASSUMED", "solutions", words)
     }
 }
 
-fn undecided(words: &str) -> Finding {
-    Finding::new(Verdict::Undecided, "UNDECIDED_SOLUTIONS", "none", words)
+fn undecided(words: &str) -> Grade {
+    Grade::new(Verdict::Undecided, "UNDECIDED_SOLUTIONS", "none", words)
 }
 
 /// The finding where the expected relation says nothing.
-fn says_nothing(what: &str) -> Finding {
+fn says_nothing(what: &str) -> Grade {
     let words = format!("the expected relation {what}, even over the reals: it says nothing");
-    Finding::new(Verdict::Invalid, "INVALID_EXPECTED", "none", words)
+    Grade::new(Verdict::Invalid, "INVALID_EXPECTED", "none", words)
 }
 
 /// The domains with every symbol real.

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::compare::{Context, Finding, kind, scalars, values};
-use super::{Diagnosis, Verdict, relation, show, unit};
+use super::compare::{Context, kind, scalars, values};
+use super::{Diagnosis, Grade, Verdict, relation, show, unit};
 use crate::dimension::Unit;
 use crate::equality;
 use crate::expr::{Expr, Symbol};
@@ -11,7 +11,7 @@ use crate::formula::{self, UNNAMED};
 use crate::formula::{Content, Join, Quantity, Reading, Relation};
 
 /// The finding where the expected content or the answer joins several relations.
-pub(super) fn joined(ctx: &Context, expected: &Content, reading: &Reading) -> Option<Finding> {
+pub(super) fn joined(ctx: &Context, expected: &Content, reading: &Reading) -> Option<Grade> {
     let answer = &reading.content;
     let is_joined = |content: &Content| matches!(content, Content::Joined(..));
     let unnamed = |content: &Content| content.mentions(UNNAMED);
@@ -134,7 +134,7 @@ fn point(ctx: &Context, count: usize, given: &[Expr]) -> Option<Content> {
 }
 
 /// `2v_f = v; v_f = v/2` for `v/2`: a name of the answer's own is solved for last, and what stands before agrees with it.
-fn found_last(ctx: &Context, parts: &[Content]) -> Option<Finding> {
+fn found_last(ctx: &Context, parts: &[Content]) -> Option<Grade> {
     let (last, before) = parts.split_last()?;
     let [(name, value)] = &results(last)?[..] else {
         return None;
@@ -205,7 +205,7 @@ fn measured(value: &Expr, unit: Option<&Unit>) -> Content {
 }
 
 /// The finding where a number stands without the unit of the expected values.
-fn unit_missing(ctx: &Context, answer: &Content) -> Option<Finding> {
+fn unit_missing(ctx: &Context, answer: &Content) -> Option<Grade> {
     let unit = ctx.key.reading.unit.as_ref()?;
     let bare = |value: &Content| match value {
         Content::Scalar(e) => e.is_constant() && !e.is_zero(),
@@ -325,13 +325,13 @@ fn results(content: &Content) -> Option<Vec<(Symbol, Content)>> {
 }
 
 /// Results compared by their names, in any order. One that is not asked for is not judged.
-fn by_name(ctx: &Context, expected: &[(Symbol, Content)], answer: &[(Symbol, Content)]) -> Finding {
-    let mut total: Option<Finding> = None;
+fn by_name(ctx: &Context, expected: &[(Symbol, Content)], answer: &[(Symbol, Content)]) -> Grade {
+    let mut total: Option<Grade> = None;
     for (name, value) in expected {
         let Some((_, mine)) = answer.iter().find(|(other, _)| other == name) else {
             let words = format!("{name} is missing");
             let hint = "more results are asked for";
-            return Finding::told("DIFF_ONE_OF_TWO", "kind", words, hint);
+            return Grade::told("DIFF_ONE_OF_TWO", "kind", words, hint);
         };
         let mut finding = values(ctx, value, mine);
         if finding.verdict == Verdict::Different {
@@ -345,7 +345,7 @@ fn by_name(ctx: &Context, expected: &[(Symbol, Content)], answer: &[(Symbol, Con
             _ => total = Some(finding),
         }
     }
-    let mut total = total.unwrap_or_else(|| Finding::different("DIFF_KIND", "kind", "no result"));
+    let mut total = total.unwrap_or_else(|| Grade::different("DIFF_KIND", "kind", "no result"));
     for (name, value) in answer {
         if !expected.iter().any(|(other, _)| other == name) {
             total.assumed.push(format!(
@@ -358,10 +358,10 @@ fn by_name(ctx: &Context, expected: &[(Symbol, Content)], answer: &[(Symbol, Con
 }
 
 /// Values in any order, of which each has to be given.
-pub(super) fn lists(ctx: &Context, expected: &[Expr], answer: &[Expr]) -> Finding {
+pub(super) fn lists(ctx: &Context, expected: &[Expr], answer: &[Expr]) -> Grade {
     let plain = ctx.plain();
     let mut found = vec![false; answer.len()];
-    let (mut total, mut undecided, mut lost) = (None::<Finding>, None, None);
+    let (mut total, mut undecided, mut lost) = (None::<Grade>, None, None);
     for value in expected {
         let mut here = None;
         for (k, mine) in answer.iter().enumerate() {
@@ -393,7 +393,7 @@ pub(super) fn lists(ctx: &Context, expected: &[Expr], answer: &[Expr]) -> Findin
                 2 => "one of the two values is missing".to_string(),
                 _ => format!("the value {} is missing", ctx.say(lost)),
             };
-            Finding::told("DIFF_ONE_OF_TWO", "kind", words, "there are more values")
+            Grade::told("DIFF_ONE_OF_TWO", "kind", words, "there are more values")
         }
         (lost, gained, ..) => {
             let beside = gained.map_or(&answer[0], |(value, _)| value);
@@ -405,7 +405,7 @@ pub(super) fn lists(ctx: &Context, expected: &[Expr], answer: &[Expr]) -> Findin
                 _ => {
                     let words = format!("{} is none of the values", ctx.say(beside));
                     let hint = "check each of your values";
-                    Finding::told("DIFF_ROOT_GAINED", "kind", words, hint)
+                    Grade::told("DIFF_ROOT_GAINED", "kind", words, hint)
                 }
             }
         }

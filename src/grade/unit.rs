@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::compare::{Context, Finding, scalars};
-use super::{Diagnosis, Key, Tolerance, Verdict};
+use super::compare::{Context, scalars};
+use super::{Diagnosis, Grade, Key, Tolerance, Verdict};
 use crate::dimension::{self, Clash, Dimension, Unit};
 use crate::expr::Expr;
 use crate::formula::{self, Content, Fault, Quantity, Reading, Remark, Symbols, write_plain};
@@ -12,19 +12,15 @@ use crate::formula::{self, Content, Fault, Quantity, Reading, Remark, Symbols, w
 ///
 /// Behind a formula whose symbols have dimensions the unit has to fit and to be the coherent one, and says nothing new;
 /// where dimensions are not known it cannot be checked, and the reader's remark says that it was not used.
-pub(super) fn behind(key: &Key, reading: &Reading, finding: &mut Finding) {
+pub(super) fn behind(key: &Key, reading: &Reading, finding: &mut Grade) {
     let content = reading.content.answer();
     // Results with their names were compared with their units.
     let named = matches!(key.reading.content, Content::Joined(..));
     if named || matches!(content, Content::Quantity(_)) {
         return;
     }
-    let mut constant = true;
-    let mut zero = true;
-    content.each(&mut |e: &Expr| {
-        constant &= e.is_constant();
-        zero &= e.is_zero();
-    });
+    let constant = content.exprs().iter().all(|e| e.is_constant());
+    let zero = content.exprs().iter().all(|e| e.is_zero());
     let asked = asked(key);
     let Some(unit) = &reading.unit else {
         let needed = key.reading.unit.as_ref().filter(|u| !u.dimension.is_none());
@@ -49,7 +45,7 @@ pub(super) fn behind(key: &Key, reading: &Reading, finding: &mut Finding) {
         Some(_) if !constant && !is_coherent(unit) && finding.is_equivalent() => {
             let words = "the symbols carry their units; the unit behind the formula is another one";
             let found = Diagnosis::new("UNIT_OF_SYMBOLS", words, "leave the unit away");
-            *finding = Finding::new(Verdict::Invalid, "INVALID_UNIT", "none", words).with(found);
+            *finding = Grade::new(Verdict::Invalid, "INVALID_UNIT", "none", words).with(found);
         }
         None if constant && !unit.dimension.is_none() => {
             *finding = extra(&unit.dimension.si(), false)
@@ -60,15 +56,14 @@ pub(super) fn behind(key: &Key, reading: &Reading, finding: &mut Finding) {
 
 /// Relations that would be right but for a number without its unit, or with another: `v > 2` for `v > 2 m/s`. What stands alone
 /// beside a quantity in the expected relations has its dimension.
-pub(super) fn of_relations(key: &Key, reading: &Reading, finding: &mut Finding) {
+pub(super) fn of_relations(key: &Key, reading: &Reading, finding: &mut Grade) {
     let mut known = BTreeMap::new();
-    each_chain(&key.reading.content, &mut |sides| {
-        let measured = sides.iter().find_map(dimension_of);
+    for sides in key.reading.content.chains() {
         let names = sides.iter().filter_map(|side| side.expr()?.as_symbol());
-        if let Some(dimension) = measured {
+        if let Some(dimension) = sides.iter().find_map(dimension_of) {
             known.extend(names.map(|name| (name.to_string(), dimension.clone())));
         }
-    });
+    }
     if finding.verdict != Verdict::Equivalent || known.is_empty() {
         return;
     }
@@ -95,40 +90,23 @@ pub(super) fn unclear(answer: &str) -> Option<Fault> {
 
 /// Two dimensions that relations set against each other, `known` being those of names.
 fn clash(content: &Content, known: &BTreeMap<String, Dimension>) -> Option<[Dimension; 2]> {
-    let mut clash = None;
-    each_chain(content, &mut |sides| {
-        let dimension = |side: &Content| match side {
-            Content::Quantity(q) => Some(q.unit.dimension.clone()),
-            other => dimension::of(other.expr()?, &|name| known.get(name).cloned()).ok()?,
-        };
-        let sum = |side: &Content| {
-            let found = dimension::of(side.expr()?, &|name| known.get(name).cloned());
-            let Clash::Sum {
-                left_is, right_is, ..
-            } = *found.err()?
-            else {
-                return None;
-            };
-            Some([left_is, right_is])
-        };
+    let known = |name: &str| known.get(name).cloned();
+    let dimension = |side: &Content| match side {
+        Content::Quantity(q) => Some(q.unit.dimension.clone()),
+        other => dimension::of(other.expr()?, &known).ok()?,
+    };
+    let sum = |side: &Content| match *dimension::of(side.expr()?, &known).err()? {
+        Clash::Sum {
+            left_is, right_is, ..
+        } => Some([left_is, right_is]),
+        _ => None,
+    };
+    content.chains().into_iter().find_map(|sides| {
         let all: Vec<Dimension> = sides.iter().filter_map(dimension).collect();
         let apart = all.iter().find(|other| **other != all[0]);
         let apart = apart.map(|other| [all[0].clone(), other.clone()]);
-        clash = clash
-            .take()
-            .or(apart)
-            .or_else(|| sides.iter().find_map(sum));
-    });
-    clash
-}
-
-/// The sides of every chain of relations in a content.
-pub(super) fn each_chain(content: &Content, visit: &mut dyn FnMut(&[Content])) {
-    match content {
-        Content::Relations(sides, _) => visit(sides),
-        Content::Joined(_, parts) => parts.iter().for_each(|part| each_chain(part, visit)),
-        _ => {}
-    }
+        apart.or_else(|| sides.iter().find_map(sum))
+    })
 }
 
 /// The dimension of a quantity that is no plain number.
@@ -196,9 +174,9 @@ fn with_word(text: &str, word: &str, other: &str) -> Option<String> {
 const MISSING: &str = "a unit is missing";
 
 /// The finding where a number stands without a unit.
-pub(super) fn missing(unit: &str) -> Finding {
+pub(super) fn missing(unit: &str) -> Grade {
     let words = format!("the unit {unit} is missing");
-    Finding::told("DIFF_UNIT_MISSING", "dimension", words, MISSING)
+    Grade::told("DIFF_UNIT_MISSING", "dimension", words, MISSING)
 }
 
 fn is_coherent(unit: &Unit) -> bool {
@@ -239,17 +217,13 @@ fn asked(key: &Key) -> Option<Dimension> {
         let mut all = key.question.given();
         all.find(|g| *g.name == *name)?.dimension.clone()
     };
-    let mut found = None;
-    key.reading.content.answer().each(&mut |e: &Expr| {
-        if found.is_none() && !e.is_zero() && !e.is_constant() {
-            found = dimension::of(e, &known).ok().flatten();
-        }
-    });
-    found
+    let said = key.reading.content.answer().exprs().into_iter();
+    let mut said = said.filter(|e| !e.is_zero() && !e.is_constant());
+    said.find_map(|e| dimension::of(e, &known).ok()?)
 }
 
 /// Two quantities with units.
-pub(super) fn quantities(ctx: &Context, expected: &Quantity, answer: &Quantity) -> Finding {
+pub(super) fn quantities(ctx: &Context, expected: &Quantity, answer: &Quantity) -> Grade {
     let (asked, given) = (&expected.unit.dimension, &answer.unit.dimension);
     if asked != given {
         let right = scalars(ctx, &expected.value, &answer.value).is_equivalent();
@@ -273,7 +247,7 @@ pub(super) fn quantities(ctx: &Context, expected: &Quantity, answer: &Quantity) 
         let words = "Hz counts turns in a second, rad/s radians: one is 2π of the other";
         let hint = "is an angular velocity asked for, or a frequency?";
         let found = Diagnosis::new("UNIT_WRONG", words, hint);
-        return Finding::different("DIFF_UNIT", "dimension", words).with(found);
+        return Grade::different("DIFF_UNIT", "dimension", words).with(found);
     }
     if finding.is_equivalent() && expected.unit.value() != answer.unit.value() {
         let words = format!(
@@ -299,7 +273,7 @@ pub(super) fn quantities(ctx: &Context, expected: &Quantity, answer: &Quantity) 
     finding
 }
 
-fn wrong(asked: &Dimension, given: &Dimension, unit: &str, number_right: bool) -> Finding {
+fn wrong(asked: &Dimension, given: &Dimension, unit: &str, number_right: bool) -> Grade {
     let words = format!("{unit} measures {given}, and {asked} is asked for");
     let beside = if number_right {
         "; the number is right"
@@ -309,11 +283,11 @@ fn wrong(asked: &Dimension, given: &Dimension, unit: &str, number_right: bool) -
     let message = format!("{words}{beside}");
     let hint = format!("the unit {unit} does not fit what is asked");
     let found = Diagnosis::new("UNIT_WRONG", message, hint);
-    Finding::different("DIFF_UNIT", "dimension", words).with(found)
+    Grade::different("DIFF_UNIT", "dimension", words).with(found)
 }
 
 /// A number or formula for a quantity with a unit.
-pub(super) fn without(ctx: &Context, expected: &Quantity, answer: &Expr) -> Finding {
+pub(super) fn without(ctx: &Context, expected: &Quantity, answer: &Expr) -> Grade {
     // A formula in symbols carries its unit with them.
     if expected.unit.dimension.is_none() || !answer.is_constant() {
         return scalars(ctx, &expected.value, answer);
@@ -331,11 +305,11 @@ pub(super) fn without(ctx: &Context, expected: &Quantity, answer: &Expr) -> Find
         ),
         false => "the unit is missing, and the number is not the expected one".to_string(),
     };
-    Finding::told("DIFF_UNIT_MISSING", "dimension", words, MISSING)
+    Grade::told("DIFF_UNIT_MISSING", "dimension", words, MISSING)
 }
 
 /// A quantity with a unit for a number or formula.
-pub(super) fn with(ctx: &Context, expected: &Expr, answer: &Quantity) -> Finding {
+pub(super) fn with(ctx: &Context, expected: &Expr, answer: &Quantity) -> Grade {
     if answer.unit.dimension.is_none() {
         return scalars(ctx, expected, &answer.value);
     }
@@ -360,11 +334,11 @@ pub(super) fn with(ctx: &Context, expected: &Expr, answer: &Quantity) -> Finding
     }
 }
 
-fn extra(unit: &str, right: bool) -> Finding {
+fn extra(unit: &str, right: bool) -> Grade {
     let words = match right {
         true => format!("a pure number is expected; without {unit} it would be right"),
         false => format!("a pure number is expected, not one in {unit}"),
     };
     let hint = "a unit stands where none is asked";
-    Finding::told("DIFF_UNIT_EXTRA", "dimension", words, hint)
+    Grade::told("DIFF_UNIT_EXTRA", "dimension", words, hint)
 }

@@ -27,6 +27,85 @@ pub struct Grade {
 }
 
 impl Grade {
+    pub(crate) fn new(
+        verdict: Verdict,
+        note: &'static str,
+        kind: &'static str,
+        words: impl Into<String>,
+    ) -> Grade {
+        Grade {
+            verdict,
+            note,
+            proof: Proof::of(kind, words),
+            assumed: Vec::new(),
+            counterexample: None,
+            error: None,
+            diagnosis: Vec::new(),
+            content: None,
+        }
+    }
+
+    /// Invalid, as something cannot be read.
+    pub(crate) fn invalid(note: &'static str, words: &str, fault: Fault) -> Grade {
+        Grade {
+            error: Some(fault),
+            ..Grade::new(Verdict::Invalid, note, "none", words)
+        }
+    }
+
+    pub(crate) fn different(
+        note: &'static str,
+        kind: &'static str,
+        words: impl Into<String>,
+    ) -> Grade {
+        Grade::new(Verdict::Different, note, kind, words)
+    }
+
+    /// Different, as the diagnosis tells in the same words; its code is the note without `DIFF_`.
+    pub(crate) fn told(
+        note: &'static str,
+        kind: &'static str,
+        words: impl Into<String>,
+        hint: impl Into<String>,
+    ) -> Grade {
+        let words = words.into();
+        let code = note.strip_prefix("DIFF_").unwrap_or(note);
+        Grade::different(note, kind, words.clone()).with(Diagnosis::new(code, words, hint))
+    }
+
+    pub(crate) fn is_equivalent(&self) -> bool {
+        self.verdict == Verdict::Equivalent
+    }
+
+    /// Adds what another comparison assumed.
+    pub(crate) fn assume(&mut self, more: Vec<String>) {
+        for words in more {
+            if !self.assumed.contains(&words) {
+                self.assumed.push(words);
+            }
+        }
+    }
+
+    /// No steps are left: what no proof and no point settled before is undecided for that reason.
+    pub(crate) fn stopped(&mut self) {
+        let settled = match self.verdict {
+            Verdict::Different => self.counterexample.is_some(),
+            Verdict::Equivalent => true,
+            // Without steps left values are unknown, not absent.
+            Verdict::Invalid => self.note != "INVALID_UNDEFINED",
+            Verdict::Undecided => false,
+        };
+        if !settled {
+            let words = "the two were not settled within the limit of work";
+            *self = Grade::new(Verdict::Undecided, "UNDECIDED_LIMIT", "none", words);
+        }
+    }
+
+    pub(crate) fn with(mut self, diagnosis: Diagnosis) -> Grade {
+        self.diagnosis.push(diagnosis);
+        self
+    }
+
     /// How the answer was read, in plain notation.
     pub fn read_as(&self) -> Option<String> {
         self.content.as_ref().map(super::show)

@@ -1,8 +1,10 @@
 //! Answers that say what they are values of, or leave it out: `v = …` where `u = …` is asked, a value for an equation, and an
 //! equation for a value.
 
-use super::super::{Diagnosis, Tolerance, Verdict, number, relation};
-use super::{Context, Finding, chain, chain_apart, kind, quotient, values};
+use std::collections::BTreeSet;
+
+use super::super::{Diagnosis, Grade, Tolerance, Verdict, number, relation};
+use super::{Context, chain, chain_apart, kind, quotient, values};
 use crate::algebra::Sign;
 use crate::dimension::{self, Dimension};
 use crate::domain::Sample;
@@ -38,7 +40,7 @@ pub(super) fn named_values(
     answer: &Reading,
     (mine, expected): Named,
     (theirs, value): Named,
-) -> Finding {
+) -> Grade {
     let asked = &ctx.key.question.asked;
     let is_asked = |name: &Symbol| asked.iter().any(|g| g.name == *name);
     let inside = |c: &Content, name: &Symbol| c.symbols().contains(name);
@@ -72,7 +74,7 @@ pub(super) fn named_values(
         // A symbol of the expected formula cannot be the name of its value: `v = 3v/2` says something else.
         (None, Some(theirs)) if inside(expected, theirs) && !is_asked(theirs) => {
             let words = "a value is expected, and the answer is an equation for";
-            finding = Finding::different("DIFF_KIND", "kind", format!("{words} {theirs}"));
+            finding = Grade::different("DIFF_KIND", "kind", format!("{words} {theirs}"));
         }
         (None, Some(theirs)) if !is_asked(theirs) && declared_symbol(ctx, theirs) => {
             if let Some(first) = asked.first() {
@@ -97,7 +99,7 @@ pub(super) fn solved(
     ctx: &Context,
     (name, expected): Named,
     (mine, signs): (&[Content], &[Relation]),
-) -> Finding {
+) -> Grade {
     if let Some(finding) = nameless(ctx, expected, mine, signs) {
         return finding;
     }
@@ -118,7 +120,7 @@ pub(super) fn solved(
                 .filter(|name| may_hold(ctx, mine, name, expected))
                 .map(solved);
             found
-                .find(Finding::is_equivalent)
+                .find(Grade::is_equivalent)
                 .unwrap_or_else(|| kind("a value is expected, and the answer is a relation"))
         }
     }
@@ -131,7 +133,7 @@ fn nameless(
     expected: &Content,
     sides: &[Content],
     signs: &[Relation],
-) -> Option<Finding> {
+) -> Option<Grade> {
     let plain = ctx.plain();
     let sides = &in_unit_of_last(expected, sides);
     let (first, others) = sides.split_first()?;
@@ -314,10 +316,7 @@ pub(super) fn declared_symbol(ctx: &Context, name: &Symbol) -> bool {
 
 /// The names of an equation that the expected value does not know.
 fn strangers(ctx: &Context, sides: &[Content]) -> Vec<Symbol> {
-    let mut found = std::collections::BTreeSet::new();
-    sides
-        .iter()
-        .for_each(|s| s.each(&mut |e| found.extend(e.symbols())));
+    let mut found: BTreeSet<Symbol> = sides.iter().flat_map(Content::symbols).collect();
     found.retain(|name| !declared_symbol(ctx, name));
     found.into_iter().collect()
 }
@@ -339,12 +338,12 @@ fn may_hold(ctx: &Context, sides: &[Content], name: &Symbol, value: &Content) ->
     points.iter().all(is_zero)
 }
 
-fn other_name(finding: Finding, mine: &Symbol, theirs: &Symbol) -> Finding {
+fn other_name(finding: Grade, mine: &Symbol, theirs: &Symbol) -> Grade {
     let words = format!("the answer speaks of {theirs}, and {mine} is asked for");
     let message = match finding.is_equivalent() {
         true => format!("{words}; the right side is the expected one"),
         false => words.clone(),
     };
-    Finding::different("DIFF_NAME", "kind", words.clone())
+    Grade::different("DIFF_NAME", "kind", words.clone())
         .with(Diagnosis::new("NAME", message, words))
 }

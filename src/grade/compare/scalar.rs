@@ -3,8 +3,8 @@
 use num_traits::Signed;
 
 use super::super::number::{self, Tolerance};
-use super::super::{Apart, Diagnosis, Strength, Verdict, fraction, partial};
-use super::{Context, Finding};
+use super::super::{Apart, Diagnosis, Grade, Strength, Verdict, fraction, partial};
+use super::Context;
 use crate::algebra::{Field, Sign};
 use crate::equality::{
     self, Assumption, AtPoints, Condition, Equality, Evidence, Ground, How, Reason, Side, Value,
@@ -13,7 +13,7 @@ use crate::expr::{Expr, Node};
 use crate::formula::write_plain;
 
 /// Two expressions.
-pub(crate) fn scalars(ctx: &Context, expected: &Expr, answer: &Expr) -> Finding {
+pub(crate) fn scalars(ctx: &Context, expected: &Expr, answer: &Expr) -> Grade {
     if let Some(tolerance) = &ctx.options.tolerance
         && let Some(finding) = tolerant(ctx, expected, answer, tolerance)
     {
@@ -45,21 +45,21 @@ pub(crate) fn scalars(ctx: &Context, expected: &Expr, answer: &Expr) -> Finding 
 }
 
 /// What a comparison at random points says.
-fn at_points(found: AtPoints, assumed: Vec<String>) -> Finding {
+fn at_points(found: AtPoints, assumed: Vec<String>) -> Grade {
     let mut finding = match found.equal {
         true => {
             let words = found.words();
-            let mut finding = Finding::new(Verdict::Equivalent, "EQUIV_MODULAR", "modular", words);
+            let mut finding = Grade::new(Verdict::Equivalent, "EQUIV_MODULAR", "modular", words);
             finding.proof.bound = Some(found.bound);
             finding
         }
-        false => Finding::different("DIFF", "modular", found.words()),
+        false => Grade::different("DIFF", "modular", found.words()),
     };
     finding.assumed = assumed;
     finding
 }
 
-fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) -> Finding {
+fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) -> Grade {
     match equality {
         Equality::Same {
             how: How::Identity {
@@ -83,7 +83,7 @@ fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) ->
         } => on_branch(&ctx.say(&e), &elsewhere),
         Equality::Different(at) => {
             let words = "the values differ at a point of the domain";
-            let mut finding = Finding::different("DIFF", "counterexample", words);
+            let mut finding = Grade::different("DIFF", "counterexample", words);
             finding.counterexample = Some(apart(&at));
             finding
         }
@@ -92,28 +92,28 @@ fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) ->
         } => {
             let words = format!("{} has no value anywhere", ctx.say(answer));
             let hint = "your formula has no value anywhere: look for a division by zero or the root of something negative";
-            Finding::new(Verdict::Invalid, "INVALID_UNDEFINED", "none", words.clone())
+            Grade::new(Verdict::Invalid, "INVALID_UNDEFINED", "none", words.clone())
                 .with(Diagnosis::new("UNDEFINED", words, hint))
         }
         Equality::Invalid {
             side: Side::Left, ..
         } => {
             let words = format!("the expected {} has no value anywhere", ctx.say(expected));
-            Finding::new(Verdict::Invalid, "INVALID_EXPECTED", "none", words)
+            Grade::new(Verdict::Invalid, "INVALID_EXPECTED", "none", words)
         }
         Equality::Undecided { reason, evidence } => open(reason, &evidence),
     }
 }
 
 /// Equal on the whole domain, with what the proof took for granted.
-fn identical(ground: Ground, assumptions: Vec<Assumption>) -> Finding {
+fn identical(ground: Ground, assumptions: Vec<Assumption>) -> Grade {
     let sign = |a: &Assumption| matches!(a, Assumption::NotNegative(_));
     let note = match assumptions.iter().any(sign) {
         true => "EQUIV_ASSUMED",
         false if assumptions.is_empty() => "EQUIV_IDENTITY",
         false => "EQUIV_WHERE_DEFINED",
     };
-    let mut finding = Finding::new(Verdict::Equivalent, note, "identity", ground.words());
+    let mut finding = Grade::new(Verdict::Equivalent, note, "identity", ground.words());
     finding.assumed = assumptions
         .iter()
         .map(|a| match a {
@@ -128,10 +128,10 @@ fn identical(ground: Ground, assumptions: Vec<Assumption>) -> Finding {
 }
 
 /// Equal wherever both have a value. Where only one of them has, nothing is compared; that is told.
-fn where_defined(elsewhere: &equality::Counterexample) -> Finding {
+fn where_defined(elsewhere: &equality::Counterexample) -> Grade {
     let words = "equal wherever both formulas have a value";
     let note = "EQUIV_WHERE_DEFINED";
-    let mut finding = Finding::new(Verdict::Equivalent, note, "identity", words);
+    let mut finding = Grade::new(Verdict::Equivalent, note, "identity", words);
     let lacking = match elsewhere.left == Value::None {
         true => "the expected formula",
         false => "the answer",
@@ -142,10 +142,10 @@ fn where_defined(elsewhere: &equality::Counterexample) -> Finding {
 }
 
 /// Equal where an expression is not negative, and different elsewhere.
-fn on_branch(condition: &str, elsewhere: &equality::Counterexample) -> Finding {
+fn on_branch(condition: &str, elsewhere: &equality::Counterexample) -> Grade {
     let where_equal = format!("where {condition} ≥ 0");
     let words = format!("equal {where_equal}, different elsewhere");
-    let mut finding = Finding::different("DIFF_BRANCH", "branch", words);
+    let mut finding = Grade::different("DIFF_BRANCH", "branch", words);
     finding.counterexample = Some(apart(elsewhere));
     let message = format!("right {where_equal}; elsewhere it differs");
     let hint = "your formula is right on a part of the domain only: think of signs";
@@ -153,7 +153,7 @@ fn on_branch(condition: &str, elsewhere: &equality::Counterexample) -> Finding {
 }
 
 /// Undecided, with the reason and what was seen.
-fn open(reason: Reason, evidence: &Evidence) -> Finding {
+fn open(reason: Reason, evidence: &Evidence) -> Grade {
     let (note, words) = match reason {
         Reason::TooLarge => (
             "UNDECIDED_SIZE",
@@ -180,7 +180,7 @@ fn open(reason: Reason, evidence: &Evidence) -> Finding {
             evidence.digits
         ),
     };
-    Finding::new(Verdict::Undecided, note, "none", words + &seen)
+    Grade::new(Verdict::Undecided, note, "none", words + &seen)
 }
 
 fn apart(c: &equality::Counterexample) -> Apart {
@@ -202,12 +202,7 @@ fn odd_root(ctx: &Context, e: &Expr) -> Option<String> {
 }
 
 /// Within a tolerance: numbers, or formulas whose quotient is a number.
-fn tolerant(
-    ctx: &Context,
-    expected: &Expr,
-    answer: &Expr,
-    tolerance: &Tolerance,
-) -> Option<Finding> {
+fn tolerant(ctx: &Context, expected: &Expr, answer: &Expr, tolerance: &Tolerance) -> Option<Grade> {
     let constant = expected.is_constant() && answer.is_constant();
     let inside = if constant {
         number::within(answer, expected, tolerance)?
@@ -229,11 +224,11 @@ fn tolerant(
     };
     if inside {
         let (note, words) = ("EQUIV_TOLERANCE", tolerance.words());
-        return Some(Finding::new(Verdict::Equivalent, note, "tolerance", words));
+        return Some(Grade::new(Verdict::Equivalent, note, "tolerance", words));
     }
     constant.then(|| {
         let words = format!("not {}", tolerance.words());
-        let mut finding = Finding::different("DIFF_TOLERANCE", "tolerance", words);
+        let mut finding = Grade::different("DIFF_TOLERANCE", "tolerance", words);
         if ctx.diagnose {
             finding.diagnosis = partial::numbers(expected, answer);
         }

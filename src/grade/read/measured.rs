@@ -2,11 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use super::super::unit::each_chain;
 use super::super::{Key, Question, declare};
 use super::{along_axes, answer, quantitative, vector};
 use crate::dimension;
-use crate::expr::Expr;
+use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Content, Reading, Symbols};
 
 /// An answer whose unit a sign ties to its number, or brackets enclose: `9.81*m/s^2`, `5 (m/s)`; and `2.4 s-1`.
@@ -71,11 +70,9 @@ pub(in crate::grade) fn quantity(
 
 /// A text that says of names alone which quantities they are, or lie between: `2 m < x < 3 m`, `v = 2 m/s; s = 4 m`.
 fn bounds(text: &str, open: &Reading, question: &Question) -> Option<Reading> {
-    let mut names = BTreeSet::new();
-    each_chain(&open.content, &mut |sides| {
-        let all = sides.iter().filter_map(|side| side.expr()?.as_symbol());
-        names.extend(all.cloned());
-    });
+    let sides = open.content.chains().into_iter().flatten();
+    let names = sides.filter_map(|side| side.expr()?.as_symbol().cloned());
+    let names: BTreeSet<Symbol> = names.collect();
     if names.is_empty() || !text.contains(|c: char| c.is_ascii_digit()) {
         return None;
     }
@@ -83,23 +80,17 @@ fn bounds(text: &str, open: &Reading, question: &Question) -> Option<Reading> {
     declare(&mut symbols, question);
     names.iter().for_each(|name| symbols.declare(name));
     let reading = formula::read(text, &symbols).ok()?;
-    let mut units = false;
-    each_chain(&reading.content, &mut |sides| {
-        units |= sides
-            .iter()
-            .any(|side| matches!(side, Content::Quantity(_)));
-    });
+    let mut sides = reading.content.chains().into_iter().flatten();
+    let units = sides.any(|side| matches!(side, Content::Quantity(_)));
     (units && reading.symbols() == names && measured(&reading.content)).then_some(reading)
 }
 
 /// Whether every side of some relations is a name, a quantity or a number.
 fn measured(content: &Content) -> bool {
-    let mut all = matches!(content, Content::Relations(..) | Content::Joined(..));
     let plain = |e: &Expr| e.is_constant() || e.as_symbol().is_some();
-    each_chain(content, &mut |sides| {
-        all &= sides.iter().all(|side| side.expr().is_some_and(plain));
-    });
-    all
+    let mut sides = content.chains().into_iter().flatten();
+    matches!(content, Content::Relations(..) | Content::Joined(..))
+        && sides.all(|side| side.expr().is_some_and(plain))
 }
 
 /// Whether a formula, with nothing before it that would be passed over, begins with a letter that is no declared name.
@@ -117,13 +108,10 @@ fn begins_unnamed(text: &str, question: &Question) -> bool {
 /// Whether an answer to a key that is a quantity is one too, or a bare number.
 pub(in crate::grade) fn is_quantity(key: &Key, text: &str) -> bool {
     answer(key, text).is_ok_and(|reading| {
-        matches!(reading.content.answer(), Content::Quantity(_))
-            || {
-                let mut none = true;
-                let answer = reading.content.answer();
-                answer.each(&mut |e: &Expr| none &= e.is_constant());
-                none && !matches!(answer, Content::Relations(..))
-            }
+        let answer = reading.content.answer();
+        matches!(answer, Content::Quantity(_))
+            || answer.exprs().iter().all(|e| e.is_constant())
+                && !matches!(answer, Content::Relations(..))
             || measured(&reading.content)
     })
 }

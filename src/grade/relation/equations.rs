@@ -11,8 +11,8 @@ use crate::algebra::Sign;
 use crate::domain::Domains;
 use crate::equality;
 use crate::expr::{Expr, Symbol};
-use crate::grade::compare::{Context, Finding};
-use crate::grade::{Apart, Diagnosis};
+use crate::grade::compare::Context;
+use crate::grade::{Apart, Diagnosis, Grade};
 use std::collections::BTreeSet;
 
 /// Note, words and hint where each of two equations has a solution of its own, and where one is lost or gained.
@@ -33,12 +33,12 @@ pub(super) const GAINED: [&str; 3] = [
 ];
 
 /// Different, with note, words and hint.
-pub(super) fn told([note, words, hint]: [&'static str; 3]) -> Finding {
-    Finding::told(note, "solutions", words, hint)
+pub(super) fn told([note, words, hint]: [&'static str; 3]) -> Grade {
+    Grade::told(note, "solutions", words, hint)
 }
 
 /// Two equations.
-pub(super) fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
+pub(super) fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {
     let mut finding = solutions(ctx, expected, answer);
     if finding.is_equivalent() {
         let domains = ctx
@@ -78,13 +78,13 @@ fn poles(f: &Expr, g: &Expr, domains: &Domains) -> Vec<Expr> {
 type Sought<'a> = &'a dyn Fn(BTreeSet<Symbol>) -> BTreeSet<Symbol>;
 
 /// Equations of which one holds, as their products: what a factor fulfils counts, whatever is sought.
-pub(super) fn alternatives(ctx: &Context, f: &Expr, g: &Expr) -> Finding {
+pub(super) fn alternatives(ctx: &Context, f: &Expr, g: &Expr) -> Grade {
     let found = by_parts(ctx, f, g, &|_| BTreeSet::new());
     found.unwrap_or_else(|| undecided("the cases could not be solved to compare their solutions"))
 }
 
 /// Two equations by their extents and the parts that only one of them has, where these tell.
-fn by_parts(ctx: &Context, f: &Expr, g: &Expr, sought: Sought) -> Option<Finding> {
+fn by_parts(ctx: &Context, f: &Expr, g: &Expr, sought: Sought) -> Option<Grade> {
     let compared = locus::compare(f, g, &ctx.key.question.domains)?;
     match compared.extents {
         [Extent::All, Extent::All] | [Extent::None, Extent::None] => {
@@ -92,18 +92,18 @@ fn by_parts(ctx: &Context, f: &Expr, g: &Expr, sought: Sought) -> Option<Finding
         }
         [Extent::All, _] => {
             let words = "the expected equation holds everywhere, and the answer does not";
-            Some(Finding::different("DIFF_EQUATION", "solutions", words))
+            Some(Grade::different("DIFF_EQUATION", "solutions", words))
         }
         [_, Extent::All] => {
             let words = "the answer holds everywhere: it says nothing";
-            Some(Finding::different("DIFF_EQUATION", "solutions", words))
+            Some(Grade::different("DIFF_EQUATION", "solutions", words))
         }
         _ => from_parts(ctx, f, g, compared, sought),
     }
 }
 
 /// Two equations by their solutions, wherever both have values.
-fn solutions(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
+fn solutions(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {
     let domains = &ctx.key.question.domains;
     let (f, g) = (&expected.difference, &answer.difference);
     let sought: Sought = &|shared| sought_of(ctx, shared);
@@ -131,7 +131,7 @@ fn solutions(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
         let (a, b) = (p.unwrap_or(f.clone()), q.unwrap_or(g.clone()));
         let found =
             locus::compare(&a, &b, domains).and_then(|c| from_parts(ctx, &a, &b, c, sought));
-        if let Some(found) = found.filter(Finding::is_equivalent) {
+        if let Some(found) = found.filter(Grade::is_equivalent) {
             return found;
         }
     }
@@ -141,7 +141,7 @@ fn solutions(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
 }
 
 /// Two equations that both hold nowhere on the domain, or both everywhere.
-fn vacuous(ctx: &Context, f: &Expr, g: &Expr, sought: Sought) -> Finding {
+fn vacuous(ctx: &Context, f: &Expr, g: &Expr, sought: Sought) -> Grade {
     let reals = over_reals(&ctx.key.question.domains, &[f, g]);
     let Some(compared) = locus::compare(f, g, &reals) else {
         return undecided("neither equation has a solution on the domain");
@@ -172,7 +172,7 @@ fn from_parts(
     g: &Expr,
     compared: Compared,
     sought: Sought,
-) -> Option<Finding> {
+) -> Option<Grade> {
     let Compared {
         lost,
         gained,
@@ -216,7 +216,7 @@ fn from_parts(
     }
 }
 
-fn parted(ctx: &Context, words: [&'static str; 3], part: &Part, gained: bool) -> Finding {
+fn parted(ctx: &Context, words: [&'static str; 3], part: &Part, gained: bool) -> Grade {
     let mut finding = told(words);
     if let Some((at, value)) = &part.at {
         let (zero, other) = (

@@ -1,7 +1,7 @@
 //! Inequalities: where each holds, part by part.
 
-use super::super::compare::{Context, Finding, scalars};
-use super::super::{Apart, Verdict};
+use super::super::compare::{Context, scalars};
+use super::super::{Apart, Grade, Verdict};
 use super::factor::unrooted;
 use super::factor::{Factor, factor};
 use super::locus::{self, Extent};
@@ -32,7 +32,7 @@ pub(super) fn extent(n: &Normal, domains: &Domains) -> Extent {
 }
 
 /// Two inequalities.
-pub(super) fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) -> Finding {
+pub(super) fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {
     let domains = &ctx.key.question.domains;
     let (f, g) = (&expected.difference, &answer.difference);
     if let Some(finding) = by_extent(ctx, expected, answer) {
@@ -60,7 +60,7 @@ pub(super) fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) ->
 }
 
 /// Two inequalities of which one holds everywhere or nowhere on the domain, as far as their signs tell.
-fn by_extent(ctx: &Context, expected: &Normal, answer: &Normal) -> Option<Finding> {
+fn by_extent(ctx: &Context, expected: &Normal, answer: &Normal) -> Option<Grade> {
     let domains = &ctx.key.question.domains;
     let (f, g) = (&expected.difference, &answer.difference);
     match [expected, answer].map(|n| extent(n, domains)) {
@@ -97,7 +97,7 @@ fn by_extent(ctx: &Context, expected: &Normal, answer: &Normal) -> Option<Findin
             b @ (Extent::All | Extent::None),
         ] if a != b => {
             let words = "one holds everywhere on the domain and the other nowhere";
-            Some(Finding::different("DIFF_INEQUALITY", "solutions", words))
+            Some(Grade::different("DIFF_INEQUALITY", "solutions", words))
         }
         // Where one always or never holds, the other can say the same only if it does so on its boundary too.
         [Extent::All | Extent::None, Extent::Unknown] => {
@@ -111,12 +111,7 @@ fn by_extent(ctx: &Context, expected: &Normal, answer: &Normal) -> Option<Findin
 }
 
 /// Two inequalities whose differences are the same up to a factor.
-fn by_factor(
-    ctx: &Context,
-    expected: &Normal,
-    answer: &Normal,
-    common: &Factor,
-) -> Option<Finding> {
+fn by_factor(ctx: &Context, expected: &Normal, answer: &Normal, common: &Factor) -> Option<Grade> {
     let domains = &ctx.key.question.domains;
     let (f, g) = (&expected.difference, &answer.difference);
     let sought = sought_in(ctx, f, g);
@@ -142,7 +137,7 @@ fn by_factor(
                 let words =
                     "the boundary belongs to one of the two inequalities and not to the other";
                 let hint = "look at the case of equality";
-                let mut finding = Finding::told("DIFF_STRICT", "solutions", words, hint);
+                let mut finding = Grade::told("DIFF_STRICT", "solutions", words, hint);
                 let word = |n: &Normal| holding(n.relation != Relation::Less);
                 finding.counterexample = Some(Apart::new(at, word(answer), word(expected)));
                 return Some(finding);
@@ -153,14 +148,14 @@ fn by_factor(
     if !common.positive && common.weak.is_empty() {
         let words = "the inequality points the other way";
         let hint = "multiplying by something negative turns an inequality round";
-        return Some(Finding::told("DIFF_TURNED", "solutions", words, hint));
+        return Some(Grade::told("DIFF_TURNED", "solutions", words, hint));
     }
     None
 }
 
 /// A relation that changes on its boundary at most, held against one that always or never holds: different where the boundary
 /// is reached, or where a point tells them apart.
-fn beside_boundary(ctx: &Context, open: &Normal, sure: &Normal) -> Finding {
+fn beside_boundary(ctx: &Context, open: &Normal, sure: &Normal) -> Grade {
     let domains = &ctx.key.question.domains;
     let pair = [open, sure].map(std::slice::from_ref);
     if let Some(finding) = apart_at_points(ctx, pair[0], pair[1]) {
@@ -170,7 +165,7 @@ fn beside_boundary(ctx: &Context, open: &Normal, sure: &Normal) -> Finding {
     match locus::vanishing(edge, [&Expr::one(), edge], domains) {
         Some(_) => {
             let words = "on its boundary one holds where the other does not";
-            Finding::different("DIFF_INEQUALITY", "solutions", words)
+            Grade::different("DIFF_INEQUALITY", "solutions", words)
         }
         None => undecided("the two differ at most on a boundary"),
     }
@@ -193,7 +188,7 @@ fn same_bound(f: &Expr, g: &Expr, domains: &Domains) -> bool {
 }
 
 /// Whether two inequalities set different bounds on the same symbol, one of which lies inside its domain where they differ.
-fn other_bound(ctx: &Context, f: &Expr, g: &Expr) -> Option<Finding> {
+fn other_bound(ctx: &Context, f: &Expr, g: &Expr) -> Option<Grade> {
     let domains = &ctx.key.question.domains;
     let plain = ctx.plain();
     unknowns(f, g).iter().find_map(|name| {
@@ -212,7 +207,7 @@ fn other_bound(ctx: &Context, f: &Expr, g: &Expr) -> Option<Finding> {
             return None;
         }
         let finding = scalars(&plain, a, b);
-        (finding.verdict == Verdict::Different).then_some(Finding {
+        (finding.verdict == Verdict::Different).then_some(Grade {
             note: "DIFF_INEQUALITY",
             ..finding
         })

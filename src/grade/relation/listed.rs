@@ -1,6 +1,7 @@
 //! Values that one side lists, `x = 2` or `x = 1 ± √2`, held against an equation: each is put in, and they are counted.
 
-use super::super::compare::{Context, Finding};
+use super::super::Grade;
+use super::super::compare::Context;
 use super::equations::{LOST, OTHER, told};
 use super::solved::{lies_in, solve_for};
 use super::zeros::{self, Number, zeros};
@@ -13,7 +14,7 @@ use crate::interval::{Big, Enclosure, Outcome, evaluate};
 
 /// The finding on a value that the answer lists although it fulfils no expected equation, which the domain would hide: −4 of
 /// `x = ±4` for `√x = 2` with x positive.
-pub(super) fn beyond(ctx: &Context, expected: &[Normal], mine: &[Content]) -> Option<Finding> {
+pub(super) fn beyond(ctx: &Context, expected: &[Normal], mine: &[Content]) -> Option<Grade> {
     let [name, Content::Either(values)] = mine else {
         return None;
     };
@@ -49,14 +50,14 @@ fn number(value: &Expr, domains: &Domains) -> Option<Enclosure> {
     }
 }
 
-fn gained(words: String) -> Finding {
+fn gained(words: String) -> Grade {
     let hint = "put each of your values into the equation";
-    Finding::told("DIFF_ROOT_GAINED", "solutions", words, hint)
+    Grade::told("DIFF_ROOT_GAINED", "solutions", words, hint)
 }
 
 /// Compares two equations in one symbol of which one lists values, that need not be fractions: they are the solutions of the
 /// other where each fulfils it and it has no more of them.
-pub(super) fn values(expected: &Normal, answer: &Normal, domains: &Domains) -> Option<Finding> {
+pub(super) fn values(expected: &Normal, answer: &Normal, domains: &Domains) -> Option<Grade> {
     if expected.relation != Relation::Equal {
         return None;
     }

@@ -9,8 +9,8 @@ use super::system::equations_alone;
 use super::{Normal, differences, system};
 use crate::domain::{Coordinate, Domains, Sample, roles, samples};
 use crate::expr::{Expr, Symbol, ratio};
-use crate::grade::compare::{Context, Finding};
-use crate::grade::{Apart, Diagnosis};
+use crate::grade::compare::Context;
+use crate::grade::{Apart, Diagnosis, Grade};
 use crate::interval::{Interval, Outcome, evaluate};
 
 /// What is said of a relation that holds at a point, and of one that does not.
@@ -45,12 +45,12 @@ pub(super) fn apart_at_points(
     ctx: &Context,
     expected: &[Normal],
     answer: &[Normal],
-) -> Option<Finding> {
+) -> Option<Grade> {
     apart_in_cases(ctx, &[expected.to_vec()], &[answer.to_vec()])
 }
 
 /// A point at which one of several systems holds and none of the others does.
-pub(super) fn apart_in_cases(ctx: &Context, expected: &Cases, answer: &Cases) -> Option<Finding> {
+pub(super) fn apart_in_cases(ctx: &Context, expected: &Cases, answer: &Cases) -> Option<Grade> {
     let all = differences(expected.iter().flatten(), answer.iter().flatten());
     let uses = roles(&all);
     let (domains, assumed) = ctx.key.question.domains.completed(&uses);
@@ -91,7 +91,7 @@ pub(super) fn apart_in_cases(ctx: &Context, expected: &Cases, answer: &Cases) ->
                 return Some(finding);
             }
             let [note, words, hint] = system::OTHER_NUMBERS;
-            let mut finding = Finding::different(note, "counterexample", words);
+            let mut finding = Grade::different(note, "counterexample", words);
             finding.counterexample = Some(Apart::new(sample.words(), holding(a), holding(e)));
             finding.assumed = assumed;
             let message = "the inequality holds elsewhere than it should";

@@ -1,7 +1,7 @@
 //! Several relations at once: chains, components of vectors, and whatever is in one symbol only.
 
-use super::super::compare::{Context, Finding};
-use super::super::{Apart, Verdict};
+use super::super::compare::Context;
+use super::super::{Apart, Grade, Verdict};
 use super::cells::{self, Along, Cases};
 use super::equations::{GAINED, LOST, OTHER, told};
 use super::inequality::extent;
@@ -30,7 +30,7 @@ pub(super) fn in_one_symbol(
     expected: &Cases,
     answer: &Cases,
     domains: &Domains,
-) -> Option<Finding> {
+) -> Option<Grade> {
     let along = cells::compare(expected, answer, domains)?;
     let [[some, not_all], [mine, not_mine]] = along.holds;
     if along.lost.is_some() || along.gained.is_some() {
@@ -78,7 +78,7 @@ pub(super) fn scaled(
     expected: &[Normal],
     answer: &[Normal],
     domains: &Domains,
-) -> Option<Finding> {
+) -> Option<Grade> {
     let all = differences(expected, answer);
     let uses = roles(&all);
     let (domains, _) = domains.completed(&uses);
@@ -123,7 +123,7 @@ pub(super) fn with_one_given(
     expected: &Cases,
     answer: &Cases,
     domains: &Domains,
-) -> Option<Finding> {
+) -> Option<Grade> {
     let all = differences(expected.iter().flatten(), answer.iter().flatten());
     let uses = roles(&all);
     let real = |name: &Symbol| domains.symbols.get(name) == Some(&Domain::real());
@@ -189,7 +189,7 @@ pub(super) fn with_one_given(
 }
 
 /// The finding for relations in one symbol that part at a number.
-fn apart(ctx: &Context, expected: &Cases, answer: &Cases, along: &Along) -> Finding {
+fn apart(ctx: &Context, expected: &Cases, answer: &Cases, along: &Along) -> Grade {
     let at = |at: &String, lost: bool| Apart::new(at, holding(!lost), holding(lost));
     let somewhere = || {
         let gained = along.gained.as_ref().map(|x| at(x, false));
@@ -240,7 +240,7 @@ pub(super) fn compare(
     expected: &[Normal],
     answer: &[Normal],
     domains: &Domains,
-) -> Finding {
+) -> Grade {
     // One relation each, beside what must not be zero.
     if let (Some((e, _)), Some((a, _))) = (main(expected), main(answer))
         && only_symbol([&e.difference, &a.difference]).is_some()
@@ -309,7 +309,7 @@ fn without_bars(n: &Normal) -> Vec<Normal> {
 }
 
 /// Every relation of the one system with one of the other that says the same.
-fn matched(ctx: &Context, expected: &[Normal], answer: &[Normal]) -> Option<Finding> {
+fn matched(ctx: &Context, expected: &[Normal], answer: &[Normal]) -> Option<Grade> {
     let plain = ctx.plain();
     let domains = &ctx.key.question.domains;
     let mut left: Vec<&Normal> = answer.iter().collect();
@@ -440,7 +440,7 @@ fn point_of(known: &BTreeMap<Symbol, Expr>, not_zero: &Expr, domains: &Domains) 
     })
 }
 
-fn other_system((at, _): At, lost: bool) -> Finding {
+fn other_system((at, _): At, lost: bool) -> Grade {
     let words = match lost {
         true => "a solution of the expected equations does not fulfil the answer",
         false => "a solution of the answer does not fulfil the expected equations",

@@ -353,9 +353,7 @@ impl Desk<'_> {
             let mut used = used.iter();
             used.all(|n| told(n) || &**n == "pi" || parameters.iter().any(|p| p.name == *n))
         };
-        let mut in_given = true;
-        side.each(&mut |e| in_given &= given(e));
-        in_given
+        side.exprs().into_iter().all(given)
     }
 
     /// A line that says what the sine, cosine or tangent of an angle is that is asked for, solved for it where it has no other
@@ -420,13 +418,10 @@ impl Desk<'_> {
         let lent = ACCELERATIONS.contains(&&**name) && self.closed.contains_key(name)
             || self.learned.contains(name);
         // An answer may stand on another that was given.
-        let used: Vec<Verdict> = {
-            let mut used = Vec::new();
-            last.each(&mut |e| used.extend(self.with_own(e).symbols()));
-            let used = used.iter().filter(|n| *n != name);
-            used.filter_map(|n| Some(self.finals.get(&**n)?.verdict))
-                .collect()
-        };
+        let own = last.exprs().into_iter().map(|e| self.with_own(e));
+        let used = own.flat_map(|e| e.symbols()).filter(|n| n != name);
+        let used = used.filter_map(|n| Some(self.finals.get(&*n)?.verdict));
+        let used: Vec<Verdict> = used.collect();
         let in_given = self.is_in_given(name, last);
         let Some(ends) = self.link(first, last) else {
             return;
