@@ -45,14 +45,12 @@ pub(super) fn said_again(text: &str, symbols: &Symbols) -> Option<Reading> {
 pub(crate) fn said_once<'t>(text: &'t str, symbols: &Symbols) -> Option<Faulty<&'t str>> {
     let reading = said_again(text, symbols)?;
     let (open, close) = last_brackets(text)?;
-    let Content::Relations(sides, signs) = &reading.content else {
-        return None;
-    };
+    let (sides, signs) = reading.content.relations()?;
     let value = |side: &Content| match side {
         Content::Quantity(q) => q.value.evaluate(&Point::<f64>::default()),
         side => side.expr()?.evaluate(&Point::<f64>::default()),
     };
-    let ([.., first, again], Some(sign)) = (sides.as_slice(), signs.last()) else {
+    let ([.., first, again], Some(sign)) = (sides, signs.last()) else {
         return None;
     };
     let (first, again) = (value(first)?, value(again)?);

@@ -163,9 +163,7 @@ impl Words<'_> {
                 // `n > 3 and at most 5`
                 None => {
                     let reading = read_either(&self.text[..to], from, self.symbols, 0).ok()?;
-                    let Content::Relations(sides, _) = &reading.content else {
-                        return None;
-                    };
+                    let (sides, _) = reading.content.relations()?;
                     let subject = sides[0].clone();
                     return Some((reading, Some(subject)));
                 }

@@ -221,6 +221,19 @@ impl Content {
         self.exprs().iter().any(|e| e.mentions(name))
     }
 
+    /// The name that it is, when it is one.
+    pub fn name(&self) -> Option<&Symbol> {
+        self.expr()?.as_symbol()
+    }
+
+    /// The sides of its relations and the signs between them, when it is a chain of such.
+    pub fn relations(&self) -> Option<(&[Content], &[Relation])> {
+        match self {
+            Content::Relations(sides, signs) => Some((sides, signs)),
+            _ => None,
+        }
+    }
+
     /// The expressions inside.
     pub fn exprs(&self) -> Vec<&Expr> {
         match self {

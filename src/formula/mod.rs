@@ -110,6 +110,11 @@ impl Reading {
     }
 }
 
+/// The name that a text is read as, when it is one.
+pub(crate) fn read_name(text: &str, symbols: &Symbols) -> Option<Symbol> {
+    read(text, symbols).ok()?.expr()?.as_symbol().cloned()
+}
+
 /// Reads a formula. Of several `\boxed{}` the last counts, with what touches it; words around it are passed over, and so are
 /// those around a single formula in dollars.
 pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {

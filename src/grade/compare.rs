@@ -118,11 +118,8 @@ enum Claim<'a> {
 fn claim(content: &Content) -> Claim<'_> {
     match content {
         Content::Relations(sides, signs) => {
-            let name = sides
-                .first()
-                .and_then(Content::expr)
-                .and_then(Expr::as_symbol)
-                .filter(|name| &***name != "pi");
+            let name = sides.first().and_then(Content::name);
+            let name = name.filter(|name| &***name != "pi");
             let value = content.answer();
             let free = |name: &Symbol| !sides[1..].iter().any(|side| side.mentions(name));
             match name {
@@ -143,12 +140,9 @@ fn claim(content: &Content) -> Claim<'_> {
 /// The names that stand alone left of an equality sign in relations that are joined.
 fn solved_for(content: &Content) -> BTreeSet<Symbol> {
     match content {
-        Content::Relations(sides, signs) if signs[..] == [Relation::Equal] => sides[0]
-            .expr()
-            .and_then(Expr::as_symbol)
-            .cloned()
-            .into_iter()
-            .collect(),
+        Content::Relations(sides, signs) if signs[..] == [Relation::Equal] => {
+            sides[0].name().cloned().into_iter().collect()
+        }
         Content::Joined(_, parts) => parts.iter().flat_map(solved_for).collect(),
         _ => BTreeSet::new(),
     }
@@ -200,10 +194,7 @@ fn lists(ctx: &Context, answer: &Reading) -> Option<Grade> {
         && let Some(list) = formula::values_of_one(expected)
         && !may_all_hold(ctx, &list)
     {
-        let key = Key {
-            reading: ctx.key.reading.with(list),
-            ..ctx.key.clone()
-        };
+        let key = ctx.key.with(list);
         let with = Context::new(&key, ctx.options, ctx.diagnose);
         return Some(compare(&with, answer));
     }
@@ -314,7 +305,7 @@ pub(super) fn kind(words: &str) -> Grade {
 /// In `ω = a = b` all sides after the name should be equal; the last one decides, and is not right where what leads to it is
 /// wrong for sure.
 fn chain(ctx: &Context, answer: &Reading, finding: &mut Grade) {
-    let Content::Relations(sides, signs) = &answer.content else {
+    let Some((sides, signs)) = answer.content.relations() else {
         return;
     };
     let wrong = sides

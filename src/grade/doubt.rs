@@ -64,16 +64,9 @@ pub(super) fn euler(key: &Key, reading: &Reading, options: &Options, finding: &m
     if occurs(&a) || occurs(&b) {
         return;
     }
-    let other = Key {
-        reading: key.reading.with(a),
-        ..key.clone()
-    };
+    let other = key.with(a);
     let mine = reading.with(b);
-    let plain = Options {
-        forms: Vec::new(),
-        ..options.clone()
-    };
-    let found = compare::contents(&other, &mine, &plain);
+    let found = compare::contents(&other, &mine, &options.plain());
     if found.verdict != Verdict::Equivalent {
         // Beside an exponential function or a logarithm e is no symbol that is too much.
         let is_exp =
@@ -126,10 +119,7 @@ pub(super) fn primes(key: &Key, reading: &Reading, options: &Options, finding: &
         return;
     }
     let [expected, mine] = sides.map(|content| content.map(&|e| e.substitute(&primed)));
-    let other = Key {
-        reading: key.reading.with(expected),
-        ..key.clone()
-    };
+    let other = key.with(expected);
     if compare::contents(&other, &reading.with(mine), options).verdict == Verdict::Equivalent {
         let words = "a prime does not say by what is differentiated; it would be right as the derivative that is asked for";
         let hint = "write the derivative as a quotient, as in dy/dx";
@@ -372,10 +362,7 @@ pub(super) fn turned(
         true => "write a space before the function: acos is the arccosine",
         false => "the slash can be read in two ways; use brackets to say what stands below",
     };
-    *finding = turned;
-    finding.note = "EQUIV_READING";
-    let found = Diagnosis::new("READING", message, hint);
-    finding.diagnosis.insert(0, found);
+    *finding = turned.reread(message, hint);
     *reading = other;
 }
 
@@ -430,14 +417,9 @@ pub(super) fn number(key: &Key, answer: &str, options: &Options) -> Option<Grade
     });
     let mixed = mixed(answer).map(|text| (text, beside));
     comma.chain(mixed).find_map(|(text, hint)| {
-        let mut grade = super::judge_here(key, &text, options);
-        (grade.verdict == Verdict::Equivalent).then(|| {
-            let message = format!("right when it is read as {text}");
-            grade.note = "EQUIV_READING";
-            let found = Diagnosis::new("READING", message, hint);
-            grade.diagnosis.insert(0, found);
-            grade
-        })
+        let grade = super::judge_here(key, &text, options);
+        let message = format!("right when it is read as {text}");
+        (grade.is_equivalent()).then(|| grade.reread(message, hint))
     })
 }
 
@@ -571,12 +553,9 @@ pub(super) fn unit_behind(
         (verdict == Verdict::Equivalent).then_some((other, text))
     });
     if let Some((other, unit)) = found {
-        *finding = compare::contents(key, &other, options);
-        finding.note = "EQUIV_READING";
         let message = format!("right with {unit} read as a unit, not as a factor");
         let hint = "symbols carry their units: leave the unit away";
-        let diagnosis = Diagnosis::new("READING", message, hint);
-        finding.diagnosis.insert(0, diagnosis);
+        *finding = compare::contents(key, &other, options).reread(message, hint);
         *reading = other;
     }
 }
@@ -612,10 +591,7 @@ pub(super) fn ambiguity(
     if !matches!(finding.verdict, Verdict::Equivalent | Verdict::Different) {
         return;
     }
-    let plain = Options {
-        forms: Vec::new(),
-        ..options.clone()
-    };
+    let plain = options.plain();
     let mut others = formula::other_readings(answer, &key.readable, false);
     if let Some(content) = power_of_function(&reading.content) {
         others.push(reading.with(content));

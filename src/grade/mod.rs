@@ -90,6 +90,16 @@ pub struct Options {
     pub strict_slash: bool,
 }
 
+impl Options {
+    /// The same without demands on the form.
+    fn plain(&self) -> Options {
+        Options {
+            forms: Vec::new(),
+            ..self.clone()
+        }
+    }
+}
+
 /// How strong a proof of equality has to be.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, clap::ValueEnum)]
 pub enum Strength {
@@ -123,6 +133,16 @@ pub struct Key {
     pub(crate) told: Option<String>,
     /// The same as a fault, for those who want brackets.
     pub(crate) unclear: Option<Fault>,
+}
+
+impl Key {
+    /// The same of another content.
+    fn with(&self, content: Content) -> Key {
+        Key {
+            reading: self.reading.with(content),
+            ..self.clone()
+        }
+    }
 }
 
 /// Reads an expected formula.

@@ -288,7 +288,7 @@ fn mended(key: &Key, text: &str, fault: Fault) -> Result<Reading, Fault> {
     };
     let first = |content: &Content| match content {
         Content::Relations(sides, _) => {
-            let mut names = sides.iter().filter_map(|side| side.expr()?.as_symbol());
+            let mut names = sides.iter().filter_map(|side| side.name());
             names.next().cloned()
         }
         _ => None,
@@ -335,7 +335,7 @@ fn mended(key: &Key, text: &str, fault: Fault) -> Result<Reading, Fault> {
 /// The number at the end of a chain with the numbers in its middle, which it has to equal.
 fn with_middle(key: &Key, text: &str, last: Reading, name: Option<Symbol>) -> Reading {
     let asked = match &key.reading.content {
-        Content::Relations(sides, _) => sides[0].expr().and_then(Expr::as_symbol).cloned(),
+        Content::Relations(sides, _) => sides[0].name().cloned(),
         _ => None,
     };
     let Some(name) = asked.or(name) else {

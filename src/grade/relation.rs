@@ -134,7 +134,7 @@ pub(super) fn unsigned(content: &Content) -> Vec<Symbol> {
         return Vec::from_iter(either.then(|| name.clone()));
     }
     let low = |side: &Content| side.expr().is_some_and(|e| e.is_zero() || e.is_negative());
-    let alone = |side: &Content| side.expr()?.as_symbol().cloned();
+    let alone = |side: &Content| side.name().cloned();
     let bounds = sides
         .windows(2)
         .zip(signs)
@@ -239,9 +239,7 @@ pub(super) fn at_zeros(
     near: &dyn Fn(&Expr, &Expr) -> bool,
     domains: &Domains,
 ) -> Option<Content> {
-    let Content::Relations(sides, signs) = expected else {
-        return None;
-    };
+    let (sides, signs) = expected.relations()?;
     let ([left, right], [Relation::Equal]) = (&sides[..], &signs[..]) else {
         return None;
     };

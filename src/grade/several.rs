@@ -261,7 +261,7 @@ fn subject(content: &Content, bounds: &BTreeSet<Symbol>) -> Option<Symbol> {
     own.retain(|name| !bounds.contains(name));
     let alone = |name: &Symbol, part: &Content| match part {
         Content::Relations(sides, _) => {
-            let mut names = sides.iter().filter_map(|side| side.expr()?.as_symbol());
+            let mut names = sides.iter().filter_map(|side| side.name());
             names.any(|other| other == name)
         }
         _ => false,
@@ -302,9 +302,7 @@ fn results(content: &Content) -> Option<Vec<(Symbol, Content)>> {
     };
     let mut out = Vec::new();
     for part in parts {
-        let Content::Relations(sides, signs) = part else {
-            return None;
-        };
+        let (sides, signs) = part.relations()?;
         if signs.iter().any(|sign| *sign != Relation::Equal) {
             return None;
         }
@@ -318,7 +316,7 @@ fn results(content: &Content) -> Option<Vec<(Symbol, Content)>> {
                     }
                 }
             }
-            (name, value) => out.push((name.expr()?.as_symbol()?.clone(), value.clone())),
+            (name, value) => out.push((name.name()?.clone(), value.clone())),
         }
     }
     Some(out)

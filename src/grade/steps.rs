@@ -535,7 +535,7 @@ impl Desk<'_> {
             let there = there.clone();
             self.count(&links, &of);
             let mut sides = links.iter().map(|link| &link.sides[0]);
-            let said = sides.next().and_then(|side| side.expr()?.as_symbol());
+            let said = sides.next().and_then(|side| side.name());
             if !said.is_some_and(|name| formula::has_arrow(name)) {
                 self.note_final(text, reading, &there);
             }

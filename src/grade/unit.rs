@@ -59,7 +59,7 @@ pub(super) fn behind(key: &Key, reading: &Reading, finding: &mut Grade) {
 pub(super) fn of_relations(key: &Key, reading: &Reading, finding: &mut Grade) {
     let mut known = BTreeMap::new();
     for sides in key.reading.content.chains() {
-        let names = sides.iter().filter_map(|side| side.expr()?.as_symbol());
+        let names = sides.iter().filter_map(|side| side.name());
         if let Some(dimension) = sides.iter().find_map(dimension_of) {
             known.extend(names.map(|name| (name.to_string(), dimension.clone())));
         }

@@ -106,6 +106,14 @@ impl Grade {
         self
     }
 
+    /// The same of an answer that is right by another reading than the usual one.
+    pub(super) fn reread(mut self, message: String, hint: &str) -> Grade {
+        self.note = "EQUIV_READING";
+        let found = Diagnosis::new("READING", message, hint);
+        self.diagnosis.insert(0, found);
+        self
+    }
+
     /// How the answer was read, in plain notation.
     pub fn read_as(&self) -> Option<String> {
         self.content.as_ref().map(super::show)

@@ -28,9 +28,7 @@ pub(super) fn worked<'a>(key: &Key, answer: &'a str, reading: &Reading) -> Optio
     if !matches!(asked, Content::Scalar(e) if !e.is_constant()) {
         return None;
     }
-    let Content::Relations(sides, signs) = &reading.content else {
-        return None;
-    };
+    let (sides, signs) = reading.content.relations()?;
     let steps = |sign: &Relation| matches!(sign, Relation::Equal | Relation::Approximately);
     // `2 kg · 9.8 m/s² · 5 m` begins with a number, and has letters that the question does not know.
     let strange = |name: &Symbol| !key.question.given().any(|g| g.name == *name);

@@ -71,7 +71,7 @@ pub(in crate::grade) fn quantity(
 /// A text that says of names alone which quantities they are, or lie between: `2 m < x < 3 m`, `v = 2 m/s; s = 4 m`.
 fn bounds(text: &str, open: &Reading, question: &Question) -> Option<Reading> {
     let sides = open.content.chains().into_iter().flatten();
-    let names = sides.filter_map(|side| side.expr()?.as_symbol().cloned());
+    let names = sides.filter_map(|side| side.name().cloned());
     let names: BTreeSet<Symbol> = names.collect();
     if names.is_empty() || !text.contains(|c: char| c.is_ascii_digit()) {
         return None;

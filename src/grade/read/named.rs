@@ -20,9 +20,7 @@ pub(super) fn named_in_order(key: &Key, text: &str) -> Option<String> {
         .fold(text.to_string(), |text, word| text.replace(word, ", "));
     let given: Vec<&str> = text.split(", ").collect();
     let name = |part: &Content| match part {
-        Content::Relations(sides, signs) if signs == &[Relation::Equal] => {
-            sides[0].expr()?.as_symbol().cloned()
-        }
+        Content::Relations(sides, signs) if signs == &[Relation::Equal] => sides[0].name().cloned(),
         _ => None,
     };
     let names: Vec<Symbol> = asked.iter().map(name).collect::<Option<_>>()?;
@@ -90,7 +88,7 @@ pub(super) fn with_definitions(key: &Key, text: &str) -> Option<Reading> {
         // `I = m l^2/3 is its moment of inertia`
         let value = value.split(" is ").next().unwrap_or(value);
         let name = formula::read(name, &Symbols::open()).ok()?;
-        let name = name.content.expr()?.as_symbol()?.clone();
+        let name = name.content.name()?.clone();
         // `m g, where g = 9.8 m/s²`: the value of a name of the question, which nobody asked for.
         if said_so.is_some() && declared(key, &name) && is_number(value) {
             told.push(name);
@@ -113,7 +111,7 @@ pub(super) fn with_definitions(key: &Key, text: &str) -> Option<Reading> {
     let used = names.any(|name| reading.symbols().contains(name));
     // `x = 2, x = 3` are two values of x, and `m v = 2 m u, u = v/2` solves an equation.
     let defined = match &reading.content {
-        Content::Relations(sides, _) => match sides[0].expr().and_then(Expr::as_symbol) {
+        Content::Relations(sides, _) => match sides[0].name() {
             Some(name) => values.contains_key(name),
             None => said_so.is_none(),
         },

@@ -18,7 +18,7 @@ pub(super) fn beyond(ctx: &Context, expected: &[Normal], mine: &[Content]) -> Op
     let [name, Content::Either(values)] = mine else {
         return None;
     };
-    let name = name.expr()?.as_symbol()?;
+    let name = name.name()?;
     let domains = &ctx.key.question.domains;
     let outside =
         |value: &&Expr| number(value, domains).is_some_and(|v| !lies_in(&v, name, domains));

@@ -105,16 +105,12 @@ impl Sheet {
         let Some(apart) = crate::formula::letters_apart(answer, &names) else {
             return grade;
         };
-        let mut other = self.judge_with_earlier(entry, &apart, options);
-        if other.verdict != Verdict::Equivalent {
+        let other = self.judge_with_earlier(entry, &apart, options);
+        if !other.is_equivalent() {
             return grade;
         }
-        other.note = "EQUIV_READING";
         let message = format!("right when it is read as {apart}");
-        let hint = "write a space between the factors of a product";
-        let found = Diagnosis::new("READING", message, hint);
-        other.diagnosis.insert(0, found);
-        other
+        other.reread(message, "write a space between the factors of a product")
     }
 
     /// A bound with what is granted of its parameter on the other side: `2√(g l) ≤ u < √(5 g l)`.

@@ -13,7 +13,7 @@ use super::link::{Link, names_in};
 use crate::derive::{Moment, Names};
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol, cross, minus};
-use crate::formula::{self, Content};
+use crate::formula;
 use crate::laws::{Geometry, Unknown};
 use crate::scene::{Ask, Scene};
 
@@ -39,11 +39,7 @@ impl<'s> Around<'s> {
         let (names, geometry) = (Names::of(scene), Geometry::symbolic(scene));
         let value = |unknown: Unknown| {
             let value = motion.get(names.plain(unknown))?.clone();
-            Some(if names.is_reversed(unknown) {
-                -value
-            } else {
-                value
-            })
+            Some(names.signed(unknown, value))
         };
         let bodies = 0..scene.bodies.len();
         let before = bodies.clone().map(|b| {
@@ -181,10 +177,8 @@ impl Desk<'_> {
             _ => None,
         });
         // A volt is no name of the scene.
-        let known = |name: &Symbol| {
-            let reading = formula::read(&formula::latex_name(name), &symbols).ok();
-            reading.is_some_and(|r| r.expr().is_some_and(|e| e.as_symbol().is_some()))
-        };
+        let known =
+            |name: &Symbol| formula::read_name(&formula::latex_name(name), &symbols).is_some();
         let all: BTreeSet<Symbol> = used.chain(joined).collect();
         let plain = |name: &Symbol| !formula::has_arrow(name) && !formula::is_component(name);
         all.into_iter()
@@ -300,14 +294,10 @@ impl Desk<'_> {
     /// their bodies, and of one of them it is said that it is what its body comes in with.
     fn coming_in(&self, all: &[Around], text: &str) -> Values {
         let readings = readings(&self.sheet.scene, text);
-        let sides = readings
-            .iter()
-            .filter_map(|reading| match &reading.content {
-                Content::Relations(sides, _) => {
-                    Some([sides.first()?.expr()?, sides.get(1)?.expr()?])
-                }
-                _ => None,
-            });
+        let sides = readings.iter().filter_map(|reading| {
+            let (sides, _) = reading.content.relations()?;
+            Some([sides.first()?.expr()?, sides.get(1)?.expr()?])
+        });
         let sides: Vec<[&Expr; 2]> = sides.collect();
         let given = |name: &Symbol| self.is_given(name);
         let said = sides.iter().filter_map(|[name, value]| {
@@ -392,17 +382,16 @@ impl Desk<'_> {
             }
         }
         for reading in readings(&self.sheet.scene, text) {
-            let Content::Relations(sides, _) = &reading.content else {
+            let gap = reading
+                .content
+                .relations()
+                .and_then(|(sides, _)| match sides {
+                    [left, right] => Some(left.expr()? - right.expr()?),
+                    _ => None,
+                });
+            let Some(gap) = gap else {
                 continue;
             };
-            let [Some(left), Some(right)] = [sides.first(), sides.get(1)].map(|side| side?.expr())
-            else {
-                continue;
-            };
-            if sides.len() > 2 {
-                continue;
-            }
-            let gap = left - right;
             let with = |values: &Values| {
                 let gap = gap.substitute(values);
                 let used = gap.symbols();

@@ -199,13 +199,10 @@ impl Desk<'_> {
 
     /// A line `name = …` that holds says what the name is under every belief about the others.
     pub(super) fn carry(&mut self, reading: &Reading) {
-        let Content::Relations(sides, _) = &reading.content else {
+        let Some(([left, .., right], _)) = reading.content.relations() else {
             return;
         };
-        let [left, .., right] = sides.as_slice() else {
-            return;
-        };
-        let Some(name) = left.expr().and_then(Expr::as_symbol) else {
+        let Some(name) = left.name() else {
             return;
         };
         let is_vector = self.components(name).is_some();
@@ -249,7 +246,7 @@ impl Desk<'_> {
     /// about something else.
     pub(super) fn believe_vector(&mut self, cause: usize, links: &[Link]) -> Option<()> {
         let (first, last) = (links.first()?, links.last()?);
-        let name = first.sides[0].expr()?.as_symbol()?;
+        let name = first.sides[0].name()?;
         let is_spin = self.spins.contains_key(name);
         let named = Some(name).filter(|name| formula::has_arrow(name) && !is_spin);
         let along = self.along(named?, &last.sides[1])?;
@@ -406,13 +403,7 @@ impl Desk<'_> {
         }
         let g = Geometry::symbolic(scene);
         let motion = Kinematics::full(scene, &g);
-        let named = |unknown: Unknown| {
-            let symbol = Expr::symbol(names.plain(unknown));
-            match names.is_reversed(unknown) {
-                true => -symbol,
-                false => symbol,
-            }
-        };
+        let named = |unknown: Unknown| names.signed(unknown, Expr::symbol(names.plain(unknown)));
         let equation = |law: &Law| {
             let linear = laws::symbolic(scene, &g, &motion, law);
             let terms = linear.terms.iter().map(|(u, k)| k * &named(*u));

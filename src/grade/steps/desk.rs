@@ -206,11 +206,8 @@ impl<'a> Desk<'a> {
         }
         // The speed v_D that is given goes before a vector that is asked for and typeset otherwise.
         let given = symbols.clone();
-        let is_given = |name: &str| {
-            let reading = formula::read(name, &given).ok();
-            let symbol = reading.as_ref().and_then(|r| r.expr()?.as_symbol());
-            symbol.is_some_and(|symbol| **symbol != *name)
-        };
+        let is_given =
+            |name: &str| formula::read_name(name, &given).is_some_and(|symbol| *symbol != *name);
         // In a product of vectors what is asked for is one by its arrow; alone on the left it is what is said.
         let in_product = in_products(text);
         // Beside `v'` a v without a mark is the one before.
@@ -314,9 +311,8 @@ impl<'a> Desk<'a> {
     pub(super) fn in_names(&self, text: &str) -> String {
         let symbols = self.symbols(text);
         let asked = |word: &str| {
-            let reading = formula::read(word, &symbols).ok();
-            let name = reading.as_ref().and_then(|r| r.expr()?.as_symbol());
-            name.is_some_and(|name| self.closed.contains_key(name))
+            let name = formula::read_name(word, &symbols);
+            name.is_some_and(|name| self.closed.contains_key(&name))
         };
         let lines = text.lines().map(|line| text::in_names(line, &asked));
         self.with_said(lines.collect()).join("\n")

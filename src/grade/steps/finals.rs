@@ -28,10 +28,8 @@ impl Desk<'_> {
 
     /// A line about the parameter a question asks for: `d = 4 l/3`, `d <= L/2`.
     pub(super) fn bound(&mut self, text: &str, reading: &Reading) -> Option<Found> {
-        let Content::Relations(sides, _) = &reading.content else {
-            return None;
-        };
-        let name = sides.first()?.expr()?.as_symbol()?;
+        let (sides, _) = reading.content.relations()?;
+        let name = sides.first()?.name()?;
         let sought = self.sought.iter().filter(|s| s.is_named(name));
         // Where a quantity is largest is no answer of its own.
         let places = sought.filter(|s| s.condition.is_none());
@@ -63,9 +61,7 @@ impl Desk<'_> {
         let first = told.or_else(|| self.first_link(reading));
         let first = first.or_else(|| self.without_rounded_end(text, reading));
         let reading = first.as_ref().unwrap_or(reading);
-        let Content::Relations(sides, _) = &reading.content else {
-            return None;
-        };
+        let (sides, _) = reading.content.relations()?;
         let own = self.in_given(reading);
         let own = own.or_else(|| {
             first
@@ -118,18 +114,17 @@ impl Desk<'_> {
 
     /// Whether the answers suppose of a parameter what a line says of it.
     fn is_granted(&self, name: &Symbol, reading: &Reading) -> bool {
-        let Content::Relations(sides, signs) = &reading.content else {
+        let Some(([_, end], [sign])) = reading.content.relations() else {
             return false;
-        };
-        let [_, end] = sides.as_slice() else {
-            return false;
-        };
-        let is_end = |value: &Expr| {
-            let off = end.expr().map(|end| end - value);
-            off.is_some_and(|off| self.is_zero(&off))
         };
         let mut granted = self.sheet.granted(name).into_iter();
-        granted.any(|(sign, value)| signs[0] == sign && is_end(&value))
+        granted.any(|(said, value)| *sign == said && self.is_value(end, &value))
+    }
+
+    /// Whether a side is this value.
+    fn is_value(&self, side: &Content, value: &Expr) -> bool {
+        side.expr()
+            .is_some_and(|side| self.is_zero(&(side - value)))
     }
 
     /// How a line is judged as an answer to these questions, in each of the ways the scene can go, until it is right.
@@ -152,16 +147,10 @@ impl Desk<'_> {
     /// The question of these to which a line gives an answer that is right in one of the cases of the scene, or one of several
     /// values: `u ≥ 7 g d/(10 e w)` where the ball sticks.
     fn answer_of_a_case(&self, reading: &Reading, asked: &[String]) -> Option<String> {
-        let Content::Relations(sides, signs) = &reading.content else {
+        let ([name, end], [sign]) = reading.content.relations()? else {
             return None;
         };
-        let ([name, end], [sign]) = (sides.as_slice(), signs.as_slice()) else {
-            return None;
-        };
-        let is_end = |value: &Expr| {
-            let end = end.expr().map(|end| end - value);
-            end.is_some_and(|off| self.is_zero(&off))
-        };
+        let is_end = |value: &Expr| self.is_value(end, value);
         let says = |answer: &&Answer| {
             let mut range = answer.range.iter();
             let value = answer
@@ -194,10 +183,7 @@ impl Desk<'_> {
 
     /// Whether an inequality in numbers is a bound that is asked for, as far as their digits tell.
     fn is_rounded_bound(&self, text: &str, reading: &Reading, question: &str) -> bool {
-        let Content::Relations(sides, signs) = &reading.content else {
-            return false;
-        };
-        let ([_, end], [sign]) = (sides.as_slice(), signs.as_slice()) else {
+        let Some(([_, end], [sign])) = reading.content.relations() else {
             return false;
         };
         let mut bounds = self.sheet.bounds();
@@ -209,11 +195,9 @@ impl Desk<'_> {
     /// A chain about a parameter without the sides that are the parameter whatever its value, such as `(m+M)/m u` in
     /// `v = (m+M)/m u = …`; nothing where it has none.
     fn of_value(&self, reading: &Reading) -> Option<Reading> {
-        let Content::Relations(sides, signs) = &reading.content else {
-            return None;
-        };
+        let (sides, signs) = reading.content.relations()?;
         let (name, values) = sides.split_first()?;
-        let answered = self.closed.contains_key(name.expr()?.as_symbol()?);
+        let answered = self.closed.contains_key(name.name()?);
         let says = |side: &&Content| {
             let link = self.link(name, side);
             link.is_none_or(|link| !self.holds(&link))
@@ -229,10 +213,7 @@ impl Desk<'_> {
 
     /// The bound of a chain that goes on with equalities, where all of these hold, and what is known put in.
     fn first_link(&self, reading: &Reading) -> Option<Reading> {
-        let Content::Relations(sides, signs) = &reading.content else {
-            return None;
-        };
-        let ([name, first, rest @ ..], [sign, others @ ..]) = (&sides[..], &signs[..]) else {
+        let ([name, first, rest @ ..], [sign, others @ ..]) = reading.content.relations()? else {
             return None;
         };
         let goes_on = !equal(*sign) && !others.is_empty() && others.iter().all(|s| equal(*s));
@@ -249,11 +230,8 @@ impl Desk<'_> {
 
     /// A chain without its last side, where that rounds the one before it: `v = √(8gl/3) ≈ 1.63 √(gl)`.
     fn without_rounded_end(&self, text: &str, reading: &Reading) -> Option<Reading> {
-        let Content::Relations(sides, signs) = &reading.content else {
-            return None;
-        };
         let ([before @ .., last], [others @ .., Relation::Approximately]) =
-            (&sides[..], &signs[..])
+            reading.content.relations()?
         else {
             return None;
         };
@@ -273,7 +251,7 @@ impl Desk<'_> {
 
     /// A line with an inequality: it holds where its sign is proved, or where it says what a question supposes.
     pub(super) fn inequality(&self, reading: &Reading) -> Status {
-        let Content::Relations(sides, signs) = &reading.content else {
+        let Some((sides, signs)) = reading.content.relations() else {
             return Status::Undecided;
         };
         let domains = &self.sheet.scene.domains;
@@ -359,9 +337,7 @@ impl Desk<'_> {
     /// A line that says what the sine, cosine or tangent of an angle is that is asked for, solved for it where it has no other
     /// values.
     fn for_angle(&self, reading: &Reading) -> Option<Reading> {
-        let Content::Relations(sides, signs) = &reading.content else {
-            return None;
-        };
+        let (sides, signs) = reading.content.relations()?;
         let Node::Call(function, angle) = sides.first()?.expr()?.node() else {
             return None;
         };
@@ -397,13 +373,12 @@ impl Desk<'_> {
             links.is_some_and(|links| self.in_another_unit(&links).is_none())
         };
         let measured = self.measured(text, reading).filter(fits);
-        let Content::Relations(sides, signs) = &measured.as_ref().unwrap_or(reading).content else {
+        let content = &measured.as_ref().unwrap_or(reading).content;
+        let Some(([first, .., last], signs)) = content.relations() else {
             return;
         };
-        let ([first, .., last], true) = (sides.as_slice(), signs.iter().all(|s| equal(*s))) else {
-            return;
-        };
-        let Some(name) = first.expr().and_then(Expr::as_symbol) else {
+        let equation = signs.iter().all(|s| equal(*s));
+        let Some(name) = first.name().filter(|_| equation) else {
             return;
         };
         let name = self.spins.get(&**name).map_or(name, |(spin, _)| spin);

@@ -84,12 +84,7 @@ impl<'a> Impact<'a> {
     fn put_in(&self, form: &Affine<Expr>) -> Option<Expr> {
         let term = |(unknown, factor): &(Unknown, Expr)| {
             let value = (self.value)(&Symbol::from(self.names.plain(*unknown)))?;
-            let value = if self.names.is_reversed(*unknown) {
-                -value
-            } else {
-                value
-            };
-            Some(factor * &value)
+            Some(factor * &self.names.signed(*unknown, value))
         };
         let terms: Option<Vec<Expr>> = form.terms.iter().map(term).collect();
         Some(&form.constant + &Expr::sum(terms?))

@@ -25,9 +25,7 @@ pub(super) const MARKS: [&str; 2] = ["'", "^{+}"];
 
 /// Whether a side is a name and nothing else.
 fn is_alone(side: &Content, name: &str) -> bool {
-    side.expr()
-        .and_then(Expr::as_symbol)
-        .is_some_and(|symbol| &**symbol == name)
+    side.name().is_some_and(|symbol| &**symbol == name)
 }
 
 /// The equations of a worked solution that can be read by themselves.

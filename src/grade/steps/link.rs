@@ -166,9 +166,7 @@ impl Desk<'_> {
 
     /// The links of a chain of equalities.
     pub(super) fn links(&self, reading: &Reading) -> Option<Vec<Link>> {
-        let Content::Relations(sides, signs) = &reading.content else {
-            return None;
-        };
+        let (sides, signs) = reading.content.relations()?;
         if !signs.iter().all(|s| equal(*s)) {
             return None;
         }
@@ -193,13 +191,11 @@ impl Desk<'_> {
         };
         let then: Vec<Reading> = behind.into_iter().map(read).collect::<Option<_>>()?;
         let is_parameter = |name: &Symbol| self.is_given(name);
-        let symbol = |side: &Content| side.expr().and_then(Expr::as_symbol).cloned();
+        let symbol = |side: &Content| side.name().cloned();
         let mut there = BTreeMap::new();
         for part in equations(given) {
-            let Content::Relations(sides, signs) = read(part)?.content else {
-                return None;
-            };
-            let ([left, right], [Relation::Equal]) = (&sides[..], &signs[..]) else {
+            let given = read(part)?.content;
+            let ([left, right], [Relation::Equal]) = given.relations()? else {
                 // What holds where an inequality does is not known to hold.
                 return Some(Status::Undecided);
             };
@@ -358,7 +354,7 @@ impl Desk<'_> {
         let scene = &self.sheet.scene;
         let value = |name: &Symbol, d: &Expr| solve_for(d, name, &scene.domains);
         let one = link.gap()?;
-        let name = link.sides[0].expr()?.as_symbol()?;
+        let name = link.sides[0].name()?;
         let mut sought = self.sought.iter();
         let asked = sought.find(|s| s.is_named(name));
         let right = self.closed.get(asked.map_or(&**name, |s| &s.question))?;
@@ -405,7 +401,7 @@ impl Desk<'_> {
 
     /// The link of `lost = … = 6 kg` in which an answer of the scene gets a unit of another quantity.
     pub(super) fn in_another_unit(&self, links: &[Link]) -> Option<usize> {
-        let name = links.first()?.sides[0].expr()?.as_symbol()?;
+        let name = links.first()?.sides[0].name()?;
         let asked = self.sheet.entry(name).ok()?.key.question.dimension?;
         links.iter().position(|link| match &link.sides[1] {
             Content::Quantity(q) => q.unit.dimension != asked && !q.value.is_zero(),

@@ -21,8 +21,7 @@ pub(super) fn named(text: &str) -> Option<(Symbol, &str)> {
     let left = left.trim_end_matches(':').trim();
     let word = left.starts_with(|c: char| c.is_ascii_alphabetic())
         && left.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-    let read = formula::read(left, &Symbols::open()).ok();
-    let symbol = read.and_then(|reading| reading.expr()?.as_symbol().cloned());
+    let symbol = formula::read_name(left, &Symbols::open());
     let name = symbol.or_else(|| word.then(|| Symbol::from(left)))?;
     Some((name, right))
 }
@@ -46,9 +45,7 @@ pub(super) fn left_sides(text: &str) -> Vec<Expr> {
     let parts = lines.flat_map(super::text::equations);
     let sides = parts.filter_map(|part| {
         let reading = formula::read(part, &Symbols::open()).ok()?;
-        let Content::Relations(sides, _) = reading.content else {
-            return None;
-        };
+        let (sides, _) = reading.content.relations()?;
         sides.first()?.expr().cloned()
     });
     sides.collect()
@@ -301,8 +298,7 @@ impl Desk<'_> {
     /// Whether a line only says that something stays what it is, in names that it never gives: `H_C = H_C'`, `E_1 = E_2`.
     pub(super) fn is_conservation(&self, text: &str) -> bool {
         let letter = |side: &str| {
-            let reading = formula::read(side, &Symbols::open()).ok()?;
-            let name = reading.expr()?.as_symbol().cloned()?;
+            let name = formula::read_name(side, &Symbols::open())?;
             (!self.is_known(&name)).then(|| name.chars().next())
         };
         match text.split('=').collect::<Vec<_>>()[..] {
@@ -362,8 +358,7 @@ impl Desk<'_> {
                 Err(fault) => (fault.start, fault.end),
             };
             let word = text.get(from..to)?;
-            let missing = formula::read(word, &Symbols::open()).ok();
-            let missing = missing.and_then(|r| r.expr()?.as_symbol().cloned());
+            let missing = formula::read_name(word, &Symbols::open());
             let missing = missing.or_else(|| self.new_letter(word));
             let missing = missing.unwrap_or_else(|| Symbol::from(word.trim()));
             if self.own.len() >= MOST_NAMES || self.is_known(&missing) {
@@ -457,9 +452,8 @@ impl Desk<'_> {
         let symbols = self.symbols(text);
         // What the scene has, with a mark, is not new.
         let is_read = |name: &Symbol| {
-            let reading = formula::read(&formula::latex_name(name), &symbols).ok();
-            let read = reading.as_ref().and_then(|r| r.expr()?.as_symbol());
-            read.is_some_and(|read| self.closed.contains_key(read))
+            let read = formula::read_name(&formula::latex_name(name), &symbols);
+            read.is_some_and(|read| self.closed.contains_key(&read))
         };
         if new.iter().any(is_read) {
             return None;

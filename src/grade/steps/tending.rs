@@ -88,9 +88,7 @@ impl Desk<'_> {
             return Some(Status::Comment);
         };
         // What is asked as a limit is judged as an answer.
-        let asked = links
-            .first()
-            .and_then(|link| link.sides[0].expr()?.as_symbol());
+        let asked = links.first().and_then(|link| link.sides[0].name());
         let mut questions = self.sheet.scene.questions.iter();
         if questions.any(|q| {
             matches!(q.ask, Ask::Limit { .. }) && asked.is_some_and(|name| **name == *q.name)

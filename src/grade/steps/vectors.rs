@@ -61,8 +61,8 @@ pub(super) fn in_products(text: &str) -> impl Fn(&str) -> bool {
     let multiplied = signs.iter().any(|sign| text.contains(sign));
     let left = text.split('=').next().filter(|_| multiplied);
     let left = left.filter(|left| !signs.iter().any(|sign| left.contains(sign)));
-    let left = left.and_then(|left| formula::read(left, &Symbols::open()).ok());
-    let left = left.and_then(|left| formula::vector_name(left.expr()?.as_symbol()?));
+    let left = left.and_then(|left| formula::read_name(left, &Symbols::open()));
+    let left = left.and_then(|left| formula::vector_name(&left));
     let alone = left.map(|(base, index, _)| (base, index));
     move |name| {
         let here = || formula::vector_name(name).map(|(base, index, _)| (base, index));
@@ -103,11 +103,7 @@ impl Desk<'_> {
         let symbols = self.symbols(text);
         // Places and spins are others at other moments, though the scene has names for them.
         let read_as = |name: Symbol| {
-            let reading = formula::read(&formula::latex_name(&name), &symbols).ok();
-            let found = reading
-                .as_ref()
-                .and_then(|r| r.expr()?.as_symbol())
-                .cloned();
+            let found = formula::read_name(&formula::latex_name(&name), &symbols);
             let (base, ..) = formula::vector_name(&name)?;
             let changes = ["r", "omega"].contains(&&*base);
             match found {

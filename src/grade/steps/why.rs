@@ -116,13 +116,10 @@ impl Desk<'_> {
     }
 
     fn behind_line(&self, reading: &Reading, at: usize, text: &str) -> Vec<Diagnosis> {
-        let Content::Relations(sides, _) = &reading.content else {
+        let Some((sides, _)) = reading.content.relations() else {
             return Vec::new();
         };
-        let name = sides
-            .first()
-            .and_then(Content::expr)
-            .and_then(Expr::as_symbol);
+        let name = sides.first().and_then(Content::name);
         let value = sides.get(at + 1).and_then(Content::expr);
         if let (Some(name), Some(value)) = (name, value)
             && self.bound.contains(name)
@@ -137,7 +134,7 @@ impl Desk<'_> {
             let own = own.filter(|(side, own)| *side != own || sides.len() > 2);
             let by_others = own.is_some();
             // What is said by way of other quantities is a law, and the sign of a term in it says more than a factor.
-            if let (Some(_), [left, right]) = (&own, sides.as_slice())
+            if let (Some(_), [left, right]) = (&own, sides)
                 && let (Some(left), Some(right)) = (left.expr(), right.expr())
                 && let Some(turned) = self.turned(left, right)
             {
@@ -169,7 +166,7 @@ impl Desk<'_> {
             }
         }
         // A law with a slip.
-        let [left, right] = sides.as_slice() else {
+        let [left, right] = sides else {
             return Vec::new();
         };
         let (Some(left), Some(right)) = (left.expr(), right.expr()) else {
