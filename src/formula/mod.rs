@@ -63,7 +63,7 @@ pub(crate) use units::plain_unit;
 pub use visible::{is_hidden, visible};
 pub use write::{latex_name, unicode_name, write_latex, write_plain, write_unicode};
 pub use written::{Link, Literal, Shape, Sign, Written};
-pub(crate) use written::{has_arrow, is_component, vector_name, with_arrow};
+pub(crate) use written::{along_axes, has_arrow, is_component, vector_name, with_arrow};
 
 /// Longest formula, in bytes.
 pub const MAX_BYTES: usize = 1 << 16;

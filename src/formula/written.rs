@@ -338,6 +338,11 @@ pub(crate) fn is_component(name: &str) -> bool {
     stem.is_some_and(has_arrow)
 }
 
+/// The names of the components of a vector.
+pub(crate) fn along_axes(name: &str) -> [Symbol; 3] {
+    ["x", "y", "z"].map(|axis| Symbol::from(format!("{name}_{axis}")))
+}
+
 /// The letter, the index and the mark of a name with an arrow: v, `C,rod` and `^+`.
 pub(crate) fn vector_name(name: &str) -> Option<(String, String, String)> {
     let parts = super::symbols::parts_of(name);

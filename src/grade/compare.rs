@@ -41,8 +41,7 @@ impl<'a> Context<'a> {
 
     /// Dimension of a symbol, where the question declares it.
     pub fn dimension_of(&self, name: &str) -> Option<Dimension> {
-        let found = self.key.question.given().find(|g| *g.name == *name);
-        found.and_then(|g| g.dimension.clone())
+        self.key.question.dimension_of(name)
     }
 
     /// An expression as the question's author typesets it, for messages.

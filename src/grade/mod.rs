@@ -53,6 +53,12 @@ impl Question {
     pub(crate) fn given(&self) -> impl Iterator<Item = &Given> {
         self.symbols.iter().chain(&self.asked)
     }
+
+    /// The dimension of a symbol, where it is declared.
+    pub(crate) fn dimension_of(&self, name: &str) -> Option<Dimension> {
+        let given = self.given().find(|g| *g.name == *name)?;
+        given.dimension.clone()
+    }
 }
 
 /// A declared symbol.
@@ -69,10 +75,14 @@ pub struct Given {
 impl Given {
     /// A symbol of which the name alone is known.
     pub fn named(name: impl Into<Symbol>) -> Given {
+        Given::new(name, None, None)
+    }
+
+    fn new(name: impl Into<Symbol>, latex: Option<String>, dimension: Option<Dimension>) -> Given {
         Given {
             name: name.into(),
-            latex: None,
-            dimension: None,
+            latex,
+            dimension,
         }
     }
 }

@@ -431,8 +431,8 @@ pub(super) fn sizes<'a>(
     }
     let size = |name: Symbol| {
         let arrow = formula::with_arrow(&name)?;
-        let along = ["x", "y", "z"].map(|axis| format!("{arrow}_{axis}"));
-        let here = components.iter().any(|c| along.contains(&c.to_string()));
+        let along = formula::along_axes(&arrow);
+        let here = components.iter().any(|c| along.contains(c));
         let squares = along.map(|c| Expr::symbol(&c).powi(2));
         here.then(|| (name, Expr::sum(squares.to_vec()).sqrt()))
     };

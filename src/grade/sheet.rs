@@ -5,8 +5,7 @@ pub(in crate::grade) mod judge;
 mod rows;
 
 use super::believed::{self, Believed, Story, Written};
-use super::relation::solve_for;
-use super::steps::size_in;
+use super::relation::{size_in, solve_for};
 use super::{Given, Key, Options, Question, key_of};
 use crate::algebra::{self, Sign};
 use crate::answer::{Answer, Form};
@@ -61,6 +60,15 @@ pub struct Bound {
 }
 
 impl Bound {
+    fn new(name: &str, parameter: &Symbol, relation: Relation, value: &Expr) -> Bound {
+        Bound {
+            name: name.to_string(),
+            parameter: parameter.clone(),
+            relation,
+            value: value.clone(),
+        }
+    }
+
     /// Whether an equation speaks of the parameter and is not solved for it.
     fn is_in(&self, sides: &[Content]) -> bool {
         let first = sides.first().and_then(Content::expr);
@@ -141,24 +149,14 @@ impl Sheet {
             [(of, relation, value)]
                 if a.name == a.question && a.formula().is_none_or(|f| f == value) =>
             {
-                Some(Bound {
-                    name: a.name.clone(),
-                    parameter: of.as_symbol()?.clone(),
-                    relation: *relation,
-                    value: value.clone(),
-                })
+                Some(Bound::new(&a.name, of.as_symbol()?, *relation, value))
             }
             _ => None,
         };
         let friction = self.coefficients.iter().filter_map(|(name, mu, relation)| {
             let mut answers = self.derivation.answers.iter();
             let answer = answers.find(|a| a.name == *name)?;
-            Some(Bound {
-                name: name.clone(),
-                parameter: mu.clone(),
-                relation: *relation,
-                value: answer.formula()?.clone(),
-            })
+            Some(Bound::new(name, mu, *relation, answer.formula()?))
         });
         self.all.iter().filter_map(bound).chain(friction)
     }
@@ -213,11 +211,9 @@ impl Sheet {
 
     /// What the scene declares of its symbols.
     pub fn question(&self) -> Question {
-        let symbols = self.scene.parameters.iter().map(|p| Given {
-            name: p.name.clone(),
-            latex: p.latex.clone(),
-            dimension: Some(p.dimension.clone()),
-        });
+        let parameters = self.scene.parameters.iter();
+        let symbols = parameters
+            .map(|p| Given::new(p.name.clone(), p.latex.clone(), Some(p.dimension.clone())));
         Question {
             symbols: symbols.collect(),
             domains: self.scene.domains.clone(),
@@ -229,104 +225,73 @@ impl Sheet {
 
     /// The key of a quantity, or why there is none.
     pub fn entry(&self, name: &str) -> Result<Entry, String> {
-        let answers: Vec<&Answer> = self
-            .derivation
-            .answers
-            .iter()
-            .filter(|a| a.question == name)
-            .collect();
-        let (chosen, component) = match answers.as_slice() {
-            [] => {
-                let found = self.derivation.answers.iter().find(|a| a.name == name);
-                let is_asked = || self.scene.questions.iter().any(|q| q.name == name);
-                let answer = found.ok_or_else(|| match is_asked() {
-                    true => format!(
-                        "the scene finds no value for {name:?} (`carom derive` says why); it has {}",
-                        self.quantities().join(", ")
-                    ),
-                    false => format!(
-                        "the scene asks for no {name:?}; it asks for {}",
-                        self.quantities().join(", ")
-                    ),
-                })?;
-                (vec![answer], Some(usize::from(answer.name.ends_with("_y"))))
-            }
-            all => (all.to_vec(), None),
-        };
+        let answers = &self.derivation.answers;
+        let mut chosen: Vec<&Answer> = answers.iter().filter(|a| a.question == name).collect();
+        let mut component = None;
+        if chosen.is_empty() {
+            let answer = answers.iter().find(|a| a.name == name);
+            let answer = answer.ok_or_else(|| self.without_value(name))?;
+            component = Some(usize::from(answer.name.ends_with("_y")));
+            chosen.push(answer);
+        }
         let first = chosen[0];
-        let question = self
-            .scene
-            .questions
-            .iter()
-            .find(|q| q.name == first.question);
+        let question = self.scene.question(&first.question);
         let question = question.ok_or_else(|| format!("{name:?} is not asked"))?;
         let mut declared = self.question();
         declared.dimension = Some(first.dimension.clone());
         declared.domains = where_it_is(&chosen, declared.domains);
-        declared.asked.push(Given {
-            name: Symbol::from(name),
-            latex: component.map_or(question.latex.clone(), |_| Some(first.latex.clone())),
-            dimension: Some(first.dimension.clone()),
-        });
+        let latex = component.map_or(question.latex.clone(), |_| Some(first.latex.clone()));
+        let asked = Given::new(name, latex, Some(first.dimension.clone()));
+        declared.asked.push(asked);
         // `d = …` and `d ≤ …` answer a question about d.
         let bound = self.bounds().find(|b| b.name == first.name);
-        declared.asked.extend(bound.map(|b| Given {
-            name: b.parameter.clone(),
-            latex: None,
-            dimension: Some(first.dimension.clone()),
-        }));
-        let mut values = Vec::new();
-        for answer in &chosen {
-            match &answer.form {
-                Form::Value { closed, .. } => values.push(closed.clone()),
-                Form::Equation { left, right } => {
-                    let sides = vec![
-                        Content::Scalar(left.clone()),
-                        Content::Scalar(right.clone()),
-                    ];
-                    declared.asked.clear();
-                    declare_unknowns(self, &mut declared);
-                    let content = Content::Relations(sides, vec![Relation::Equal]);
-                    return Ok(Entry {
-                        name: name.to_string(),
-                        question: question.clone(),
-                        component,
-                        words: first.words.clone(),
-                        key: key_of(content, &declared),
-                    });
-                }
-                Form::Matrix(matrix) => {
-                    declare_unknowns(self, &mut declared);
-                    declared.dimension = None;
-                    return Ok(Entry {
-                        name: name.to_string(),
-                        question: question.clone(),
-                        component,
-                        words: first.words.clone(),
-                        key: key_of(Content::Matrix(matrix.entries.clone()), &declared),
-                    });
-                }
-                Form::Open(_) | Form::Words => {
-                    return Err(format!("{name} is not determined by the laws of the scene"));
+        let bound = bound.map(|b| Given::new(b.parameter, None, Some(first.dimension.clone())));
+        declared.asked.extend(bound);
+        let plain = first.words.trim_end_matches(", along x");
+        let mut words = plain.trim_end_matches(", along y");
+        let content = match &first.form {
+            Form::Equation { left, right } => {
+                declared.asked.clear();
+                declare_unknowns(self, &mut declared);
+                words = &first.words;
+                let sides = [left, right].map(|side| Content::Scalar(side.clone()));
+                Content::Relations(sides.into(), vec![Relation::Equal])
+            }
+            Form::Matrix(matrix) => {
+                declare_unknowns(self, &mut declared);
+                declared.dimension = None;
+                words = &first.words;
+                Content::Matrix(matrix.entries.clone())
+            }
+            _ => {
+                let values = chosen.iter().map(|answer| answer.formula());
+                let values: Option<Vec<&Expr>> = values.collect();
+                let open = || format!("{name} is not determined by the laws of the scene");
+                match values.ok_or_else(open)?[..] {
+                    [one] => Content::Scalar(one.clone()),
+                    [x, y] => Content::Vector([x.clone(), y.clone(), Expr::zero()]),
+                    _ => return Err(format!("{name} has no single value")),
                 }
             }
-        }
-        let content = match values.as_slice() {
-            [one] => Content::Scalar(one.clone()),
-            [x, y] => Content::Vector([x.clone(), y.clone(), Expr::zero()]),
-            _ => return Err(format!("{name} has no single value")),
         };
         Ok(Entry {
             name: name.to_string(),
             question: question.clone(),
             component,
-            words: first
-                .words
-                .trim_end_matches(", along x")
-                .trim_end_matches(", along y")
-                .to_string(),
+            words: words.to_string(),
             key: key_of(content, &declared),
         })
+    }
+
+    /// Why there is no key of a quantity that no answer is of.
+    fn without_value(&self, name: &str) -> String {
+        let all = self.quantities().join(", ");
+        match self.scene.question(name) {
+            Some(_) => format!(
+                "the scene finds no value for {name:?} (`carom derive` says why); it has {all}"
+            ),
+            None => format!("the scene asks for no {name:?}; it asks for {all}"),
+        }
     }
 
     /// The wrong answers to a quantity that single beliefs lead to, in closed form; those to one component of a vector where
@@ -391,10 +356,6 @@ fn declare_unknowns(sheet: &Sheet, question: &mut Question) {
         }
         let real = crate::domain::Domain::real();
         question.domains.symbols.insert(name.clone(), real);
-        question.symbols.push(Given {
-            name,
-            latex,
-            dimension: None,
-        });
+        question.symbols.push(Given::new(name, latex, None));
     }
 }

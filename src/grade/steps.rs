@@ -33,7 +33,6 @@ use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Fault, Reading};
 use crate::scene::Question;
 use bind::Values;
-pub(in crate::grade) use cause::size_in;
 use desk::Desk;
 use link::{Link, Weighed, gaps};
 

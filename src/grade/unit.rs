@@ -213,10 +213,7 @@ fn asked(key: &Key) -> Option<Dimension> {
     if let Some(dimension) = dimension.or(key.question.dimension.as_ref()) {
         return Some(dimension.clone());
     }
-    let known = |name: &str| {
-        let mut all = key.question.given();
-        all.find(|g| *g.name == *name)?.dimension.clone()
-    };
+    let known = |name: &str| key.question.dimension_of(name);
     let said = key.reading.content.answer().exprs().into_iter();
     let mut said = said.filter(|e| !e.is_zero() && !e.is_constant());
     said.find_map(|e| dimension::of(e, &known).ok()?)

@@ -79,13 +79,7 @@ pub(super) fn worked<'a>(key: &Key, answer: &'a str, reading: &Reading) -> Optio
 impl Worked<'_> {
     /// Tells in the grade of a right formula that its number is not judged, or that it cannot measure what is asked.
     pub(super) fn unjudged(&self, key: &Key, grade: &mut Grade) {
-        let known = |name: &str| {
-            key.question
-                .given()
-                .find(|g| *g.name == *name)?
-                .dimension
-                .clone()
-        };
+        let known = |name: &str| key.question.dimension_of(name);
         let asked = key.question.dimension.clone();
         let asked = asked.or_else(|| dimension::of(key.reading.expr()?, &known).ok()?);
         let number = self.number.trim().trim_end_matches(['.', '$', ' ']);

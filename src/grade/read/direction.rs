@@ -3,42 +3,25 @@
 use crate::formula::Fault;
 
 /// Words and arrows behind a formula for a direction, each with its sense along x and y or about the axis out of the page.
-const SENSES: [(&str, [i32; 3]); 35] = [
-    ("counterclockwise", [0, 0, 1]),
-    ("anticlockwise", [0, 0, 1]),
-    ("clockwise", [0, 0, -1]),
-    ("ccw", [0, 0, 1]),
-    ("cw", [0, 0, -1]),
-    ("to the right", [1, 0, 0]),
-    ("rightwards", [1, 0, 0]),
-    ("rightward", [1, 0, 0]),
-    ("to the left", [-1, 0, 0]),
-    ("leftwards", [-1, 0, 0]),
-    ("leftward", [-1, 0, 0]),
-    ("upwards", [0, 1, 0]),
-    ("upward", [0, 1, 0]),
-    ("up", [0, 1, 0]),
-    ("downwards", [0, -1, 0]),
-    ("downward", [0, -1, 0]),
-    ("down", [0, -1, 0]),
-    ("eastward", [1, 0, 0]),
-    ("westward", [-1, 0, 0]),
-    ("northward", [0, 1, 0]),
-    ("southward", [0, -1, 0]),
-    ("to the east", [1, 0, 0]),
-    ("to the west", [-1, 0, 0]),
-    ("to the north", [0, 1, 0]),
-    ("to the south", [0, -1, 0]),
-    ("↺", [0, 0, 1]),
-    ("↻", [0, 0, -1]),
-    ("→", [1, 0, 0]),
-    ("←", [-1, 0, 0]),
-    ("↑", [0, 1, 0]),
-    ("↓", [0, -1, 0]),
-    ("\\rightarrow", [1, 0, 0]),
-    ("\\leftarrow", [-1, 0, 0]),
-    ("\\uparrow", [0, 1, 0]),
-    ("\\downarrow", [0, -1, 0]),
+const SENSES: [(&str, [i32; 3]); 6] = [
+    ("counterclockwise|anticlockwise|ccw|↺", [0, 0, 1]),
+    ("clockwise|cw|↻", [0, 0, -1]),
+    (
+        "to the right|rightwards|rightward|eastward|to the east|→|\\rightarrow",
+        [1, 0, 0],
+    ),
+    (
+        "to the left|leftwards|leftward|westward|to the west|←|\\leftarrow",
+        [-1, 0, 0],
+    ),
+    (
+        "upwards|upward|up|northward|to the north|↑|\\uparrow",
+        [0, 1, 0],
+    ),
+    (
+        "downwards|downward|down|southward|to the south|↓|\\downarrow",
+        [0, -1, 0],
+    ),
 ];
 
 /// A formula without the direction in words behind it, and that direction: `9.31 rad/s clockwise`, `5 N (to the left)`.
@@ -50,7 +33,9 @@ pub(in crate::grade) fn sense(text: &str) -> Option<(&str, [i32; 3])> {
         .filter_map(|kind| said.strip_suffix(kind))
         .next()
         .unwrap_or(said);
-    SENSES.into_iter().find_map(|(word, sense)| {
+    let senses = SENSES.into_iter();
+    let mut words = senses.flat_map(|(words, sense)| words.split('|').map(move |w| (w, sense)));
+    words.find_map(|(word, sense)| {
         let at = said.len().checked_sub(word.len())?;
         let (before, end) = said.split_at_checked(at)?;
         let before = ["in the ", "in a "]

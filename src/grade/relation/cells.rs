@@ -8,14 +8,14 @@ use std::cmp::Ordering;
 
 use super::plain::plain;
 use super::values::{has_value, holds_at, one_turn};
-use super::zeros::{Number, zeros};
+use super::zeros::{Number, number, zeros};
 use super::{Normal, differences};
 use crate::algebra::{Cell, Field};
 use crate::domain::{Domains, Limit, roles};
 use crate::equality::{divisors, identical};
 use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
 use crate::formula::Relation;
-use crate::interval::{Big, Enclosure, Outcome, evaluate};
+use crate::interval::Enclosure;
 
 /// Most different absolute values.
 const MOST_FOLDED: usize = 3;
@@ -139,14 +139,6 @@ fn by_zeros(first: &Cases, second: &Cases, name: &Symbol, domains: &Domains) -> 
         before = next;
     }
     Some(out)
-}
-
-/// A constant with an enclosure of it.
-fn number(e: &Expr) -> Option<Number> {
-    match evaluate::<Big<200>>(e, &Default::default()) {
-        Outcome::Value(place) => Some((e.clone(), place.0)),
-        _ => None,
-    }
 }
 
 /// A fraction between two numbers, or beside one; nothing between a number and itself. `None` where it is not known whether they

@@ -27,6 +27,14 @@ const DEPTH: usize = 6;
 /// A number with an enclosure of it.
 pub(super) type Number = (Expr, Enclosure);
 
+/// A constant with an enclosure of it.
+pub(super) fn number(e: &Expr) -> Option<Number> {
+    match evaluate::<Big<200>>(e, &Default::default()) {
+        Outcome::Value(place) => Some((e.clone(), place.0)),
+        _ => None,
+    }
+}
+
 /// All numbers of its domain at which a formula vanishes; `None` where that is not sure.
 pub(super) fn zeros(f: &Expr, name: &Symbol, domains: &Domains) -> Option<Vec<Number>> {
     among(f, name, domains, DEPTH)
@@ -38,10 +46,7 @@ fn among(f: &Expr, name: &Symbol, domains: &Domains, depth: usize) -> Option<Vec
     let domain = domains.symbols.get(name)?;
     let mut found: Vec<Number> = Vec::new();
     for root in roots(f, name, &domains, depth)? {
-        let Outcome::Value(place) = evaluate::<Big<200>>(&root, &Default::default()) else {
-            return None;
-        };
-        let number = (root, place.0);
+        let number = number(&root)?;
         if !lies_in(&number, domain, &domains)? {
             continue;
         }
@@ -96,18 +101,15 @@ fn roots(f: &Expr, name: &Symbol, domains: &Domains, depth: usize) -> Option<Vec
 }
 
 /// Whether a number lies in a domain, of whose ends it may be one.
-pub(super) fn lies_in(number: &Number, domain: &Domain, domains: &Domains) -> Option<bool> {
-    let (value, place) = number;
+pub(super) fn lies_in((value, place): &Number, domain: &Domain, domains: &Domains) -> Option<bool> {
     for (limit, is_low) in [(&domain.low, true), (&domain.high, false)] {
         let Some(limit) = limit else {
             continue;
         };
         let end = limit.expr();
-        let Outcome::Value(at) = evaluate::<Big<200>>(&end, &Default::default()) else {
-            return None;
-        };
-        let is_outside = match at.0.is_disjoint(place) {
-            true => (place.low > at.0.high) != is_low,
+        let (_, at) = number(&end)?;
+        let is_outside = match at.is_disjoint(place) {
+            true => (place.low > at.high) != is_low,
             false if equality::identical(value, &end, domains) => limit.open,
             false => return None,
         };

@@ -6,16 +6,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::believed::Story;
-use super::super::sheet::Sheet;
 use super::Desk;
+use super::impact::{Impact, impacts};
 use super::letters::{MARKS, readings};
 use super::link::{Link, names_in};
-use crate::derive::{Moment, Names};
 use crate::equality::{self, Equality};
-use crate::expr::{Expr, Symbol, cross, minus};
+use crate::expr::{Expr, Symbol};
 use crate::formula;
-use crate::laws::{Geometry, Unknown};
-use crate::scene::{Ask, Scene};
+use crate::scene::Ask;
 
 /// Most readings of names that are tried.
 const MOST_READINGS: usize = 4;
@@ -25,122 +23,33 @@ const MOST_VELOCITIES: usize = 4;
 /// Names with what they stand for.
 pub(super) type Values = BTreeMap<Symbol, Expr>;
 
-/// Velocities along x and y and spins of the bodies before and after an impact.
-struct Around<'s> {
-    scene: &'s Scene,
-    motion: Values,
-    when: &'s str,
-    before: Vec<[Expr; 3]>,
-    after: Vec<Option<[Expr; 3]>>,
-}
-
-impl<'s> Around<'s> {
-    fn new(scene: &'s Scene, when: &'s str, motion: Values) -> Around<'s> {
-        let (names, geometry) = (Names::of(scene), Geometry::symbolic(scene));
-        let value = |unknown: Unknown| {
-            let value = motion.get(names.plain(unknown))?.clone();
-            Some(names.signed(unknown, value))
-        };
-        let bodies = 0..scene.bodies.len();
-        let before = bodies.clone().map(|b| {
-            let [x, y] = geometry.velocity_before(b, &scene.bodies[b].center);
-            [x, y, geometry.before(b).1.clone()]
-        });
-        let after = bodies.map(|b| {
-            let spin = value(Unknown::Spin(b)).unwrap_or(Expr::zero());
-            let [x, y] = [0, 1].map(|axis| value(Unknown::Velocity(b, axis)));
-            Some([x?, y?, spin])
-        });
-        Around {
-            before: before.collect(),
-            after: after.collect(),
-            scene,
-            motion,
-            when,
-        }
-    }
-
-    /// A component of a body's velocity, or its spin.
-    fn value(&self, b: usize, part: usize, after: bool) -> Option<&Expr> {
-        match after {
-            true => self.after[b].as_ref().map(|all| &all[part]),
-            false => Some(&self.before[b][part]),
-        }
-    }
-
-    /// What moves along an axis, after and before: the mass of a body, and of all that move alike, by the first of them.
-    fn carried(&self, axis: usize) -> Vec<(Expr, usize, bool)> {
-        let times = self.moving().flat_map(|b| [(b, true), (b, false)]);
-        let each = times.flat_map(|(b, after)| {
-            let value = self.value(b, axis, after).filter(|value| !value.is_zero());
-            let alike = |other: &usize| self.value(*other, axis, after) == value;
-            let all: Vec<usize> = self.moving().filter(alike).collect();
-            let mass = |b: &usize| self.scene.bodies[*b].mass.clone();
-            let first = value.is_some() && all.len() > 1 && all[0] == b;
-            let together = first.then(|| Expr::sum(all.iter().map(mass)));
-            let alone = value.map(|_| mass(&b));
-            let both = alone.into_iter().chain(together);
-            both.map(move |mass| (mass, b, after)).collect::<Vec<_>>()
-        });
-        each.collect()
-    }
-
-    /// The bodies that can move.
-    fn moving(&self) -> impl Iterator<Item = usize> {
-        let bodies = self.scene.bodies.iter().enumerate();
-        bodies.filter(|(_, body)| !body.is_fixed()).map(|(b, _)| b)
-    }
-}
-
-/// All impacts of a scene, each with what comes in and the motion after it.
-fn impacts(sheet: &Sheet) -> Vec<Around<'_>> {
-    if sheet.story.is_none() {
-        let motion = sheet.derivation.motion_by_name();
-        let motion = motion.map(|(_, name, value)| (name, value)).collect();
-        return vec![Around::new(&sheet.scene, "the impact", motion)];
-    }
-    let each = sheet.impacts.iter().zip(&sheet.moments);
-    let each = each.map(|(scene, (when, motion)): (_, &Moment)| {
-        let when = when.trim_start_matches("just after ");
-        Around::new(scene, when, motion.clone())
+/// What moves along an axis, after and before an impact: the mass of a body, and of all that move alike, by the first of them.
+fn carried(impact: &Impact, axis: usize) -> Vec<(Expr, usize, bool)> {
+    let moving = impact.moving();
+    let times = moving.iter().flat_map(|b| [(*b, true), (*b, false)]);
+    let each = times.flat_map(|(b, after)| {
+        let value = impact.part(b, axis, after).filter(|value| !value.is_zero());
+        let alike = |other: &&usize| impact.part(**other, axis, after) == value;
+        let all: Vec<&usize> = moving.iter().filter(alike).collect();
+        let mass = |b: &usize| impact.scene.bodies[*b].mass.clone();
+        let first = value.is_some() && all.len() > 1 && *all[0] == b;
+        let together = first.then(|| Expr::sum(all.into_iter().map(mass)));
+        let alone = value.map(|_| mass(&b));
+        let both = alone.into_iter().chain(together);
+        both.map(move |mass| (mass, b, after)).collect::<Vec<_>>()
     });
     each.collect()
 }
 
-/// Angular momenta of all that moves about the places of a scene, just before its impacts.
-pub(super) fn angular_momenta(sheet: &Sheet) -> Vec<Expr> {
-    let about = |around: &Around, at: &[Expr; 2]| {
-        let of = around.moving().map(|b| {
-            let (body, [x, y, spin]) = (&around.scene.bodies[b], &around.before[b]);
-            let moment = cross(&minus(&body.center, at), &[x.clone(), y.clone()]);
-            &body.mass * &moment + &body.inertia * spin
-        });
-        Expr::sum(of)
-    };
-    let all = impacts(sheet);
-    let each = all.iter().flat_map(|around| {
-        let (points, hinges) = (&around.scene.points, &around.scene.hinges);
-        let places = points
-            .iter()
-            .map(|p| &p.at)
-            .chain(hinges.iter().map(|h| &h.at));
-        places
-            .take(MOST_READINGS)
-            .map(|at| about(around, at))
-            .collect::<Vec<_>>()
-    });
-    each.flat_map(|h| [-&h, h]).collect()
-}
-
 /// The body and the part of its motion that a name speaks of: `v_A`, `v_{A,x}`, and `v_x` where nothing else moves; 0 and 1
 /// for the axes, 2 for the spin.
-fn spoken(all: &[Around], base: &str, index: &str) -> Option<(usize, usize)> {
+fn spoken(all: &[Impact], base: &str, index: &str) -> Option<(usize, usize)> {
     let first = all.first()?;
     let plain = |text: &str| text.replace(['_', ',', ' '], "");
     let index = plain(index);
-    let lone = first.moving().count() == 1;
+    let lone = first.moving().len() == 1;
     let is_point = |name: &str| first.scene.points.iter().any(|p| p.name == name);
-    first.moving().find_map(|b| {
+    first.moving().into_iter().find_map(|b| {
         let name = Some(&first.scene.bodies[b].name).filter(|name| !is_point(name));
         let name = name.map_or(String::from("?"), |name| plain(name));
         let rest = index.strip_prefix(&name);
@@ -150,7 +59,7 @@ fn spoken(all: &[Around], base: &str, index: &str) -> Option<(usize, usize)> {
         });
         let moves = |axis: usize| {
             let times = all.iter().flat_map(|a| [(a, false), (a, true)]);
-            let mut values = times.filter_map(|(a, after)| a.value(b, axis, after));
+            let mut values = times.filter_map(|(a, after)| a.part(b, axis, after));
             values.any(|value| !value.is_zero())
         };
         let part = match (base, rest?) {
@@ -219,8 +128,8 @@ impl Desk<'_> {
             if after {
                 self.of_bodies.insert((*name).clone(), (*body, *part));
             }
-            for (around, values) in all.iter().zip(&mut of) {
-                let value = around.value(*body, *part, after).cloned();
+            for (impact, values) in all.iter().zip(&mut of) {
+                let value = impact.part(*body, *part, after).cloned();
                 values.extend(value.map(|value| ((*name).clone(), value)));
             }
             // The end of a motion has such a mark as well.
@@ -259,10 +168,10 @@ impl Desk<'_> {
             }
             _ => {
                 let later = all.iter().zip(of).filter(|(_, values)| !values.is_empty());
-                let later = later.map(|(around, values)| {
-                    let mut motion = around.motion.clone();
+                let later = later.map(|(impact, values)| {
+                    let mut motion = impact.motion.clone();
                     motion.extend(values);
-                    (format!("just after {}", around.when), motion)
+                    (format!("just after {}", impact.which), motion)
                 });
                 self.moments.extend(later.collect::<Vec<_>>());
             }
@@ -292,7 +201,7 @@ impl Desk<'_> {
 
     /// Names that stand for velocities before an impact, with these: one side of a balance of momenta has them with the masses of
     /// their bodies, and of one of them it is said that it is what its body comes in with.
-    fn coming_in(&self, all: &[Around], text: &str) -> Values {
+    fn coming_in(&self, all: &[Impact], text: &str) -> Values {
         let readings = readings(&self.sheet.scene, text);
         let sides = readings.iter().filter_map(|reading| {
             let (sides, _) = reading.content.relations()?;
@@ -340,17 +249,17 @@ impl Desk<'_> {
     /// Names in a side of a balance, each with the velocity before the impact of the one body whose mass it has.
     fn coming(
         &self,
-        around: &Around,
+        impact: &Impact,
         axis: usize,
         side: &Expr,
         names: &[Symbol],
     ) -> Option<Values> {
-        let (mut free, mut way): (Vec<usize>, _) = (around.moving().collect(), Values::new());
+        let (mut free, mut way): (Vec<usize>, _) = (impact.moving(), Values::new());
         for name in names {
             let factor = side.derivative(name);
-            let has = |b: &usize| self.is_zero(&(&factor - &around.scene.bodies[*b].mass));
+            let has = |b: &usize| self.is_zero(&(&factor - &impact.scene.bodies[*b].mass));
             let body = free.remove(free.iter().position(has)?);
-            way.insert(name.clone(), around.before[body][axis].clone());
+            way.insert(name.clone(), impact.part(body, axis, false)?.clone());
         }
         Some(way)
     }
@@ -415,21 +324,22 @@ impl Desk<'_> {
 
     /// What a given velocity or spin is after the impact, which has its letter with a prime; a velocity may be counted either way,
     /// as a ball that is thrown back has a speed.
-    fn after_given(&self, all: &[Around], name: &Symbol) -> Vec<Expr> {
+    fn after_given(&self, all: &[Impact], name: &Symbol) -> Vec<Expr> {
         let given = name.strip_suffix('\'').map(Symbol::from);
         let Some(given) = given.filter(|given| self.is_given(given)) else {
             return Vec::new();
         };
         let given = Expr::symbol(&given);
-        let each = all.iter().flat_map(|around| {
-            let parts = around
+        let each = all.iter().flat_map(|impact| {
+            let parts = impact
                 .moving()
+                .into_iter()
                 .flat_map(|b| [0, 1, 2].map(|part| (b, part)));
-            parts.map(move |(b, part)| (around, b, part))
+            parts.map(move |(b, part)| (impact, b, part))
         });
-        let mut ways = each.filter_map(|(around, b, part)| {
-            let before = around.value(b, part, false)?;
-            let after = around.value(b, part, true)?.clone();
+        let mut ways = each.filter_map(|(impact, b, part)| {
+            let before = impact.part(b, part, false)?;
+            let after = impact.part(b, part, true)?.clone();
             let with = *before == given;
             let against = *before == -&given;
             (with || against).then(|| match (part, with) {
@@ -443,7 +353,7 @@ impl Desk<'_> {
     }
 
     /// The velocities that names in an equation are where it is a balance of momenta: each has the mass of its body before it.
-    fn momenta(&self, all: &[Around], gap: &Expr, names: &[&Symbol]) -> Vec<Values> {
+    fn momenta(&self, all: &[Impact], gap: &Expr, names: &[&Symbol]) -> Vec<Values> {
         if names.is_empty() || names.len() > MOST_VELOCITIES {
             return Vec::new();
         }
@@ -453,8 +363,8 @@ impl Desk<'_> {
             return Vec::new();
         }
         let mut ways = Vec::new();
-        for (around, axis) in all.iter().flat_map(|around| [(around, 0), (around, 1)]) {
-            let carried = around.carried(axis);
+        for (impact, axis) in all.iter().flat_map(|impact| [(impact, 0), (impact, 1)]) {
+            let carried = carried(impact, axis);
             let each = factors.iter().map(|factor| {
                 let of = |mass: &Expr| zero(factor - mass) || zero(factor + mass);
                 let fits = carried.iter().filter(|(mass, ..)| of(mass));
@@ -473,7 +383,7 @@ impl Desk<'_> {
             let after = |way: &Vec<(usize, bool)>| way.iter().any(|(_, after)| *after);
             for way in chosen.into_iter().filter(after) {
                 let values = names.iter().zip(way).filter_map(|(name, (b, after))| {
-                    Some(((*name).clone(), around.value(b, axis, after)?.clone()))
+                    Some(((*name).clone(), impact.part(b, axis, after)?.clone()))
                 });
                 let values: Values = values.collect();
                 if zero(gap.substitute(&values)) {

@@ -5,14 +5,13 @@ use std::collections::BTreeSet;
 
 use rustc_hash::FxHashMap;
 
-use super::super::relation::{follows, solve_for};
+use super::super::relation::{angle_in, follows, size_in, solve_for, under_root};
 use super::bind::Values;
 use super::link::Link;
-use super::names::angle_in;
 use super::{Desk, MOST_CAUSES, MOST_STATED};
 use crate::algebra::tidy;
 use crate::dimension::Dimension;
-use crate::domain::{Domain, Domains};
+use crate::domain::Domain;
 use crate::equality::{self};
 use crate::expr::{Expr, Node, Symbol, effort};
 use crate::formula::{self, Content, Reading};
@@ -238,8 +237,7 @@ impl Desk<'_> {
             true => [0; 3].map(|_| Expr::zero()),
             false => self.vector(side, true)?,
         };
-        let names = ["x", "y", "z"].map(|axis| Symbol::from(format!("{name}_{axis}")));
-        Some(names.into_iter().zip(value).collect())
+        Some(formula::along_axes(name).into_iter().zip(value).collect())
     }
 
     /// Keeps what a line with a slip says a vector is, as of `\vec{H}_C^{-} = …`, and what its balance says then; nothing of a line
@@ -453,28 +451,4 @@ impl Desk<'_> {
         }
         all
     }
-}
-
-/// The size of what occurs by its square alone, as the speed does in an energy.
-pub(in crate::grade) fn size_in(line: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
-    let square = Symbol::from(format!("{name}^2"));
-    // The square of a quotient is one of squares.
-    let line = tidy(line, domains).unwrap_or_else(|_| line.clone());
-    let line = line.replace(&Expr::symbol(name).powi(2), &Expr::symbol(&square));
-    let alone = !line.symbols().contains(name);
-    alone.then(|| Some(solve_for(&line, &square, domains)?.sqrt()))?
-}
-
-/// What occurs under one root alone, as the height does in the speed of a fall.
-pub(super) fn under_root(line: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
-    let half = |part: &&Expr| match part.node() {
-        Node::Power(base, k) => base.symbols().contains(name) && *k == Expr::ratio(1, 2),
-        _ => false,
-    };
-    let root = line.parts().find(half)?.clone();
-    let value = Symbol::from(format!("{name}_root"));
-    let line = line.replace(&root, &Expr::symbol(&value));
-    let alone = !line.symbols().contains(name);
-    let found = alone.then(|| solve_for(&line, &value, domains))??;
-    solve_for(&(root.powi(2) - found.powi(2)), name, domains)
 }

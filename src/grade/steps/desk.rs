@@ -587,11 +587,9 @@ fn parts(scene: &Scene) -> Values {
     let arms = scene.arms().into_iter();
     let arms =
         arms.filter_map(|(name, [x, y])| Some((formula::with_arrow(&name)?, [x, y, Expr::zero()])));
-    let all = spins.chain(arms).flat_map(|(arrow, value)| {
-        let axes = ["x", "y", "z"].into_iter().zip(value);
-        axes.map(move |(axis, value)| (format!("{arrow}_{axis}").into(), value))
-            .collect::<Vec<_>>()
-    });
+    let all = spins
+        .chain(arms)
+        .flat_map(|(arrow, value)| formula::along_axes(&arrow).into_iter().zip(value));
     all.collect()
 }
 

@@ -6,6 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::super::sheet::Sheet;
 use super::bind::Values;
 use crate::derive::Names;
 use crate::expr::{Expr, Symbol, Vector, cross, minus};
@@ -13,16 +14,53 @@ use crate::formula;
 use crate::laws::{self, Affine, Geometry, Kinematics, Place, Unknown};
 use crate::scene::{Ask, Scene};
 
+/// Most places about which angular momenta are taken.
+const MOST_PLACES: usize = 4;
 /// Most bodies of which each pair is a system, too.
 const MOST_PAIRED: usize = 3;
 
 /// An impact, with what its unknowns stand for.
 pub(super) struct Impact<'a> {
-    scene: &'a Scene,
+    pub scene: &'a Scene,
+    /// Words for it.
+    pub which: &'a str,
+    /// What its unknowns stand for, by their names.
+    pub motion: Values,
+    names: Names,
     geometry: Geometry<Expr>,
     after: Kinematics<Expr>,
-    names: &'a Names,
-    value: &'a dyn Fn(&Symbol) -> Option<Expr>,
+    /// Velocities of the centers along x and y and spins, just before and just after.
+    centers: [Vec<Option<[Expr; 3]>>; 2],
+}
+
+/// All impacts of a scene, each with what comes in and the motion after it.
+pub(super) fn impacts(sheet: &Sheet) -> Vec<Impact<'_>> {
+    if sheet.story.is_none() {
+        let motion = sheet.derivation.motion_by_name();
+        let motion = motion.map(|(_, name, value)| (name, value)).collect();
+        return vec![Impact::new(&sheet.scene, "the impact", motion)];
+    }
+    let each = sheet.impacts.iter().zip(&sheet.moments);
+    let each = each.map(|(scene, (when, motion))| {
+        let which = when.trim_start_matches("just after ");
+        Impact::new(scene, which, motion.clone())
+    });
+    each.collect()
+}
+
+/// Angular momenta of all that moves about the places of a scene, just before its impacts.
+pub(super) fn angular_momenta(sheet: &Sheet) -> Vec<Expr> {
+    let all = impacts(sheet);
+    let each = all.iter().flat_map(|impact| {
+        let (points, hinges) = (&impact.scene.points, &impact.scene.hinges);
+        let places = points.iter().map(|p| &p.at);
+        let places = places.chain(hinges.iter().map(|h| &h.at));
+        let moving = impact.moving();
+        let about = |at| impact.angular_momentum(&moving, at, When::Before);
+        let found = places.take(MOST_PLACES).filter_map(about);
+        found.collect::<Vec<_>>()
+    });
+    each.flat_map(|h| [-&h, h]).collect()
 }
 
 /// What names leave open.
@@ -64,33 +102,45 @@ struct Point {
 }
 
 impl<'a> Impact<'a> {
-    pub fn new(
-        scene: &'a Scene,
-        names: &'a Names,
-        value: &'a dyn Fn(&Symbol) -> Option<Expr>,
-    ) -> Impact<'a> {
+    pub fn new(scene: &'a Scene, which: &'a str, motion: Values) -> Impact<'a> {
         let geometry = Geometry::symbolic(scene);
-        let after = Kinematics::full(scene, &geometry);
-        Impact {
+        let mut impact = Impact {
+            after: Kinematics::full(scene, &geometry),
+            names: Names::of(scene),
+            centers: Default::default(),
             scene,
+            which,
+            motion,
             geometry,
-            after,
-            names,
-            value,
-        }
+        };
+        impact.centers = [When::Before, When::After].map(|when| {
+            let parts = scene.bodies.iter().enumerate().map(|(b, body)| {
+                let [x, y] = impact.velocity(b, &body.center, when)?;
+                Some([x, y, impact.spin(b, when).unwrap_or(Expr::zero())])
+            });
+            parts.collect()
+        });
+        impact
+    }
+
+    /// A component of the velocity of a body's center, or its spin.
+    pub fn part(&self, b: usize, part: usize, after: bool) -> Option<&Expr> {
+        let center = self.centers[usize::from(after)][b].as_ref()?;
+        Some(&center[part])
     }
 
     /// What a form in the unknowns comes to; nothing where one of them has no value.
     fn put_in(&self, form: &Affine<Expr>) -> Option<Expr> {
         let term = |(unknown, factor): &(Unknown, Expr)| {
-            let value = (self.value)(&Symbol::from(self.names.plain(*unknown)))?;
+            let value = self.motion.get(self.names.plain(*unknown))?.clone();
             Some(factor * &self.names.signed(*unknown, value))
         };
         let terms: Option<Vec<Expr>> = form.terms.iter().map(term).collect();
         Some(&form.constant + &Expr::sum(terms?))
     }
 
-    fn moving(&self) -> Vec<usize> {
+    /// The bodies that can move.
+    pub fn moving(&self) -> Vec<usize> {
         let bodies = self.scene.bodies.iter().enumerate();
         let free = bodies.filter(|(_, body)| !body.is_fixed());
         free.map(|(b, _)| b).collect()
@@ -346,7 +396,7 @@ impl<'a> Impact<'a> {
     }
 
     /// The vectors of each system by what they are read as, without a mark just after and just before, and words for which they are.
-    pub fn moments(&self, names: &[(Symbol, Symbol)], impact: &str) -> Vec<Stand> {
+    pub fn moments(&self, names: &[(Symbol, Symbol)]) -> Vec<Stand> {
         let mut all: Vec<Stand> = Vec::new();
         let whole = self.moving();
         let times = [When::After, When::Before];
@@ -374,7 +424,7 @@ impl<'a> Impact<'a> {
                     "before"
                 };
                 all.push(Stand {
-                    when: format!("just {word} {impact}{of}"),
+                    when: format!("just {word} {}{of}", self.which),
                     of: shared.collect(),
                     still: unmoved.map(|(_, key)| key.clone()).collect(),
                     values,
@@ -426,8 +476,7 @@ impl<'a> Impact<'a> {
     fn components(&self, names: &[(Symbol, Symbol)], meant: &Meant) -> Values {
         let known = names.iter().filter_map(|(name, key)| {
             let vector = self.vector(name, meant)?;
-            let along = |axis: &str| Symbol::from(format!("{key}_{axis}"));
-            Some(["x", "y", "z"].map(along).into_iter().zip(vector))
+            Some(formula::along_axes(key).into_iter().zip(vector))
         });
         known.flatten().collect()
     }

@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::Diagnosis;
-use super::super::relation::solve_for;
+use super::super::relation::{size_in, solve_for, under_root};
 use super::bind::Values;
-use super::cause::{MOST_STEPS, size_in, under_root};
+use super::cause::MOST_STEPS;
 use super::desk::all_of;
 use super::impact::Stand;
 use super::rounded::is_near;
@@ -75,7 +75,7 @@ impl Desk<'_> {
         // At another moment the vector may be another one.
         let over = |values: &Values| values.contains_key(&*format!("{name}_z"));
         if self.vectors.iter().any(|stand| over(&stand.values)) {
-            return Some(["x", "y", "z"].map(|axis| Expr::symbol(&format!("{name}_{axis}"))));
+            return Some(formula::along_axes(name).map(|part| Expr::symbol(&part)));
         }
         if let Some((spin, clockwise)) = self.spins.get(name) {
             let along = Expr::symbol(spin);

@@ -2,15 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use super::super::relation::solve_for;
-use super::cause::size_in;
+use super::super::relation::{angle_in, below_in, size_in, solve_for};
 use super::inertias::is_other_inertia;
 use super::letters::OF_CENTER;
 use super::link::Weighed;
 use super::{Desk, Found, Status};
 use crate::dimension::{self, Dimension};
-use crate::domain::Domains;
-use crate::expr::{Expr, Function, Node, Symbol};
+use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{self, Content, Reading, Remark, Symbols};
 
 /// Most names a student may introduce.
@@ -99,30 +97,6 @@ pub(super) fn is_quantity_first(unit: &str) -> bool {
         .any(|own| own == letter)
 }
 
-/// What stands below alone: I in `F R/I`.
-fn below_in(line: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
-    let inverse = Symbol::from(format!("1/{name}"));
-    let line = line.replace(&Expr::symbol(name).powi(-1), &Expr::symbol(&inverse));
-    let alone = !line.symbols().contains(name);
-    alone.then(|| Some(solve_for(&line, &inverse, domains)?.powi(-1)))?
-}
-
-/// The angle between 0 and 90° whose sine, cosine or tangent alone occurs.
-pub(super) fn angle_in(line: &Expr, name: &Symbol, domains: &Domains) -> Option<Expr> {
-    let angle = Expr::symbol(name);
-    let value = Symbol::from(format!("{name}_value"));
-    let forms = [
-        (angle.sin(), Function::Asin),
-        (angle.cos(), Function::Acos),
-        (angle.tan(), Function::Atan),
-    ];
-    forms.into_iter().find_map(|(form, inverse)| {
-        let line = line.replace(&form, &Expr::symbol(&value));
-        let alone = !line.symbols().contains(name);
-        alone.then(|| Some(Expr::call(inverse, solve_for(&line, &value, domains)?)))?
-    })
-}
-
 impl Desk<'_> {
     /// Whether a name is the scene's or was introduced.
     fn is_known(&self, name: &Symbol) -> bool {
@@ -203,24 +177,20 @@ impl Desk<'_> {
         let exact = !matches!(weighed, Weighed::Slip(_) | Weighed::Carried(_));
         self.own
             .insert(name.clone(), if exact { first.clone() } else { last });
-        Some(match weighed {
-            Weighed::Holds | Weighed::Rounded => (Status::Defines, Vec::new()),
-            Weighed::Open => (Status::Undecided, Vec::new()),
-            Weighed::Carried(cause) => {
-                self.slipped.push((cause, name, first));
-                (Status::Carried(cause), Vec::new())
+        let cause = match weighed {
+            Weighed::Slip(_) if self.is_unclear(&links) => {
+                return Some((Status::Undecided, Vec::new()));
             }
-            Weighed::Slip(_) if self.is_unclear(&links) => (Status::Undecided, Vec::new()),
             // `ω_2 = 2 ω = …` of another case.
             Weighed::Slip(_) if self.at_another_moment(&links).is_some() => {
-                (Status::Defines, Vec::new())
+                return Some((Status::Defines, Vec::new()));
             }
-            Weighed::Slip(at) => {
-                self.slipped.push((self.number, name, first));
-                let broken = self.broken(&right, at, text);
-                (Status::Wrong, broken.into_iter().collect())
-            }
-        })
+            Weighed::Slip(_) => Some(self.number),
+            Weighed::Carried(cause) => Some(cause),
+            _ => None,
+        };
+        self.slipped.extend(cause.map(|cause| (cause, name, first)));
+        Some(self.defined(text, &right, weighed))
     }
 
     /// A new name for a vector; of a chain all further links are judged.
@@ -235,19 +205,28 @@ impl Desk<'_> {
             Content::Relations(..) => self.links(right)?,
             _ => Vec::new(),
         };
-        let along = ["x", "y", "z"].map(|axis| Symbol::from(format!("{name}_{axis}")));
-        self.own.extend(along.into_iter().zip(value));
-        Some(match self.weigh(text, &links) {
-            Weighed::Holds | Weighed::Rounded => (Status::Defines, Vec::new()),
-            Weighed::Open => (Status::Undecided, Vec::new()),
-            Weighed::Carried(cause) => (Status::Carried(cause), Vec::new()),
+        self.own
+            .extend(formula::along_axes(name).into_iter().zip(value));
+        let weighed = self.weigh(text, &links);
+        Some(match weighed {
             Weighed::Slip(_) if self.holds_there(&links) => (Status::Defines, Vec::new()),
             Weighed::Slip(_) if self.is_of_a_motion(&links) => (Status::Undecided, Vec::new()),
+            _ => self.defined(text, right, weighed),
+        })
+    }
+
+    /// What is found of a definition by its further links.
+    fn defined(&self, text: &str, right: &Reading, weighed: Weighed) -> Found {
+        let status = match weighed {
+            Weighed::Holds | Weighed::Rounded => Status::Defines,
+            Weighed::Open => Status::Undecided,
+            Weighed::Carried(cause) => Status::Carried(cause),
             Weighed::Slip(at) => {
                 let broken = self.broken(right, at, text);
-                (Status::Wrong, broken.into_iter().collect())
+                return (Status::Wrong, broken.into_iter().collect());
             }
-        })
+        };
+        (status, Vec::new())
     }
 
     /// A chain such as `I_C = I_G + m d^2 = m l^2/12 + m d^2`, where a side has a new name: the other sides say what it is.

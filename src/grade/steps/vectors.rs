@@ -8,10 +8,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::super::believed::Story;
 use super::Desk;
 use super::bind::Values;
-use super::impact::{Impact, Stand, shared_key};
+use super::impact::{Impact, Stand, impacts, shared_key};
 use super::letters::readings;
 use super::link::{Link, gaps, names_in};
-use crate::derive::Names;
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{self, Content, Reading, Symbols};
 
@@ -94,8 +93,7 @@ impl Desk<'_> {
             .filter_map(|name| Some((formula::with_arrow(name)?, self.components(name)?)))
             .collect();
         for (arrow, vector) in asked {
-            let axes = ["x", "y", "z"].into_iter().zip(vector);
-            let along = axes.map(|(axis, value)| (Symbol::from(format!("{arrow}_{axis}")), value));
+            let along = formula::along_axes(&arrow).into_iter().zip(vector);
             self.parts.extend(along);
         }
         let readings = readings(&sheet.scene, text);
@@ -134,8 +132,7 @@ impl Desk<'_> {
             self.know_impacts(&names);
         }
         for ((_, values), (_, scene)) in self.ends.iter_mut().zip(&sheet.ends) {
-            let named = Names::of(scene);
-            let there = Impact::new(scene, &named, &|_| None).of_a_motion(&names);
+            let there = Impact::new(scene, "", Values::new()).of_a_motion(&names);
             for (name, value) in &there {
                 let told = self.parts.entry(name.clone());
                 told.or_insert_with(|| value.clone());
@@ -147,10 +144,12 @@ impl Desk<'_> {
     /// The vectors of all impacts by what they are read as.
     fn know_impacts(&mut self, names: &[(Symbol, Symbol)]) {
         let sheet = self.sheet;
-        let closed = self.closed.clone();
-        let name_of = |name: &Symbol| closed.contains_key(name).then(|| Expr::symbol(name));
-        let first = Impact::new(&sheet.scene, &sheet.derivation.names, &name_of);
-        for stand in first.moments(names, "the impact") {
+        let known = self.closed.keys();
+        let motion = known
+            .map(|name| (name.clone(), Expr::symbol(name)))
+            .collect();
+        let first = Impact::new(&sheet.scene, "the impact", motion);
+        for stand in first.moments(names) {
             for (name, value) in &stand.values {
                 let told = self.parts.entry(name.clone());
                 told.or_insert_with(|| value.clone());
@@ -161,13 +160,10 @@ impl Desk<'_> {
             self.vectors.push(stand);
         }
         self.whatever = first.of_whatever_motion(names);
-        for (scene, (when, motion)) in sheet.impacts.iter().zip(&sheet.moments) {
-            let value = |name: &Symbol| motion.get(name).cloned();
-            let names_there = Names::of(scene);
-            let impact = Impact::new(scene, &names_there, &value);
-            let which = when.trim_start_matches("just after ");
-            for stand in impact.moments(names, which) {
-                let all = motion.clone().into_iter().chain(stand.values);
+        let in_stages = impacts(sheet).into_iter();
+        for impact in in_stages.filter(|_| sheet.story.is_some()) {
+            for stand in impact.moments(names) {
+                let all = impact.motion.clone().into_iter().chain(stand.values);
                 let values = all.collect();
                 self.vectors.push(Stand { values, ..stand });
             }
@@ -238,7 +234,7 @@ impl Desk<'_> {
                 .map(|(.., mark)| mark)
         };
         let vanishes = |name: &Symbol| {
-            let along = ["x", "y", "z"].map(|axis| Expr::symbol(&format!("{name}_{axis}")));
+            let along = formula::along_axes(name).map(|part| Expr::symbol(&part));
             self.vanish(&along, values)
         };
         let names = Desk::arrows(links);
