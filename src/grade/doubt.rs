@@ -1,15 +1,15 @@
 //! Where a text could mean something else: other readings, an e that nobody declared, and what the reader decided.
 
-use num_traits::Signed;
-use std::collections::BTreeMap;
+mod letters;
+mod unread;
 
 use super::compare;
 use super::{Diagnosis, Grade, Key, Options, Proof, Verdict, read, show};
-use crate::algebra;
 use crate::dimension;
-use crate::domain::Domains;
-use crate::expr::{Expr, Function, Node, Point, Symbol};
+use crate::expr::{Expr, Node, Point};
 use crate::formula::{self, Content, Fault, Note, Reading, Relation, Remark};
+pub(super) use letters::{any_whole_number, euler, imaginary, primes};
+pub(super) use unread::{mixed, number, unread};
 
 /// `cosθ^2`, read as the cosine of a square, would be right as the square of the cosine.
 pub(super) fn power_of_function(content: &Content) -> Option<Content> {
@@ -33,184 +33,6 @@ pub(super) fn power_of_function(content: &Content) -> Option<Content> {
         _ => return None,
     };
     (changed != *content).then_some(changed)
-}
-
-/// `e^x` against `exp(x)` with an e that nobody declared: only one of them knows a symbol e. Where they are equal with e as
-/// the base of the natural logarithm, that is what was meant, unless an expected e may be a restitution to the power of a
-/// count: then nothing is decided, unless a logarithm takes part and no letter that counts.
-pub(super) fn euler(key: &Key, reading: &Reading, options: &Options, finding: &mut Grade) {
-    let (expected, answer) = (&key.reading.content, &reading.content);
-    let is_ln = |part: &Expr| {
-        use Function::{Cosh, Ln, Sinh, Tanh};
-        matches!(part.node(), Node::Call(Ln | Sinh | Cosh | Tanh, _))
-    };
-    let logarithm = expected.parts().chain(answer.parts()).any(is_ln);
-    fn number(e: &Expr, alone: bool) -> Expr {
-        match e.node() {
-            Node::Power(base, k) if is_e(base) => Expr::call(Function::Exp, number(k, alone)),
-            Node::Call(Function::Ln, x) if is_e(x) => Expr::one(),
-            Node::Symbol(_) if alone && is_e(e) => Expr::call(Function::Exp, Expr::one()),
-            _ => e.map_parts(|part| number(part, alone)),
-        }
-    }
-    // Alone it is a number beside a logarithm or a hyperbolic function only: `ln x = 1` and `x = e`.
-    let number = |e: &Expr| number(e, logarithm);
-    let occurs = |content: &Content| content.mentions("e");
-    if finding.verdict != Verdict::Different || occurs(expected) == occurs(answer) || key.declares_e
-    {
-        return;
-    }
-    let (a, b) = (expected.map(&number), answer.map(&number));
-    if occurs(&a) || occurs(&b) {
-        return;
-    }
-    let other = key.with(a);
-    let mine = reading.with(b);
-    let found = compare::contents(&other, &mine, &options.plain());
-    if found.verdict != Verdict::Equivalent {
-        // Beside an exponential function or a logarithm e is no symbol that is too much.
-        let is_exp =
-            |part: &Expr| matches!(part.node(), Node::Call(Function::Exp | Function::Ln, _));
-        if expected.parts().any(is_exp) {
-            *finding = found;
-        }
-        return;
-    }
-    let counter = |name: &Symbol| matches!(&**name, "n" | "N" | "k" | "i" | "j");
-    let mut exponents = expected.parts().filter_map(|part| match part.node() {
-        Node::Power(base, k) if is_e(base) => Some(k),
-        _ => None,
-    });
-    let counts = |k: &Expr| is_count(k) && (!logarithm || k.symbols().iter().any(counter));
-    if !(occurs(expected) && exponents.all(counts)) {
-        *finding = found;
-        let given = "e is the base of the natural logarithm";
-        finding.assumed.push(given.into());
-        return;
-    }
-    let words = "e is a symbol; as the base of the natural logarithm it would be right";
-    let hint = "write exp(x) for the exponential function";
-    ambiguous(finding, words, hint);
-}
-
-fn is_e(e: &Expr) -> bool {
-    e.as_symbol().is_some_and(|name| &**name == "e")
-}
-
-/// What e is raised to.
-fn exponent(e: &Expr) -> Option<&Expr> {
-    match e.node() {
-        Node::Power(base, k) if is_e(base) => Some(k),
-        Node::Call(Function::Exp, k) => Some(k),
-        _ => None,
-    }
-}
-
-/// `y'` for `dy/dx`, which would be right if it is that: a prime does not say by what.
-pub(super) fn primes(key: &Key, reading: &Reading, options: &Options, finding: &mut Grade) {
-    let primed = |name: &Symbol| {
-        let (of, _) = name.strip_prefix('d')?.split_once("/d")?;
-        Some((name.clone(), Expr::symbol(&Symbol::from(format!("{of}'")))))
-    };
-    let sides = [&key.reading.content, &reading.content];
-    let names = sides.into_iter().flat_map(Content::symbols);
-    let primed: BTreeMap<Symbol, Expr> = names.filter_map(|name| primed(&name)).collect();
-    if finding.verdict != Verdict::Different || primed.is_empty() {
-        return;
-    }
-    let [expected, mine] = sides.map(|content| content.map(&|e| e.substitute(&primed)));
-    let other = key.with(expected);
-    if compare::contents(&other, &reading.with(mine), options).verdict == Verdict::Equivalent {
-        let words = "a prime does not say by what is differentiated; it would be right as the derivative that is asked for";
-        let hint = "write the derivative as a quotient, as in dy/dx";
-        ambiguous(finding, words, hint);
-    }
-}
-
-/// `e^(i theta)` with an i that the question does not know: what sets the two apart is told of a symbol, and is no belief
-/// where the imaginary unit was meant.
-pub(super) fn imaginary(key: &Key, reading: &Reading, finding: &mut Grade) {
-    let turns = |k: &Expr| !is_count(k) && (k.mentions("i") || k.mentions("j"));
-    let all = key.reading.content.parts().chain(reading.content.parts());
-    let found = all.filter_map(exponent).any(turns);
-    if finding.verdict == Verdict::Different && found && !key.declares_i {
-        let words = "i or j in an exponent is read as a symbol; complex numbers are not compared";
-        let hint = "write cosines and sines, or declare i and j where they are quantities";
-        finding.note = "DIFF";
-        finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
-    }
-    let sides = [&key.reading.content, &reading.content].map(|content| content.answer().expr());
-    if let (Verdict::Different, false, [Some(a), Some(b)]) =
-        (finding.verdict, key.declares_i, sides)
-        && agree_as_complex(&turning(&(a - b)), &key.question.domains)
-    {
-        let words = "i is read as a symbol; as the imaginary unit it would be right";
-        let hint = "complex numbers are not compared: ask for real and imaginary part";
-        ambiguous(finding, words, hint);
-    }
-}
-
-/// cos x + i sin x for e to the power of i x.
-fn turning(e: &Expr) -> Expr {
-    let factor = |k: &Expr| match k.node() {
-        Node::Product(parts) => {
-            let (units, others): (Vec<_>, Vec<_>) = parts
-                .iter()
-                .cloned()
-                .partition(|part| *part == Expr::symbol("i"));
-            (units.len() == 1 && others.iter().all(|part| !part.mentions("i")))
-                .then(|| Expr::product(others))
-        }
-        _ => (*k == Expr::symbol("i")).then(Expr::one),
-    };
-    match exponent(e).and_then(factor) {
-        Some(x) => {
-            Expr::call(Function::Cos, x.clone()) + Expr::symbol("i") * Expr::call(Function::Sin, x)
-        }
-        None => e.map_parts(turning),
-    }
-}
-
-/// Whether a difference vanishes where i² = −1: its even and its odd part in i do, which stand on i² alone.
-fn agree_as_complex(difference: &Expr, domains: &Domains) -> bool {
-    let square = Expr::symbol("i^2");
-    let root = square.sqrt();
-    let [plus, minus] = [&root, &-&root].map(|root| difference.put("i", root));
-    let vanishes = |part: Expr| {
-        let part = algebra::tidy(&part, domains).ok();
-        let part = part.map(|part| part.replace(&root, &Expr::symbol("i")));
-        let part = part.filter(|part| !part.mentions("i"));
-        let there = part.map(|part| part.put("i^2", &Expr::from(-1)));
-        there.is_some_and(|there| algebra::tidy(&there, domains).is_ok_and(|e| e.is_zero()))
-    };
-    difference.mentions("i") && vanishes(&plus + &minus) && vanishes((&plus - &minus) * &root)
-}
-
-/// `x = n pi` for an equation in sines: its n may stand for any whole number, which is told of no symbol.
-pub(super) fn any_whole_number(key: &Key, reading: &Reading, finding: &mut Grade) {
-    let asked = key.reading.content.symbols();
-    let said = reading.content.symbols();
-    let is_count = |name: &Symbol| matches!(&**name, "n" | "k" | "m" | "N" | "j");
-    let mut counts = said
-        .iter()
-        .filter(|name| !asked.contains(*name) && is_count(name));
-    let Some(count) = counts.next() else {
-        return;
-    };
-    let is_turn = |part: &Expr| {
-        matches!(part.node(), Node::Product(_)) && part.mentions(count) && part.mentions("pi")
-    };
-    let is_arc = |part: &Expr| {
-        use Function::{Cos, Sin, Tan};
-        matches!(part.node(), Node::Call(Sin | Cos | Tan, _))
-    };
-    let turns = reading.content.parts().any(is_turn);
-    let periodic = key.reading.content.parts().any(is_arc);
-    if finding.verdict == Verdict::Different && turns && periodic {
-        let words =
-            format!("{count} is read as a symbol; what holds for any whole number is not compared");
-        ambiguous(finding, &words, "give the solutions of one period");
-    }
 }
 
 /// `(1, 2) or (2, 1)`: an interval whose ends stand the wrong way round holds nothing and would agree with anything; it is a
@@ -304,24 +126,6 @@ fn ambiguous(finding: &mut Grade, words: &str, hint: &str) {
     finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
 }
 
-/// Whether an exponent may count something: a whole number, a symbol, or a sum of such with positive factors.
-fn is_count(k: &Expr) -> bool {
-    let whole = |e: &Expr| e.as_number().is_some_and(|k| k.is_integer());
-    match k.node() {
-        Node::Symbol(_) => true,
-        Node::Sum(terms) => terms.iter().all(is_count),
-        Node::Product(factors) => match factors.as_slice() {
-            [number, rest] => {
-                whole(number)
-                    && number.as_number().is_some_and(Signed::is_positive)
-                    && rest.as_symbol().is_some()
-            }
-            _ => false,
-        },
-        _ => whole(k),
-    }
-}
-
 /// An answer that is wrong as it is usually read, and right with every slash turned round, is right, and is told how it was
 /// taken: people differ about slashes. So is `acosφ` that is right as a times the cosine.
 pub(super) fn turned(
@@ -366,142 +170,8 @@ pub(super) fn turned(
     *reading = other;
 }
 
-/// The grade of an answer that cannot be read as it stands, where there is another way.
-pub(super) fn unread(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
-    number(key, answer, options).or_else(|| aside(key, answer, options))
-}
-
-/// `\boxed{2 m v} (to the right)`: what is boxed is right, and the words beside the box say the direction that nearly always
-/// counts as positive. With other words it stays unread.
-fn aside(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
-    let (value, direction) = read::sense(answer)?;
-    let boxed = value.contains("\\boxed{") && value.trim_end_matches('$').ends_with('}');
-    if !boxed || direction.iter().sum::<i32>() < 0 || key.direction.is_some() {
-        return None;
-    }
-    let mut grade = super::judge_here(key, value, options);
-    let words = "the direction in words is not judged";
-    grade.assumed.push(words.to_string());
-    (grade.verdict == Verdict::Equivalent).then_some(grade)
-}
-
 /// Longest answer, in bytes, of which a number is tried in its other meaning: what is longer no student wrote.
 const LONGEST: usize = 1_000;
-
-/// An answer that cannot be read because a number in it has two meanings, and is right in one of them, is right: `1,500 N`,
-/// where a comma groups thousands or begins the decimals, and the mixed number `1 3/4`. Otherwise it stays unread.
-pub(super) fn number(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
-    if answer.len() > LONGEST {
-        return None;
-    }
-    let comma = |rest: &str| {
-        let mut signs = ["{,}", ","].into_iter();
-        let sign = signs.find(|sign| rest.starts_with(sign))?;
-        (digits(&rest[sign.len()..]) > 0).then_some(sign.len())
-    };
-    let hint = "write numbers without a comma: it parts thousands in some countries and decimals in others";
-    let beside = "write 7/4 or 1 + 3/4: side by side they could be a product";
-    // `(2,3)` is two components.
-    let inside = answer.trim_start().strip_prefix(['(', '[']);
-    let pair = inside.is_some_and(|rest| rest[digits(rest)..].starts_with(','));
-    let parts = parted(answer, comma).filter(|_| !pair);
-    let comma = parts.into_iter().flat_map(|parts| {
-        let thousands = parts[1..].iter().all(|part| digits(part) == 3);
-        let mut signs = if thousands { vec!["", "."] } else { vec!["."] };
-        // `x=2,3` are two values where the expected equation has two.
-        if matches!(key.reading.content, Content::Relations(..)) {
-            signs.push(", ");
-        }
-        let read = |sign| (parts.join(sign), hint);
-        signs.into_iter().map(read).collect::<Vec<_>>()
-    });
-    let mixed = mixed(answer).map(|text| (text, beside));
-    comma.chain(mixed).find_map(|(text, hint)| {
-        let grade = super::judge_here(key, &text, options);
-        let message = format!("right when it is read as {text}");
-        (grade.is_equivalent()).then(|| grade.reread(message, hint))
-    })
-}
-
-/// A text with mixed numbers as sums in brackets: `(1+3/4) m` for `1 3/4 m`; nothing where there are none.
-pub(super) fn mixed(text: &str) -> Option<String> {
-    let mut out = String::new();
-    let (mut rest, mut found) = (text, false);
-    while let Some(c) = rest.chars().next() {
-        let whole = digits(rest);
-        let apart = !out.ends_with(|c: char| c.is_alphanumeric() || matches!(c, '.' | ',' | '_'));
-        let blanks = rest.len() - whole - rest[whole..].trim_start().len();
-        let fraction = &rest[whole + blanks..];
-        let length = fraction_length(fraction, blanks > 0).filter(|_| whole > 0 && apart);
-        let taken = match length {
-            Some(length) => {
-                found = true;
-                out.push_str(&format!("({}+{})", &rest[..whole], &fraction[..length]));
-                whole + blanks + length
-            }
-            None => {
-                let taken = whole.max(c.len_utf8());
-                out.push_str(&rest[..taken]);
-                taken
-            }
-        };
-        rest = &rest[taken..];
-    }
-    found.then_some(out)
-}
-
-/// How many bytes a fraction of two whole numbers takes at the start of a text: `½`, `\frac{1}{2}`, `\frac12`, and `1/2` behind
-/// a space.
-fn fraction_length(text: &str, spaced: bool) -> Option<usize> {
-    const SIGNS: &str = "½⅓⅔¼¾⅕⅖⅗⅘⅙⅚⅛⅜⅝⅞";
-    if let Some(sign) = text.chars().next().filter(|c| SIGNS.contains(*c)) {
-        return Some(sign.len_utf8());
-    }
-    let above = digits(text);
-    if above > 0 {
-        let below = digits(text[above..].strip_prefix('/')?);
-        return (spaced && below > 0).then_some(above + 1 + below);
-    }
-    let commands = ["\\frac", "\\dfrac", "\\tfrac"];
-    let mut rest = commands.iter().find_map(|name| text.strip_prefix(name))?;
-    for _ in 0..2 {
-        rest = rest.trim_start();
-        rest = match rest.strip_prefix('{') {
-            Some(inside) => inside[digits(inside)..].strip_prefix('}')?,
-            None => rest.strip_prefix(|c: char| c.is_ascii_digit())?,
-        };
-    }
-    Some(text.len() - rest.len())
-}
-
-fn digits(text: &str) -> usize {
-    text.bytes().take_while(u8::is_ascii_digit).count()
-}
-
-/// A text cut behind digits where something stands, which is so many bytes long; nothing where it stands nowhere.
-fn parted(text: &str, stands: impl Fn(&str) -> Option<usize>) -> Option<Vec<String>> {
-    let mut parts = vec![String::new()];
-    let mut rest = text;
-    while let Some(c) = rest.chars().next() {
-        let behind = parts.last()?.ends_with(|c: char| c.is_ascii_digit());
-        let length = Some(rest).filter(|_| behind).and_then(&stands);
-        match length {
-            Some(length) => {
-                parts.push(String::new());
-                rest = &rest[length..];
-                // What follows belongs to the next part whatever it is.
-                let next = rest.chars().next()?;
-                parts.last_mut()?.push(next);
-                rest = &rest[next.len_utf8()..];
-            }
-            None => {
-                parts.last_mut()?.push(c);
-                rest = &rest[c.len_utf8()..];
-            }
-        }
-    }
-    (parts.len() > 1).then_some(parts)
-}
 
 /// `mv sinθ N s`: a wrong answer with a unit behind its last spaces whose letters the question does not know is right when
 /// the formula before it is, and is told so. One letter, or two small ones, are a factor; J, N and W are units first.

@@ -13,9 +13,11 @@ mod finals;
 mod impact;
 mod inertias;
 mod letters;
+mod line;
 mod link;
 mod names;
 mod open;
+mod pages;
 mod rounded;
 mod said;
 mod sought;
@@ -23,18 +25,18 @@ mod tending;
 mod text;
 mod vectors;
 mod why;
+mod wording;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
-use super::sheet::{Sheet, judge};
+use super::sheet::Sheet;
 use super::{Diagnosis, Options, Verdict};
 use crate::answer::{Answer, Form};
 use crate::expr::{Expr, Symbol};
-use crate::formula::{self, Fault, Reading};
+use crate::formula::Fault;
 use crate::scene::Question;
 use bind::Values;
 use desk::Desk;
-use link::{Link, Weighed, gaps};
 
 /// What is found of a line, and what is wrong with it.
 type Found = (Status, Vec<Diagnosis>);
@@ -147,7 +149,7 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
         let (worked, needed) = check_with(sheet, text, options, &meant);
         (worked, meant, needed)
     };
-    let plain = text::joined(text);
+    let plain = pages::joined(text);
     let accelerations = letters::accelerations(sheet, &plain);
     let bound = Desk::new(sheet, options).bindings(&plain);
     let whatever = accelerations.contains(&None).then(|| Meant {
@@ -269,8 +271,8 @@ fn check_with(
         .value
         .as_ref()
         .filter(|(name, _)| **name == *letters::OF_CENTER);
-    desk.turning = of_center.and_then(|_| letters::turning(sheet, &text::joined(text)));
-    let read = text::joined(&arrows::spelled(text, &sheet.scene));
+    desk.turning = of_center.and_then(|_| letters::turning(sheet, &pages::joined(text)));
+    let read = pages::joined(&arrows::spelled(text, &sheet.scene));
     let read = desk.in_names(&read);
     desk.primed = arrows::primed(&read);
     desk.along_normal(&read);
@@ -287,7 +289,7 @@ fn check_with(
     desk.in_units = meant.in_units;
     desk.ahead = names::definitions(&read, &desk.symbols(""));
     let mut before = String::new();
-    let dashes = text::has_dashes(text);
+    let dashes = pages::has_dashes(text);
     let lines = text
         .lines()
         .zip(read.lines().chain(std::iter::repeat("")))
@@ -296,14 +298,14 @@ fn check_with(
         .take(MAX_LINES)
         .map(|(i, (line, read))| {
             let line = line.trim();
-            if text::is_heading(line) {
+            if pages::is_heading(line) {
                 desk.of_earlier_parts = desk.own.keys().cloned().collect();
                 desk.head(line);
             }
             desk.number = i + 1;
             // What is aligned may begin with a minus sign.
-            let item = text::unlisted(read.trim(), dashes && !line.contains('&'));
-            let whole = text::continued(&before, item);
+            let item = pages::unlisted(read.trim(), dashes && !line.contains('&'));
+            let whole = pages::continued(&before, item);
             let (status, diagnosis) = desk.line(&whole);
             before = whole;
             Line {
@@ -369,309 +371,5 @@ impl Desk<'_> {
             }
         }
         out
-    }
-
-    /// A line is as good as its worst equation.
-    fn line(&mut self, text: &str) -> Found {
-        if let Some(status) = self.in_case(text) {
-            return (status, Vec::new());
-        }
-        let mut line = (Status::Comment, Vec::new());
-        for equation in text::equations(text) {
-            if self.is_supposed(text, equation) {
-                continue;
-            }
-            let sensed = text::in_brackets_behind(text, equation);
-            let sensed = sensed.and_then(|equation| self.with_sense(&equation));
-            let turned = sensed.or_else(|| self.with_sense(equation));
-            let equation = turned.as_deref().unwrap_or(equation);
-            let (status, diagnosis) = self.equation(equation);
-            self.note_clear(equation, &status);
-            if status.weight() > line.0.weight() {
-                line.0 = status;
-            }
-            line.1.extend(diagnosis);
-        }
-        line
-    }
-
-    /// Notes an own name that is said anew in a line that cannot be read: what it is from here on is not known.
-    fn note_clear(&mut self, equation: &str, status: &Status) {
-        let own = names::named(equation).filter(|(name, _)| self.own.contains_key(name));
-        if let Some((name, _)) = own {
-            match status {
-                Status::Unreadable(_) => self.unclear.insert(name),
-                _ => self.unclear.remove(&name),
-            };
-        }
-    }
-
-    fn equation(&mut self, text: &str) -> Found {
-        if let Some(found) = self.said_before(text) {
-            return found;
-        }
-        let reading = match formula::read(text, &self.symbols(text)) {
-            // `(m+M) V`, `(m+M) g h`: a letter that is said further down, or is a quantity first, is no unit.
-            Ok(reading) if names::behind(text, &reading).is_some() => {
-                let unit = names::behind(text, &reading).and_then(|(from, to)| text.get(from..to));
-                // `v² = 2 a s` speaks of a way, `t = v/(μ g) s` of seconds.
-                let solved = names::named(text).is_some();
-                let letter = self.is_misfit(text, &reading)
-                    || unit.is_some_and(|unit| {
-                        names::is_quantity_first(unit) || unit == "s" && !solved
-                    });
-                match self.looked_ahead(text) {
-                    Some(reading) => reading,
-                    None if letter && self.new_name(text).is_some() => {
-                        return (Status::Defines, Vec::new());
-                    }
-                    None if self.has_normal(text, &reading) && self.new_side(text).is_some() => {
-                        formula::read(text, &self.symbols(text)).unwrap_or(reading)
-                    }
-                    None if names::are_letters(text, &reading) => {
-                        return (Status::Undecided, Vec::new());
-                    }
-                    None => reading,
-                }
-            }
-            Ok(reading) => reading,
-            Err(fault) => {
-                if let Some(found) = self.definition(text) {
-                    return found;
-                }
-                let parts = text::measured_end(text);
-                if let Some(parts) = parts.filter(|parts| self.are_read(parts)) {
-                    let [mut first, second] = parts.map(|part| self.equation(&part));
-                    if second.0.weight() > first.0.weight() {
-                        first.0 = second.0;
-                    }
-                    first.1.extend(second.1);
-                    return first;
-                }
-                // A name that looks like one of the scene's is a slip of the pen rather than a new name; V_y beside an own
-                // V_x is none.
-                let near = text::near(&fault, text);
-                let near = near.is_some_and(|meant| !self.own.contains_key(meant));
-                match self.looked_ahead(text) {
-                    Some(reading) => reading,
-                    None if near => return (Status::Unreadable(fault), Vec::new()),
-                    None if self.new_name(text).is_some() => {
-                        return (Status::Defines, Vec::new());
-                    }
-                    None if self.is_conservation(text) => return (Status::Comment, Vec::new()),
-                    None => {
-                        self.new_side(text);
-                        match formula::read(text, &self.symbols(text)) {
-                            Ok(reading) => reading,
-                            Err(fault) => return (Status::Unreadable(fault), Vec::new()),
-                        }
-                    }
-                }
-            }
-        };
-        if let Some(found) = self.bound(text, &reading) {
-            return found;
-        }
-        let mut found = self.judged(text, &reading);
-        if let (Status::Holds, Some((name, _))) = (&found.0, names::named(text))
-            && self.bound.remove(&name)
-        {
-            found.0 = Status::Defines;
-        }
-        if found
-            .1
-            .iter()
-            .all(|d| ![CONDITION, MOMENT].contains(&d.code))
-        {
-            self.note_final(text, &reading, &Values::new());
-        }
-        found
-    }
-
-    /// `ω = 3v/(4a) clockwise` and `P_y = m v downwards` with the sign the question counts by, on every side.
-    fn with_sense(&self, text: &str) -> Option<String> {
-        let (name, right) = names::named(text)?;
-        let name = name.trim_end_matches(['\'', '^', '+']);
-        let part = |q: &Question| match name.strip_prefix(q.name.as_str())? {
-            "" => Some((q.ask.clone(), None)),
-            "_x" => Some((q.ask.clone(), Some(0))),
-            "_y" => Some((q.ask.clone(), Some(1))),
-            _ => None,
-        };
-        let (ask, component) = self.sheet.scene.questions.iter().find_map(part)?;
-        let (values, _) = super::read::sense(right)?;
-        let word = right[values.len()..].trim_start_matches([' ', ',', '(']);
-        judge::in_words(&ask, component, &format!("{values} {word}"))?;
-        let sides = values.split('=');
-        let sides: Option<Vec<String>> = sides
-            .map(|side| judge::in_words(&ask, component, &format!("{side} {word}")))
-            .collect();
-        Some(format!("{name} = {}", sides?.join(" = ")))
-    }
-
-    fn judged(&mut self, text: &str, reading: &Reading) -> Found {
-        let Some(links) = self.links(reading) else {
-            return (self.inequality(reading), Vec::new());
-        };
-        let weighed = match self.is_counted_otherwise(&links) {
-            true => Weighed::Slip(0),
-            false => self.weigh(text, &links),
-        };
-        if let (Weighed::Slip(_), Some(found)) = (&weighed, self.said_anew(text)) {
-            return found;
-        }
-        let fails = matches!(weighed, Weighed::Slip(_) | Weighed::Carried(_));
-        if fails && self.is_condition(&links, &weighed) {
-            let all = gaps(&links);
-            self.state(None, &all);
-            let words = "a condition the scene asks about, not a fact";
-            let found = Diagnosis::new(CONDITION, words, words);
-            return (Status::Holds, vec![found]);
-        }
-        if let Weighed::Slip(_) = weighed
-            && let Some((when, there, of)) = self.at_another_moment(&links)
-        {
-            let there = there.clone();
-            self.count(&links, &of);
-            let mut sides = links.iter().map(|link| &link.sides[0]);
-            let said = sides.next().and_then(|side| side.name());
-            if !said.is_some_and(|name| formula::has_arrow(name)) {
-                self.note_final(text, reading, &there);
-            }
-            let hint = "say which moment or case is meant";
-            let found = Diagnosis::new(MOMENT, format!("this holds {when}"), hint);
-            return (Status::Holds, vec![found]);
-        }
-        if self.forgets(&links, matches!(weighed, Weighed::Slip(_))) {
-            return self.equation(text);
-        }
-        if let Weighed::Slip(_) = weighed {
-            // `v(t) = v − μ g t` tells a motion in time, of which the scene knows the end.
-            if text::is_of_time(text) {
-                return (Status::Undecided, Vec::new());
-            }
-            if let Some(found) = self.left_open(&links) {
-                return found;
-            }
-            // The student may have meant the other reading of a slash, or m u by `mu`.
-            let symbols = self.symbols(text);
-            let others = formula::other_readings(text, &symbols, true);
-            let apart = formula::letters_apart(text, &symbols);
-            let apart = apart.and_then(|text| formula::read(&text, &symbols).ok());
-            let measured = self.measured(text, reading);
-            if self.is_before_beside_primes(text) {
-                let words = "this holds just before the impact, as it is with a prime after it";
-                let hint = "say which moment is meant";
-                return (Status::Holds, vec![Diagnosis::new(MOMENT, words, hint)]);
-            }
-            for other in others.into_iter().take(4).chain(apart).chain(measured) {
-                let Some(links) = self.links(&other) else {
-                    continue;
-                };
-                let again = self.weigh(text, &links);
-                if let Weighed::Slip(_) | Weighed::Open = again {
-                    continue;
-                }
-                let message = format!("holds when read as {}", super::show(&other.content));
-                let hint = "this line can be read in two ways; use brackets to say which is meant";
-                let found = match again {
-                    Weighed::Carried(_) => Vec::new(),
-                    _ => vec![Diagnosis::new("AMBIGUOUS", message, hint)],
-                };
-                return (self.note(&other, &links, &again), found);
-            }
-        }
-        if let Weighed::Slip(_) = weighed {
-            self.note_coarse(text);
-        }
-        let status = self.note(reading, &links, &weighed);
-        let found = match weighed {
-            Weighed::Slip(at) => self.diagnosis(reading, at, text),
-            Weighed::Holds if link::in_vectors(&links) => {
-                self.count(&links, &BTreeMap::new());
-                let says = self.says_enough(&links, &self.parts, false);
-                (!says).then(open::vanishes).into_iter().collect()
-            }
-            _ => Vec::new(),
-        };
-        (status, found)
-    }
-
-    /// Whether a line holds where a vector that the page has with a prime as well is the one before.
-    fn is_before_beside_primes(&self, text: &str) -> bool {
-        let of_primed = |letter: &str, index: &str| {
-            let mut primed = self.primed.iter();
-            primed.any(|(l, i)| l == letter && i == index)
-        };
-        let before = arrows::with_mark(text, "^{-}", &of_primed);
-        let reading = formula::read(&before, &self.symbols(&before)).ok();
-        let links = reading
-            .filter(|_| before != text)
-            .and_then(|r| self.links(&r));
-        links.is_some_and(|links| {
-            matches!(self.weigh(text, &links), Weighed::Holds | Weighed::Rounded)
-                && self.says_enough(&links, &self.parts, true)
-        })
-    }
-
-    /// Keeps what later lines may hang on.
-    fn note(&mut self, reading: &Reading, links: &[Link], weighed: &Weighed) -> Status {
-        // A chain also says that its ends are equal: what is read off goes on from there.
-        let ends = match (links.first(), links.last()) {
-            (Some(a), Some(b)) if links.len() > 1 => self.link(&a.sides[0], &b.sides[1]),
-            _ => None,
-        };
-        let all = ends.iter().chain(links).flat_map(|l| &l.differences);
-        let all: Vec<Expr> = all.cloned().collect();
-        match weighed {
-            Weighed::Holds => {
-                let used = all.iter().flat_map(Expr::symbols);
-                let own = used.filter(|name| self.own.contains_key(name));
-                self.proved.extend(own.collect::<Vec<_>>());
-                self.carry(reading);
-                self.state(None, &all);
-                Status::Holds
-            }
-            Weighed::Rounded => Status::Holds,
-            Weighed::Open => Status::Undecided,
-            Weighed::Carried(cause) => {
-                if self.believe_vector(*cause, links).is_none() {
-                    self.believe(*cause, &all);
-                }
-                self.state(Some(*cause), &all);
-                Status::Carried(*cause)
-            }
-            Weighed::Slip(_) => {
-                // What a wrong vector says of all else is not meant: `H = ml²ω/12` would say that ω = 0.
-                if self.believe_vector(self.number, links).is_none() {
-                    self.believe(self.number, &all);
-                }
-                self.state(Some(self.number), &all);
-                // That a product vanishes says too little, and too much follows from it.
-                let own = all.iter().map(|d| self.with_own(d));
-                let own: Vec<_> = own.filter(|d| self.says_a_sum(d)).collect();
-                let number = self.number;
-                self.wrong.extend(own.into_iter().map(|d| (number, d)));
-                // It may be such a name that is wrong, which later lines use as well.
-                for gap in &all {
-                    let needed: BTreeMap<_, _> = self.own_needed(gap).into_iter().collect();
-                    let used = gap.symbols();
-                    let used = used.into_iter().filter(|name| self.own.contains_key(name));
-                    for name in used.collect::<Vec<_>>() {
-                        let truth = needed.get(&name).map(|[_, truth]| truth);
-                        let early = self.early.contains(&name);
-                        self.needed
-                            .extend(self.meant_by(gap, &name, truth).map(|value| Needed {
-                                name: name.clone(),
-                                value,
-                                early,
-                            }));
-                        let truth = truth.map(|truth| (number, name, truth.clone()));
-                        self.slipped.extend(truth);
-                    }
-                }
-                Status::Wrong
-            }
-        }
     }
 }

@@ -68,19 +68,14 @@ fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) ->
             },
         } => identical(ground, assumptions),
         Equality::Same {
-            how:
-                How::OnBranch {
-                    condition: Condition::BothDefined,
-                    elsewhere,
-                },
-        } => where_defined(&elsewhere),
-        Equality::Same {
-            how:
-                How::OnBranch {
-                    condition: Condition::NotNegative(e),
-                    elsewhere,
-                },
-        } => on_branch(&ctx.say(&e), &elsewhere),
+            how: How::OnBranch {
+                condition,
+                elsewhere,
+            },
+        } => match condition {
+            Condition::BothDefined => where_defined(&elsewhere),
+            Condition::NotNegative(e) => on_branch(&ctx.say(&e), &elsewhere),
+        },
         Equality::Different(at) => {
             let words = "the values differ at a point of the domain";
             let mut finding = Grade::different("DIFF", "counterexample", words);

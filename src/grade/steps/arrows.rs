@@ -3,7 +3,8 @@
 
 use std::collections::BTreeSet;
 
-use super::text::{is_heading, relates};
+use super::pages::is_heading;
+use super::text::relates;
 use crate::scene::Scene;
 
 /// A vector in a line, by the bytes it takes.

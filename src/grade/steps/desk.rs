@@ -11,7 +11,7 @@ use super::letters::{MARKS, OF_CENTER};
 use super::link::Link;
 use super::sought::{self, Sought};
 use super::vectors::{in_products, is_marked, marked_after};
-use super::{Final, Needed, Status, text};
+use super::{Final, Needed, Status, wording};
 use crate::answer::Form;
 use crate::derive::{Moment, Names};
 use crate::equality;
@@ -314,7 +314,7 @@ impl<'a> Desk<'a> {
             let name = formula::read_name(word, &symbols);
             name.is_some_and(|name| self.closed.contains_key(&name))
         };
-        let lines = text.lines().map(|line| text::in_names(line, &asked));
+        let lines = text.lines().map(|line| wording::in_names(line, &asked));
         self.with_said(lines.collect()).join("\n")
     }
 

@@ -180,15 +180,10 @@ impl<'a> Impact<'a> {
             });
         }
         let scene = self.scene;
-        let contacts = scene.contacts.iter();
-        let contacts = contacts.map(|c| (&c.name, &c.at, c.bodies.to_vec()));
-        let hinges = scene.hinges.iter();
-        let hinges = hinges.map(|h| (&h.name, &h.at, h.bodies.to_vec()));
-        let blows = scene.blows.iter().map(|b| (&b.name, &b.at, vec![b.body]));
-        let mut places = contacts.chain(hinges).chain(blows);
-        if let Some((_, at, mut bodies)) = places.find(|(name, ..)| is_index(name, index)) {
+        if let Some((_, at, bodies)) = self.joint(index) {
+            let (at, mut bodies) = (at.clone(), bodies.to_vec());
+            bodies.dedup();
             bodies.sort_by_key(|&b| scene.bodies[b].is_fixed());
-            let at = at.clone();
             return Some(Point { at, bodies });
         }
         if let Some(b) = self.body(index) {
@@ -265,19 +260,17 @@ impl<'a> Impact<'a> {
         Some(Expr::sum(all?))
     }
 
-    /// The joint of a name, and its two bodies.
-    fn joint(&self, index: &str) -> Option<(Place, [usize; 2])> {
-        let scene = self.scene;
-        let named = |name: &str| is_index(name, index);
-        let contact = scene.contacts.iter().position(|c| named(&c.name));
-        let hinge = scene.hinges.iter().position(|h| named(&h.name));
-        let blow = scene.blows.iter().position(|b| named(&b.name));
-        Some(match (contact, hinge, blow) {
-            (Some(c), ..) => (Place::Contact(c), scene.contacts[c].bodies),
-            (_, Some(h), _) => (Place::Hinge(h), scene.hinges[h].bodies),
-            (_, _, Some(b)) => (Place::Blow(b), [scene.blows[b].body; 2]),
-            _ => return None,
-        })
+    /// The joint of a name, where it is, and its two bodies.
+    fn joint(&self, index: &str) -> Option<(Place, &Vector, [usize; 2])> {
+        let contacts = self.scene.contacts.iter().enumerate();
+        let contacts = contacts.map(|(k, c)| (&c.name, (Place::Contact(k), &c.at, c.bodies)));
+        let hinges = self.scene.hinges.iter().enumerate();
+        let hinges = hinges.map(|(k, h)| (&h.name, (Place::Hinge(k), &h.at, h.bodies)));
+        let blows = self.scene.blows.iter().enumerate();
+        let blows = blows.map(|(k, b)| (&b.name, (Place::Blow(k), &b.at, [b.body; 2])));
+        let mut all = contacts.chain(hinges).chain(blows);
+        let found = all.find(|(name, _)| is_index(name, index));
+        found.map(|(_, joint)| joint)
     }
 
     /// Which of the two bodies at a joint an impulse is counted on: one that can move, else one of a system that the joint is not
@@ -297,7 +290,7 @@ impl<'a> Impact<'a> {
     }
 
     fn impulse(&self, index: &str, meant: &Meant) -> Option<Vector> {
-        let (place, bodies) = self.joint(index)?;
+        let (place, _, bodies) = self.joint(index)?;
         let on = self.counted_on(bodies, meant)?;
         let [x, y] = laws::impulse_at(self.scene, &self.geometry, place);
         let impulse = [self.put_in(&x)?, self.put_in(&y)?];
@@ -327,7 +320,7 @@ impl<'a> Impact<'a> {
         let (base, index, _) = formula::vector_name(name)?;
         let body = match &*base {
             "P" => {
-                let (_, bodies) = self.joint(&index)?;
+                let (.., bodies) = self.joint(&index)?;
                 let both = bodies.iter().all(|&b| !self.scene.bodies[b].is_fixed());
                 let on = self.counted_on(bodies, meant)?;
                 (both && bodies[0] != bodies[1]).then_some(bodies[on])

@@ -32,10 +32,10 @@ fn is_alone(side: &Content, name: &str) -> bool {
 pub(super) fn readings(scene: &Scene, text: &str) -> Vec<Reading> {
     let mut symbols = Symbols::open();
     scene.declare_parameters(&mut symbols);
-    let lines = text.lines().take(super::MAX_LINES);
-    let parts = lines.flat_map(super::text::equations);
-    let readings = parts.filter_map(|part| formula::read(part, &symbols).ok());
-    readings.collect()
+    let parts = super::pages::all_equations(text);
+    parts
+        .filter_map(|part| formula::read(part, &symbols).ok())
+        .collect()
 }
 
 /// What is asked that a worked solution writes with a mark as well, and the mark: it may be of another moment with it.

@@ -27,8 +27,7 @@ pub(super) fn named(text: &str) -> Option<(Symbol, &str)> {
 /// The definitions `name = …` of a worked solution, for lines that use a name before it is said; what the scene names in
 /// another spelling is none.
 pub(super) fn definitions(text: &str, scene: &Symbols) -> Vec<(Symbol, String)> {
-    let lines = text.lines().take(super::MAX_LINES);
-    let parts = lines.flat_map(super::text::equations);
+    let parts = super::pages::all_equations(text);
     let new = |part: &&str| {
         let left = part.split('=').next().unwrap_or_default();
         formula::read(left, scene).is_err()
@@ -39,8 +38,7 @@ pub(super) fn definitions(text: &str, scene: &Symbols) -> Vec<(Symbol, String)> 
 
 /// What a worked solution says something about: `v = …`, `v ≥ …`, `v² = …`.
 pub(super) fn left_sides(text: &str) -> Vec<Expr> {
-    let lines = text.lines().take(super::MAX_LINES);
-    let parts = lines.flat_map(super::text::equations);
+    let parts = super::pages::all_equations(text);
     let sides = parts.filter_map(|part| {
         let reading = formula::read(part, &Symbols::open()).ok()?;
         let (sides, _) = reading.content.relations()?;

@@ -1,6 +1,5 @@
 //! The equations in a line as students write them, with words and arrows around them.
 
-use crate::dimension;
 use crate::formula::{self, Fault, changes};
 
 /// Signs that relate two sides.
@@ -12,7 +11,7 @@ const LEADS: &str = "=>|⇒|⟹|∴|→|->|\\Rightarrow|\\implies|\\therefore|th
      as|from|let";
 
 /// What stands between two equations of one line.
-const BETWEEN: &str = "<=>|⇔|\\Leftrightarrow|\\iff|=>|⇒|⟹|∴|\\Rightarrow|\\implies|\\therefore|\
+pub(super) const BETWEEN: &str = "<=>|⇔|\\Leftrightarrow|\\iff|=>|⇒|⟹|∴|\\Rightarrow|\\implies|\\therefore|\
     →|->|; |, | so | hence | thus | therefore | we get | where | with | and |: ";
 
 /// Which of these words lead from a sentence to what follows from it: `G is l/2 away, so I = m l^2/3`.
@@ -119,160 +118,9 @@ fn in_dollars(text: &str) -> Option<Vec<&str>> {
     Some(formulas.collect())
 }
 
-/// Words that stand for a sign of equality behind a name.
-const VERBS: [&str; 4] = [" is equal to ", " is given by ", " equals ", " is "];
-
-/// `$\omega$ is negative: …` with a relation for the words, where they end a clause: `θ is positive counterclockwise` tells how
-/// it is counted.
-fn signs_in_words(line: &str, asked: &dyn Fn(&str) -> bool) -> Option<String> {
-    const SIGNED: [(&str, &str); 3] = [
-        (" is positive", " > 0"),
-        (" is negative", " < 0"),
-        (" is zero", " = 0"),
-    ];
-    SIGNED.iter().find_map(|(words, relation)| {
-        let (before, behind) = line.split_once(words)?;
-        if !behind.is_empty() && !behind.starts_with([':', '.', ',', ';']) {
-            return None;
-        }
-        if let Some(formula) = before.strip_suffix('$') {
-            let inside = formula
-                .rsplit('$')
-                .next()
-                .is_some_and(|inside| !relates(inside));
-            return inside.then(|| format!("{formula}{relation}$ {behind}"));
-        }
-        let name = before.rsplit([' ', ',']).next()?;
-        (asked(name) && !relates(before)).then(|| format!("{name}{relation}{behind}"))
-    })
-}
-
-/// Words behind the letters of a quantity that tell which value of it is meant.
-const WHICH: [&str; 6] = ["before", "after", "lost", "gained", "initially", "finally"];
-
-/// A line with signs and names for words: `ω is 3v/(2l)` with a sign of equality, `KE before = ½mv²` with the name `KE_before`.
-/// What is `asked` of the moment just after is its own name then.
-pub(super) fn in_names(line: &str, asked: &dyn Fn(&str) -> bool) -> String {
-    let line = line.replace("K.E.", "KE").replace("P.E.", "PE");
-    // `After the 1st bounce v = …`
-    let line = line.replace(" the 1st ", " the first ");
-    let line = line.replace(" the 2nd ", " the second ");
-    // `v_B,x`
-    let line = ["x", "y"]
-        .iter()
-        .fold(line, |line, axis| with_axis(&line, axis));
-    let line = signs_in_words(&line, asked).unwrap_or(line);
-    let line = moment_first(&line, asked).unwrap_or(line);
-    let words: Vec<&str> = line.split(' ').collect();
-    let sign = |word: &str| word.ends_with(['=', '+', '-', '−', '≈', ':', ',']);
-    let mut out: Vec<String> = Vec::new();
-    let mut at = 0;
-    while let Some(word) = words.get(at) {
-        let first = out.last().is_none_or(|w| sign(w) || is_word(w));
-        let which = Some(&words[at + 1..]).filter(|_| first && (is_letters(word) || asked(word)));
-        match which.and_then(which_value) {
-            Some((which, used)) if which.starts_with("after") && asked(word) => {
-                out.push(format!("{word}{}", &which["after".len()..]));
-                at += used;
-            }
-            Some((which, used)) => {
-                out.push(format!("{word}_{which}"));
-                at += used;
-            }
-            None => out.push(word.to_string()),
-        }
-        at += 1;
-    }
-    let mut line = out.join(" ");
-    for verb in VERBS {
-        if let Some((left, right)) = line.split_once(verb) {
-            let name = left.rsplit(' ').next().unwrap_or_default();
-            let name = name.trim_start_matches('$');
-            if asked(name) || verb != " is " && is_letters(name) {
-                line = format!("{left} = {right}");
-            }
-        }
-    }
-    line
-}
-
-/// An index that goes on behind a comma with an axis, `v_B,x`, in braces.
-fn with_axis(line: &str, axis: &str) -> String {
-    let comma = format!(",{axis}");
-    let mut pieces = line.split(&comma);
-    let mut out = pieces.next().unwrap_or_default().to_string();
-    for piece in pieces {
-        let index = out.rfind('_').filter(|at| {
-            let index = &out[at + 1..];
-            !index.is_empty() && index.chars().all(char::is_alphanumeric)
-        });
-        match index.filter(|_| !piece.starts_with(|c: char| c.is_alphanumeric() || c == '_')) {
-            Some(at) => out = format!("{}_{{{},{axis}}}", &out[..at], &out[at + 1..]),
-            None => out.push_str(&comma),
-        }
-        out.push_str(piece);
-    }
-    out
-}
-
-/// `v = √(2gh) just before the hit` as what the name `v_before` is where v is asked of another moment; without the words else.
-fn moment_first(line: &str, asked: &dyn Fn(&str) -> bool) -> Option<String> {
-    let sides = [" before", " after"].into_iter();
-    let (said, side) = sides
-        .filter_map(|s| Some((&line[..line.rfind(s)?], s)))
-        .max()?;
-    let behind = line[said.len() + side.len()..].trim_end_matches(['.', ',']);
-    let words = behind.split(' ').skip(1);
-    let few = behind.is_empty() || behind.starts_with(' ') && words.clone().count() < 4;
-    let (name, _) = said
-        .split_once('=')
-        .filter(|_| few && words.clone().all(is_word))?;
-    let said = [" just", " immediately", " right"]
-        .iter()
-        .find_map(|word| said.strip_suffix(word))
-        .unwrap_or(said);
-    let name = name.trim();
-    Some(match side == " before" && asked(name) {
-        true => said.replacen(name, &format!("{name}_before"), 1),
-        false => said.to_string(),
-    })
-}
-
-/// Which value words behind a name speak of, and how many words that takes: `just after the hit`.
-fn which_value<'t>(words: &[&'t str]) -> Option<(&'t str, usize)> {
-    let mut at = usize::from(["just", "right", "immediately"].contains(words.first()?));
-    let plain = |word: &&str| word.trim_end_matches([':', ',', '.']).len();
-    let which = *words
-        .get(at)
-        .filter(|word| WHICH.contains(&&word[..plain(word)]))?;
-    at += 1;
-    if plain(&which) < which.len() {
-        return Some((which, at));
-    }
-    if words.get(at) == Some(&"the") {
-        at += 1 + usize::from(words.get(at + 1).is_some_and(|word| is_word(word)));
-    }
-    let ends = |next: &str| {
-        next.starts_with(['=', '+', '-', '−', '≈', ':', ',']) || ["is", "equals"].contains(&next)
-    };
-    let end = words.get(at).is_none_or(|next| ends(next));
-    end.then_some((which, at))
-}
-
-fn is_word(text: &str) -> bool {
+pub(super) fn is_word(text: &str) -> bool {
     let function = ["sin", "cos", "tan", "cot"].contains(&text);
     text.len() > 2 && !function && text.chars().all(|c| c.is_ascii_alphabetic())
-}
-
-/// Whether a word is one or two letters as they stand for a quantity, maybe with an index.
-fn is_letters(word: &str) -> bool {
-    const WORDS: [&str; 12] = [
-        "a", "as", "at", "by", "if", "in", "is", "it", "of", "so", "to", "we",
-    ];
-    let base = word.split('_').next().unwrap_or_default();
-    let plain = word.chars().all(|c| c.is_alphanumeric() || c == '_');
-    let letters = base.chars().filter(|c| c.is_alphabetic()).count();
-    plain && (1..3).contains(&letters) && !WORDS.contains(&word)
 }
 
 /// Words before a line that tries a special case.
@@ -333,107 +181,6 @@ pub(super) fn supposition(text: &str) -> Option<(&str, Vec<&str>)> {
     both.then(|| (given.trim_matches([' ', '$']), equations(behind)))
 }
 
-/// Whether a line is the heading of a part: `## 2. Bounce`, `Second bounce:`, `(b) After the impact`.
-pub(super) fn is_heading(line: &str) -> bool {
-    const MOST: usize = 6;
-    let words = line.split_whitespace().count();
-    let is_sentence = line.ends_with([',', '.', ';']);
-    let says = line.chars().any(char::is_alphabetic) && !line.contains(['$', '\\', '&']);
-    line.starts_with('#') || says && words <= MOST && !is_sentence && !relates(line)
-}
-
-/// A solution without what aligns its lines in LaTeX: a line that goes on with a further term or factor, `& + …`, is put behind
-/// the one before it, and a heading is words.
-pub(super) fn joined(text: &str) -> String {
-    let mut out: Vec<String> = Vec::new();
-    let mut last = None;
-    for line in text.lines() {
-        let aligned = line.trim_start().strip_prefix('&').map(str::trim_start);
-        let signs = ["+", "-", "\\times", "\\cdot"];
-        let goes_on = aligned.filter(|rest| signs.iter().any(|sign| rest.starts_with(sign)));
-        match (goes_on, last) {
-            (Some(rest), Some(at)) => {
-                let line: &mut String = &mut out[at];
-                line.push(' ');
-                line.push_str(&unaligned(rest));
-                out.push(String::new());
-            }
-            _ if line.starts_with("#") => out.push(String::new()),
-            _ => {
-                last = Some(out.len());
-                out.push(unaligned(line.trim()));
-            }
-        }
-    }
-    out.join("\n")
-}
-
-/// A line without what aligns it with others in LaTeX: `ω &= 3v/(2ℓ) \\\\`.
-fn unaligned(line: &str) -> String {
-    // `**Momentum:** m v = …`
-    let bold = line.strip_prefix("**").and_then(|l| l.split_once("**"));
-    let bold = bold.map(|(words, rest)| format!("{words}{rest}"));
-    let line = bold.as_deref().unwrap_or(line);
-    let line = line.trim_end_matches("\\\\").trim_end();
-    let line = line
-        .trim_end_matches("\\\\")
-        .replace("&=", "=")
-        .replace("&\\approx", "\\approx");
-    let line = between_formulas(&line.replace("\\quad", " ").replace('&', " "));
-    // `v = 3 u/7 [m/s]`
-    let unit = line.strip_suffix(']').and_then(|l| l.rsplit_once('['));
-    match unit.filter(|(_, unit)| dimension::unit(unit).is_ok()) {
-        Some((said, unit)) => format!("{said}{unit}"),
-        None => line,
-    }
-}
-
-/// A line with the words between its formulas, `\\text{and}`, as words.
-fn between_formulas(line: &str) -> String {
-    let mut pieces = line.split("\\text{");
-    let mut out = pieces.next().unwrap_or_default().to_string();
-    for piece in pieces {
-        let said = piece
-            .split_once('}')
-            .map(|(word, rest)| (word.trim(), rest));
-        let known = |word: &str| BETWEEN.split('|').any(|sign| sign.trim() == word);
-        match said.filter(|(word, _)| known(word)) {
-            Some((word, rest)) => out.extend([" ", word, " ", rest]),
-            None => out.extend(["\\text{", piece]),
-        }
-    }
-    out
-}
-
-/// A line without the mark of an item in a list: `1) ω = …`, `(a) ω = …`, `* ω = …`, and `- ω = …` where `dashes` are marks.
-pub(super) fn unlisted(line: &str, dashes: bool) -> &str {
-    let marks = ["* ", "• ", "– ", "- "]
-        .iter()
-        .take(3 + usize::from(dashes));
-    if let Some(rest) = marks.filter_map(|mark| line.strip_prefix(mark)).next() {
-        return rest.trim_start();
-    }
-    let Some((mark, rest)) = line.split_once(") ") else {
-        return line;
-    };
-    let number = |mark: &str| mark.len() < 3 && mark.bytes().all(|b| b.is_ascii_digit());
-    let is_mark = match mark.strip_prefix('(') {
-        // `(2) v + (3) u` are factors.
-        Some(inside) => {
-            ["a", "b", "c", "i", "ii", "iii", "iv"].contains(&inside)
-                || number(inside) && !rest.contains('(')
-        }
-        None => mark.len() == 1 || number(mark),
-    };
-    if is_mark { rest.trim_start() } else { line }
-}
-
-/// Whether dashes begin the items of a list: more than one line begins with one that a blank follows.
-pub(super) fn has_dashes(text: &str) -> bool {
-    let dashed = |line: &&str| line.trim_start().starts_with("- ");
-    text.lines().filter(dashed).count() > 1
-}
-
 /// Whether a line says what a name is as a function of time: `v(t) = …`.
 pub(super) fn is_of_time(text: &str) -> bool {
     let left = text.split('=').next().unwrap_or_default().trim_end();
@@ -442,20 +189,6 @@ pub(super) fn is_of_time(text: &str) -> bool {
         let plain = |c: char| c.is_alphanumeric() || "_\\{}".contains(c);
         !name.is_empty() && name.chars().all(plain)
     })
-}
-
-/// A line that goes on with an equality sign, with the ends of the chain before it: what is spoken of, and its last side.
-pub(super) fn continued(before: &str, line: &str) -> String {
-    let rest = line.trim_start_matches(['&', '$', ' ']);
-    let goes_on =
-        rest.starts_with(['=', '≈']) && !rest.starts_with("=>") || rest.starts_with("\\approx");
-    let chain = equations(before).pop().filter(|_| goes_on);
-    let Some((first, last)) =
-        chain.and_then(|chain| Some((chain.split('=').next()?, chain.rsplit(['=', '≈']).next()?)))
-    else {
-        return line.to_string();
-    };
-    format!("{first}= {last} {rest}")
 }
 
 /// A chain that ends in a number with its unit, `ω = 3v/(2l) = 5.2 rad/s`, as the chain before that and its name with the

@@ -15,7 +15,7 @@ use super::{Desk, MOST_TERMS};
 use crate::algebra::{Sign, sign};
 use crate::expr::{Expr, Function, Node, Symbol, effort};
 use crate::formula::{self, Content, Reading};
-use crate::laws;
+use crate::laws::{self, Unknown};
 use crate::scene::{Ask, Question, Scene};
 
 /// Longest value, in letters, that an own name is said to need.
@@ -476,37 +476,20 @@ impl Desk<'_> {
             let question = asked.find(|q| q.name == answer.question)?;
             return Some((name.clone(), question.ask.clone(), answer.axis()));
         }
-        if let Some(&(body, part)) = self.of_bodies.get(name) {
-            let (point, along) = (None, None);
-            return Some(match part {
-                2 => (
-                    name.clone(),
-                    Ask::Spin {
-                        body,
-                        clockwise: false,
-                    },
-                    None,
-                ),
-                axis => (
-                    name.clone(),
-                    Ask::Velocity { body, point, along },
-                    Some(axis),
-                ),
-            });
-        }
-        if !std::ptr::eq(scene, &self.sheet.scene) {
-            return None;
-        }
-        let unknown = laws::unknowns(scene)
-            .into_iter()
-            .find(|u| d.names.plain(*u) == &**name)?;
-        let (ask, component) = match unknown {
-            laws::Unknown::Velocity(body, axis) => {
-                let (point, along) = (None, None);
-                (Ask::Velocity { body, point, along }, Some(axis))
-            }
-            laws::Unknown::Spin(body) => {
-                let clockwise = d.names.is_reversed(unknown);
+        let mut unknowns = laws::unknowns(scene).into_iter();
+        let of_scene = || {
+            let here = std::ptr::eq(scene, &self.sheet.scene);
+            unknowns.find(|u| here && d.names.plain(*u) == &**name)
+        };
+        let of_body = self.of_bodies.get(name).map(|&(body, part)| match part {
+            2 => Unknown::Spin(body),
+            axis => Unknown::Velocity(body, axis),
+        });
+        let (point, along) = (None, None);
+        let (ask, component) = match of_body.or_else(of_scene)? {
+            Unknown::Velocity(body, axis) => (Ask::Velocity { body, point, along }, Some(axis)),
+            unknown @ Unknown::Spin(body) => {
+                let clockwise = of_body.is_none() && d.names.is_reversed(unknown);
                 (Ask::Spin { body, clockwise }, None)
             }
             _ => return None,

@@ -1,0 +1,139 @@
+//! Answers that cannot be read as they stand: numbers with two meanings, and words beside a box.
+
+use super::super::{Grade, Key, Options, judge_here, read};
+use super::LONGEST;
+use crate::formula::Content;
+
+/// The grade of an answer that cannot be read as it stands, where there is another way.
+pub(in crate::grade) fn unread(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
+    number(key, answer, options).or_else(|| aside(key, answer, options))
+}
+
+/// `\boxed{2 m v} (to the right)`: what is boxed is right, and the words beside the box say the direction that nearly always
+/// counts as positive. With other words it stays unread.
+fn aside(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
+    let (value, direction) = read::sense(answer)?;
+    let boxed = value.contains("\\boxed{") && value.trim_end_matches('$').ends_with('}');
+    if !boxed || direction.iter().sum::<i32>() < 0 || key.direction.is_some() {
+        return None;
+    }
+    let mut grade = judge_here(key, value, options);
+    let words = "the direction in words is not judged";
+    grade.assumed.push(words.to_string());
+    grade.is_equivalent().then_some(grade)
+}
+
+/// An answer that cannot be read because a number in it has two meanings, and is right in one of them, is right: `1,500 N`,
+/// where a comma groups thousands or begins the decimals, and the mixed number `1 3/4`. Otherwise it stays unread.
+pub(in crate::grade) fn number(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
+    if answer.len() > LONGEST {
+        return None;
+    }
+    let comma = |rest: &str| {
+        let mut signs = ["{,}", ","].into_iter();
+        let sign = signs.find(|sign| rest.starts_with(sign))?;
+        (digits(&rest[sign.len()..]) > 0).then_some(sign.len())
+    };
+    let hint = "write numbers without a comma: it parts thousands in some countries and decimals in others";
+    let beside = "write 7/4 or 1 + 3/4: side by side they could be a product";
+    // `(2,3)` is two components.
+    let inside = answer.trim_start().strip_prefix(['(', '[']);
+    let pair = inside.is_some_and(|rest| rest[digits(rest)..].starts_with(','));
+    let parts = parted(answer, comma).filter(|_| !pair);
+    let comma = parts.into_iter().flat_map(|parts| {
+        let thousands = parts[1..].iter().all(|part| digits(part) == 3);
+        let mut signs = if thousands { vec!["", "."] } else { vec!["."] };
+        // `x=2,3` are two values where the expected equation has two.
+        if matches!(key.reading.content, Content::Relations(..)) {
+            signs.push(", ");
+        }
+        let read = |sign| (parts.join(sign), hint);
+        signs.into_iter().map(read).collect::<Vec<_>>()
+    });
+    let mixed = mixed(answer).map(|text| (text, beside));
+    comma.chain(mixed).find_map(|(text, hint)| {
+        let grade = judge_here(key, &text, options);
+        let message = format!("right when it is read as {text}");
+        grade.is_equivalent().then(|| grade.reread(message, hint))
+    })
+}
+
+/// A text with mixed numbers as sums in brackets: `(1+3/4) m` for `1 3/4 m`; nothing where there are none.
+pub(in crate::grade) fn mixed(text: &str) -> Option<String> {
+    let mut out = String::new();
+    let (mut rest, mut found) = (text, false);
+    while let Some(c) = rest.chars().next() {
+        let whole = digits(rest);
+        let apart = !out.ends_with(|c: char| c.is_alphanumeric() || matches!(c, '.' | ',' | '_'));
+        let blanks = rest.len() - whole - rest[whole..].trim_start().len();
+        let fraction = &rest[whole + blanks..];
+        let length = fraction_length(fraction, blanks > 0).filter(|_| whole > 0 && apart);
+        let taken = match length {
+            Some(length) => {
+                found = true;
+                out.push_str(&format!("({}+{})", &rest[..whole], &fraction[..length]));
+                whole + blanks + length
+            }
+            None => {
+                let taken = whole.max(c.len_utf8());
+                out.push_str(&rest[..taken]);
+                taken
+            }
+        };
+        rest = &rest[taken..];
+    }
+    found.then_some(out)
+}
+
+/// How many bytes a fraction of two whole numbers takes at the start of a text: `½`, `\frac{1}{2}`, `\frac12`, and `1/2` behind
+/// a space.
+fn fraction_length(text: &str, spaced: bool) -> Option<usize> {
+    const SIGNS: &str = "½⅓⅔¼¾⅕⅖⅗⅘⅙⅚⅛⅜⅝⅞";
+    if let Some(sign) = text.chars().next().filter(|c| SIGNS.contains(*c)) {
+        return Some(sign.len_utf8());
+    }
+    let above = digits(text);
+    if above > 0 {
+        let below = digits(text[above..].strip_prefix('/')?);
+        return (spaced && below > 0).then_some(above + 1 + below);
+    }
+    let commands = ["\\frac", "\\dfrac", "\\tfrac"];
+    let mut rest = commands.iter().find_map(|name| text.strip_prefix(name))?;
+    for _ in 0..2 {
+        rest = rest.trim_start();
+        rest = match rest.strip_prefix('{') {
+            Some(inside) => inside[digits(inside)..].strip_prefix('}')?,
+            None => rest.strip_prefix(|c: char| c.is_ascii_digit())?,
+        };
+    }
+    Some(text.len() - rest.len())
+}
+
+fn digits(text: &str) -> usize {
+    text.bytes().take_while(u8::is_ascii_digit).count()
+}
+
+/// A text cut behind digits where something stands, which is so many bytes long; nothing where it stands nowhere.
+fn parted(text: &str, stands: impl Fn(&str) -> Option<usize>) -> Option<Vec<String>> {
+    let mut parts = vec![String::new()];
+    let mut rest = text;
+    while let Some(c) = rest.chars().next() {
+        let behind = parts.last()?.ends_with(|c: char| c.is_ascii_digit());
+        let length = Some(rest).filter(|_| behind).and_then(&stands);
+        match length {
+            Some(length) => {
+                parts.push(String::new());
+                rest = &rest[length..];
+                // What follows belongs to the next part whatever it is.
+                let next = rest.chars().next()?;
+                parts.last_mut()?.push(next);
+                rest = &rest[next.len_utf8()..];
+            }
+            None => {
+                parts.last_mut()?.push(c);
+                rest = &rest[c.len_utf8()..];
+            }
+        }
+    }
+    (parts.len() > 1).then_some(parts)
+}

@@ -1,0 +1,125 @@
+//! A solution as a page of lines: its headings, the items of its lists, and lines that go on with the one before.
+
+use super::MAX_LINES;
+use super::text::{BETWEEN, equations, relates};
+use crate::dimension;
+
+/// The equations of a page, one by one.
+pub(super) fn all_equations(page: &str) -> impl Iterator<Item = &str> {
+    page.lines().take(MAX_LINES).flat_map(equations)
+}
+
+/// Whether a line is the heading of a part: `## 2. Bounce`, `Second bounce:`, `(b) After the impact`.
+pub(super) fn is_heading(line: &str) -> bool {
+    const MOST: usize = 6;
+    let words = line.split_whitespace().count();
+    let is_sentence = line.ends_with([',', '.', ';']);
+    let says = line.chars().any(char::is_alphabetic) && !line.contains(['$', '\\', '&']);
+    line.starts_with('#') || says && words <= MOST && !is_sentence && !relates(line)
+}
+
+/// A solution without what aligns its lines in LaTeX: a line that goes on with a further term or factor, `& + …`, is put behind
+/// the one before it, and a heading is words.
+pub(super) fn joined(text: &str) -> String {
+    let mut out: Vec<String> = Vec::new();
+    let mut last = None;
+    for line in text.lines() {
+        let aligned = line.trim_start().strip_prefix('&').map(str::trim_start);
+        let signs = ["+", "-", "\\times", "\\cdot"];
+        let goes_on = aligned.filter(|rest| signs.iter().any(|sign| rest.starts_with(sign)));
+        match (goes_on, last) {
+            (Some(rest), Some(at)) => {
+                let line: &mut String = &mut out[at];
+                line.push(' ');
+                line.push_str(&unaligned(rest));
+                out.push(String::new());
+            }
+            _ if line.starts_with("#") => out.push(String::new()),
+            _ => {
+                last = Some(out.len());
+                out.push(unaligned(line.trim()));
+            }
+        }
+    }
+    out.join("\n")
+}
+
+/// A line without what aligns it with others in LaTeX: `ω &= 3v/(2ℓ) \\\\`.
+fn unaligned(line: &str) -> String {
+    // `**Momentum:** m v = …`
+    let bold = line.strip_prefix("**").and_then(|l| l.split_once("**"));
+    let bold = bold.map(|(words, rest)| format!("{words}{rest}"));
+    let line = bold.as_deref().unwrap_or(line);
+    let line = line.trim_end_matches("\\\\").trim_end();
+    let line = line
+        .trim_end_matches("\\\\")
+        .replace("&=", "=")
+        .replace("&\\approx", "\\approx");
+    let line = between_formulas(&line.replace("\\quad", " ").replace('&', " "));
+    // `v = 3 u/7 [m/s]`
+    let unit = line.strip_suffix(']').and_then(|l| l.rsplit_once('['));
+    match unit.filter(|(_, unit)| dimension::unit(unit).is_ok()) {
+        Some((said, unit)) => format!("{said}{unit}"),
+        None => line,
+    }
+}
+
+/// A line with the words between its formulas, `\\text{and}`, as words.
+fn between_formulas(line: &str) -> String {
+    let mut pieces = line.split("\\text{");
+    let mut out = pieces.next().unwrap_or_default().to_string();
+    for piece in pieces {
+        let said = piece
+            .split_once('}')
+            .map(|(word, rest)| (word.trim(), rest));
+        let known = |word: &str| BETWEEN.split('|').any(|sign| sign.trim() == word);
+        match said.filter(|(word, _)| known(word)) {
+            Some((word, rest)) => out.extend([" ", word, " ", rest]),
+            None => out.extend(["\\text{", piece]),
+        }
+    }
+    out
+}
+
+/// A line without the mark of an item in a list: `1) ω = …`, `(a) ω = …`, `* ω = …`, and `- ω = …` where `dashes` are marks.
+pub(super) fn unlisted(line: &str, dashes: bool) -> &str {
+    let marks = ["* ", "• ", "– ", "- "]
+        .iter()
+        .take(3 + usize::from(dashes));
+    if let Some(rest) = marks.filter_map(|mark| line.strip_prefix(mark)).next() {
+        return rest.trim_start();
+    }
+    let Some((mark, rest)) = line.split_once(") ") else {
+        return line;
+    };
+    let number = |mark: &str| mark.len() < 3 && mark.bytes().all(|b| b.is_ascii_digit());
+    let is_mark = match mark.strip_prefix('(') {
+        // `(2) v + (3) u` are factors.
+        Some(inside) => {
+            ["a", "b", "c", "i", "ii", "iii", "iv"].contains(&inside)
+                || number(inside) && !rest.contains('(')
+        }
+        None => mark.len() == 1 || number(mark),
+    };
+    if is_mark { rest.trim_start() } else { line }
+}
+
+/// Whether dashes begin the items of a list: more than one line begins with one that a blank follows.
+pub(super) fn has_dashes(text: &str) -> bool {
+    let dashed = |line: &&str| line.trim_start().starts_with("- ");
+    text.lines().filter(dashed).count() > 1
+}
+
+/// A line that goes on with an equality sign, with the ends of the chain before it: what is spoken of, and its last side.
+pub(super) fn continued(before: &str, line: &str) -> String {
+    let rest = line.trim_start_matches(['&', '$', ' ']);
+    let goes_on =
+        rest.starts_with(['=', '≈']) && !rest.starts_with("=>") || rest.starts_with("\\approx");
+    let chain = equations(before).pop().filter(|_| goes_on);
+    let Some((first, last)) =
+        chain.and_then(|chain| Some((chain.split('=').next()?, chain.rsplit(['=', '≈']).next()?)))
+    else {
+        return line.to_string();
+    };
+    format!("{first}= {last} {rest}")
+}
