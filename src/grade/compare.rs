@@ -11,6 +11,7 @@ use super::{
 };
 use crate::algebra;
 use crate::dimension::Dimension;
+use crate::domain::Domains;
 use crate::equality::{self};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Content, Reading, Relation, write_unicode};
@@ -37,6 +38,11 @@ impl<'a> Context<'a> {
     /// The same without a look for what is wrong.
     pub(super) fn plain(&self) -> Context<'a> {
         Context::new(self.key, self.options, false)
+    }
+
+    /// Where the symbols live.
+    pub fn domains(&self) -> &'a Domains {
+        &self.key.question.domains
     }
 
     /// Dimension of a symbol, where the question declares it.
@@ -71,7 +77,7 @@ pub(crate) fn verdict_of(key: &Key, answer: &Reading, options: &Options) -> Verd
 /// Compares with every number of the answer that the tolerance allows in the place of the expected one.
 fn tolerated(ctx: &Context, answer: &Reading) -> Grade {
     let found = compare(ctx, answer);
-    let (expected, domains) = (&ctx.key.reading.content, &ctx.key.question.domains);
+    let (expected, domains) = (&ctx.key.reading.content, ctx.domains());
     let changed = |content: &Content| *content != answer.content;
     let in_place = |tolerance| number::aligned(expected, &answer.content, tolerance);
     let near = |tolerance| {
@@ -164,7 +170,7 @@ fn may_all_hold(ctx: &Context, list: &Content) -> bool {
     let Content::Either(values) = list.answer() else {
         return false;
     };
-    let domains = &ctx.key.question.domains;
+    let domains = ctx.domains();
     let apart = |(a, b): (&Expr, &Expr)| {
         relation::sign_of(&(a - b), domains).is_some_and(algebra::Sign::is_strict)
     };
@@ -346,7 +352,7 @@ fn broken<'a>(ctx: &Context, sides: &'a [Content], signs: &[Relation]) -> Option
         let exact = *sign == Relation::Equal && !(one.is_constant() && two.is_constant());
         let apart = match sign {
             _ if !same_kind => false,
-            Relation::Equal if exact => equality::decide(one, two, &ctx.key.question.domains)
+            Relation::Equal if exact => equality::decide(one, two, ctx.domains())
                 .equality
                 .is_different(),
             Relation::Equal | Relation::Approximately => {
@@ -366,7 +372,7 @@ fn apart<'a>(ctx: &Context, sides: &'a [Content], signs: &[Relation]) -> Option<
     }
     let exprs: Vec<&Expr> = sides[1..].iter().filter_map(Content::expr).collect();
     let differ = |pair: &&[&Expr]| {
-        let decision = equality::decide(pair[0], pair[1], &ctx.key.question.domains);
+        let decision = equality::decide(pair[0], pair[1], ctx.domains());
         decision.equality.is_different()
     };
     let pair = exprs.windows(2).find(differ)?;

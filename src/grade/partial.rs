@@ -138,7 +138,7 @@ pub(crate) fn vectors(
     answer: &[Expr; 3],
     first: usize,
 ) -> Vec<Diagnosis> {
-    let domains = &ctx.key.question.domains;
+    let domains = ctx.domains();
     let all = |f: &dyn Fn(usize) -> Expr| (0..3).all(|i| proved(&expected[i], &f(i), domains));
     if all(&|i| -&answer[i]) {
         let message = "right up to the sign of the whole vector";
@@ -247,7 +247,7 @@ fn symbols(ctx: &Context, expected: &Expr, answer: &Expr) -> Vec<Diagnosis> {
     if mine != theirs {
         // How it would be written does not matter for that.
         let kept = |e: &Expr| {
-            let (field, x) = Field::of(&ctx.key.question.domains, e).ok()?;
+            let (field, x) = Field::of(ctx.domains(), e).ok()?;
             Some(field.symbols(&x))
         };
         mine = kept(answer).unwrap_or(mine);

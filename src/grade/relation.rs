@@ -74,7 +74,7 @@ pub(crate) fn compare(
         let words = "the relation holds something that is not a plain expression";
         return Grade::different("DIFF_KIND", "kind", words);
     };
-    let domains = &ctx.key.question.domains;
+    let domains = ctx.domains();
     if let Some(found) = listed::beyond(ctx, &expected, mine) {
         return found;
     }
@@ -87,11 +87,11 @@ pub(crate) fn compare(
             found if found.is_equivalent() => where_defined(found, [&expected, &answer], domains),
             found => found,
         },
-        _ => system::compare(ctx, &expected, &answer, domains),
+        _ => system::compare(ctx, &expected, &answer),
     };
     match found.verdict {
-        Verdict::Undecided => system::scaled(ctx, &expected, &answer, domains)
-            .or_else(|| system::with_one_given(ctx, &[expected], &[answer], domains))
+        Verdict::Undecided => system::scaled(ctx, &expected, &answer)
+            .or_else(|| system::with_one_given(ctx, &[expected], &[answer]))
             .unwrap_or(found),
         _ => found,
     }
@@ -164,7 +164,7 @@ pub(crate) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Gra
         let words = "the relation holds something that is not a plain expression";
         return Grade::different("DIFF_KIND", "kind", words);
     };
-    let domains = &ctx.key.question.domains;
+    let domains = ctx.domains();
     if let Some(found) = system::in_one_symbol(ctx, &mine, &theirs, domains) {
         return found;
     }
@@ -175,9 +175,9 @@ pub(crate) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Gra
                 .any(|content| matches!(content, Content::Joined(Join::Or, _)));
             let found = match (mine.as_slice(), theirs.as_slice()) {
                 ([e], [a]) if either => alternatives(ctx, &e.difference, &a.difference),
-                _ => system::compare(ctx, mine, theirs, domains),
+                _ => system::compare(ctx, mine, theirs),
             };
-            let left = || system::with_one_given(ctx, from_ref(mine), from_ref(theirs), domains);
+            let left = || system::with_one_given(ctx, from_ref(mine), from_ref(theirs));
             match found.verdict {
                 Verdict::Undecided => {
                     (left().or_else(|| apart_at_points(ctx, mine, theirs))).unwrap_or(found)
@@ -186,9 +186,8 @@ pub(crate) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Gra
             }
         }
         _ => {
-            let same = |a: &Vec<Normal>, b: &Vec<Normal>| {
-                system::compare(ctx, a, b, domains).is_equivalent()
-            };
+            let same =
+                |a: &Vec<Normal>, b: &Vec<Normal>| system::compare(ctx, a, b).is_equivalent();
             let found = |cases: &[Vec<Normal>], others: &[Vec<Normal>]| {
                 cases.iter().all(|a| others.iter().any(|b| same(a, b)))
             };
@@ -196,11 +195,11 @@ pub(crate) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Gra
                 return same_solutions("each case of the one is a case of the other");
             }
             if let (Some(mine), Some(theirs)) = (negated(&mine, domains), negated(&theirs, domains))
-                && system::compare(ctx, &mine, &theirs, domains).is_equivalent()
+                && system::compare(ctx, &mine, &theirs).is_equivalent()
             {
                 return same_solutions("none of the cases holds at the same points");
             }
-            let apart = system::with_one_given(ctx, &mine, &theirs, domains)
+            let apart = system::with_one_given(ctx, &mine, &theirs)
                 .or_else(|| apart_in_cases(ctx, &mine, &theirs));
             apart.unwrap_or_else(|| undecided("cases in several symbols are compared one by one"))
         }
@@ -391,7 +390,9 @@ fn rooted(difference: Expr) -> Expr {
 /// Two relations as they are written, or else with the functions undone that stand around both sides.
 fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {
     let mut pair = [expected.clone(), answer.clone()];
-    let domains = (ctx.key.question.domains).of(&[&expected.difference, &answer.difference]);
+    let domains = ctx
+        .domains()
+        .of(&[&expected.difference, &answer.difference]);
     if expected.relation == Relation::Equal && answer.relation == Relation::Equal {
         let sought = sought_in(ctx, &expected.difference, &answer.difference);
         let mut plain = pair.clone();

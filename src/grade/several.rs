@@ -149,7 +149,7 @@ fn found_last(ctx: &Context, parts: &[Content]) -> Option<Grade> {
         Content::Relations(sides, signs) if signs == [Relation::Equal] => {
             let [left, right] = [sides[0].expr()?, sides[1].expr()?];
             let own = left.symbols().iter().chain(&right.symbols()).all(known);
-            let decision = equality::decide(left, right, &ctx.key.question.domains);
+            let decision = equality::decide(left, right, ctx.domains());
             Some(own && decision.equality.is_different())
         }
         _ => None,

@@ -247,7 +247,7 @@ fn is_word(ctx: &Context, e: &Expr, expected: &Content) -> bool {
 /// Whether a formula is the size of what the question does not know, and the expected value may be a size.
 fn is_size_of(ctx: &Context, e: &Expr, expected: &Content) -> bool {
     let free = |name: &Symbol| !declared_symbol(ctx, name);
-    let sign = |e| relation::sign_of(e, &ctx.key.question.domains);
+    let sign = |e| relation::sign_of(e, ctx.domains());
     is_size(e, &free) && expected.expr().and_then(sign) != Some(Sign::Negative)
 }
 
@@ -330,7 +330,7 @@ fn may_hold(ctx: &Context, sides: &[Content], name: &Symbol, value: &Content) ->
         return true;
     };
     let difference = (left - right).put(name, value);
-    let points = ctx.key.question.domains.points(&[&difference], POINTS);
+    let points = ctx.domains().points(&[&difference], POINTS);
     let is_zero = |sample: &Sample| match evaluate::<Interval>(&difference, &sample.point(true)) {
         Outcome::Value(value) => value.low <= 0.0 && value.high >= 0.0,
         _ => true,

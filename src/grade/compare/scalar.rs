@@ -19,7 +19,7 @@ pub(crate) fn scalars(ctx: &Context, expected: &Expr, answer: &Expr) -> Grade {
     {
         return finding;
     }
-    let domains = &ctx.key.question.domains;
+    let domains = ctx.domains();
     if ctx.options.strength == Strength::Fast
         && let Some((found, assumed)) = equality::at_points(expected, answer, domains)
     {
@@ -260,7 +260,7 @@ pub(super) fn has_one_sign(ctx: &Context, e: &Expr) -> bool {
 
 fn are_of_one_sign(ctx: &Context, all: &[Expr]) -> bool {
     let sign = |e: &Expr| {
-        let (field, x) = Field::of(&ctx.key.question.domains, e).ok()?;
+        let (field, x) = Field::of(ctx.domains(), e).ok()?;
         field.sign(&x)
     };
     let signs: Vec<Option<Sign>> = all.iter().map(sign).collect();
@@ -289,7 +289,7 @@ pub(crate) fn quotient(a: &Expr, b: &Expr, ctx: &Context) -> Option<Expr> {
     if !is_short(a, b) {
         return None;
     }
-    let (field, x, y) = Field::pair(&ctx.key.question.domains, a, b).ok()?;
+    let (field, x, y) = Field::pair(ctx.domains(), a, b).ok()?;
     let q = field.div(&x, &y).ok()?;
     if q.terms() > WRITTEN {
         return None;

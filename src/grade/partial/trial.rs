@@ -51,7 +51,7 @@ const SIDE: &str = "check from which side the angle is measured";
 
 impl<'a> Trial<'a> {
     pub(super) fn new(ctx: &'a Context, expected: &'a Expr, answer: &'a Expr) -> Trial<'a> {
-        let domains = &ctx.key.question.domains;
+        let domains = ctx.domains();
         let uses = roles(&[expected, answer]);
         let (all, _) = domains.completed(&uses);
         // The first points have many ones, at which a power is as good as another.

@@ -42,9 +42,7 @@ pub(super) fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Gr
     let mut finding = solutions(ctx, expected, answer);
     if finding.is_equivalent() {
         let domains = ctx
-            .key
-            .question
-            .domains
+            .domains()
             .of(&[&expected.difference, &answer.difference]);
         let (f, g) = (&expected.difference, &answer.difference);
         // In one symbol it is looked at what holds where something is divided by zero.
@@ -85,7 +83,7 @@ pub(super) fn alternatives(ctx: &Context, f: &Expr, g: &Expr) -> Grade {
 
 /// Two equations by their extents and the parts that only one of them has, where these tell.
 fn by_parts(ctx: &Context, f: &Expr, g: &Expr, sought: Sought) -> Option<Grade> {
-    let compared = locus::compare(f, g, &ctx.key.question.domains)?;
+    let compared = locus::compare(f, g, ctx.domains())?;
     match compared.extents {
         [Extent::All, Extent::All] | [Extent::None, Extent::None] => {
             Some(vacuous(ctx, f, g, sought))
@@ -104,7 +102,7 @@ fn by_parts(ctx: &Context, f: &Expr, g: &Expr, sought: Sought) -> Option<Grade> 
 
 /// Two equations by their solutions, wherever both have values.
 fn solutions(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {
-    let domains = &ctx.key.question.domains;
+    let domains = ctx.domains();
     let (f, g) = (&expected.difference, &answer.difference);
     let sought: Sought = &|shared| sought_of(ctx, shared);
     if let Some(finding) = by_parts(ctx, f, g, sought) {
@@ -142,7 +140,7 @@ fn solutions(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {
 
 /// Two equations that both hold nowhere on the domain, or both everywhere.
 fn vacuous(ctx: &Context, f: &Expr, g: &Expr, sought: Sought) -> Grade {
-    let reals = over_reals(&ctx.key.question.domains, &[f, g]);
+    let reals = over_reals(ctx.domains(), &[f, g]);
     let Some(compared) = locus::compare(f, g, &reals) else {
         return undecided("neither equation has a solution on the domain");
     };
@@ -199,7 +197,7 @@ fn from_parts(
     match (found(&lost), found(&gained)) {
         (Some(at), Some(_)) => {
             let mut finding = parted(ctx, OTHER, &at, false);
-            if let Some(term) = turned_term(f, g, &ctx.key.question.domains) {
+            if let Some(term) = turned_term(f, g, ctx.domains()) {
                 let message = format!("right with the sign of {} turned", ctx.say(&term));
                 finding.note = "DIFF_TERM_SIGN";
                 let hint = "one term of your equation has the wrong sign";

@@ -33,7 +33,7 @@ pub(super) fn extent(n: &Normal, domains: &Domains) -> Extent {
 
 /// Two inequalities.
 pub(super) fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {
-    let domains = &ctx.key.question.domains;
+    let domains = ctx.domains();
     let (f, g) = (&expected.difference, &answer.difference);
     if let Some(finding) = by_extent(ctx, expected, answer) {
         return finding;
@@ -61,7 +61,7 @@ pub(super) fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) ->
 
 /// Two inequalities of which one holds everywhere or nowhere on the domain, as far as their signs tell.
 fn by_extent(ctx: &Context, expected: &Normal, answer: &Normal) -> Option<Grade> {
-    let domains = &ctx.key.question.domains;
+    let domains = ctx.domains();
     let (f, g) = (&expected.difference, &answer.difference);
     match [expected, answer].map(|n| extent(n, domains)) {
         [Extent::All, Extent::All] | [Extent::None, Extent::None] => {
@@ -112,7 +112,7 @@ fn by_extent(ctx: &Context, expected: &Normal, answer: &Normal) -> Option<Grade>
 
 /// Two inequalities whose differences are the same up to a factor.
 fn by_factor(ctx: &Context, expected: &Normal, answer: &Normal, common: &Factor) -> Option<Grade> {
-    let domains = &ctx.key.question.domains;
+    let domains = ctx.domains();
     let (f, g) = (&expected.difference, &answer.difference);
     let sought = sought_in(ctx, f, g);
     let free = |e: &Expr| e.symbols().is_disjoint(&sought);
@@ -156,7 +156,7 @@ fn by_factor(ctx: &Context, expected: &Normal, answer: &Normal, common: &Factor)
 /// A relation that changes on its boundary at most, held against one that always or never holds: different where the boundary
 /// is reached, or where a point tells them apart.
 fn beside_boundary(ctx: &Context, open: &Normal, sure: &Normal) -> Grade {
-    let domains = &ctx.key.question.domains;
+    let domains = ctx.domains();
     let pair = [open, sure].map(std::slice::from_ref);
     if let Some(finding) = apart_at_points(ctx, pair[0], pair[1]) {
         return finding;
@@ -189,7 +189,7 @@ fn same_bound(f: &Expr, g: &Expr, domains: &Domains) -> bool {
 
 /// Whether two inequalities set different bounds on the same symbol, one of which lies inside its domain where they differ.
 fn other_bound(ctx: &Context, f: &Expr, g: &Expr) -> Option<Grade> {
-    let domains = &ctx.key.question.domains;
+    let domains = ctx.domains();
     let plain = ctx.plain();
     unknowns(f, g).iter().find_map(|name| {
         let bounds = [solve_for(f, name, domains)?, solve_for(g, name, domains)?];

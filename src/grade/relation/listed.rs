@@ -19,7 +19,7 @@ pub(super) fn beyond(ctx: &Context, expected: &[Normal], mine: &[Content]) -> Op
         return None;
     };
     let name = name.name()?;
-    let domains = &ctx.key.question.domains;
+    let domains = ctx.domains();
     let outside =
         |value: &&Expr| number(value, domains).is_some_and(|v| !lies_in(&v, name, domains));
     let value = values.iter().find(outside)?;

@@ -53,7 +53,7 @@ pub(super) fn apart_at_points(
 pub(super) fn apart_in_cases(ctx: &Context, expected: &Cases, answer: &Cases) -> Option<Grade> {
     let all = differences(expected.iter().flatten(), answer.iter().flatten());
     let uses = roles(&all);
-    let (domains, assumed) = ctx.key.question.domains.completed(&uses);
+    let (domains, assumed) = ctx.domains().completed(&uses);
     let inside = samples(&uses, &domains, 48);
     let near = inside.iter().take(NEAR);
     let ends = near.flat_map(|sample| on_boundaries(sample, &all, &domains));

@@ -73,15 +73,10 @@ pub(super) fn in_one_symbol(
 
 /// The verdict on relations in two symbols, one of them positive, that hold of all multiples of what they hold of: that one
 /// is 1.
-pub(super) fn scaled(
-    ctx: &Context,
-    expected: &[Normal],
-    answer: &[Normal],
-    domains: &Domains,
-) -> Option<Grade> {
+pub(super) fn scaled(ctx: &Context, expected: &[Normal], answer: &[Normal]) -> Option<Grade> {
     let all = differences(expected, answer);
     let uses = roles(&all);
-    let (domains, _) = domains.completed(&uses);
+    let (domains, _) = ctx.domains().completed(&uses);
     let whole = |name: &Symbol| {
         let domain = domains.symbols.get(name);
         domain.is_none_or(|d| d.ends().all(|l| l.value.is_zero()))
@@ -118,12 +113,8 @@ pub(super) fn scaled(
 
 /// The verdict on relations in two real symbols, one of which an equation of one side gives by the other, where every case of
 /// the other side gives it as well: what is left is about one symbol.
-pub(super) fn with_one_given(
-    ctx: &Context,
-    expected: &Cases,
-    answer: &Cases,
-    domains: &Domains,
-) -> Option<Grade> {
+pub(super) fn with_one_given(ctx: &Context, expected: &Cases, answer: &Cases) -> Option<Grade> {
+    let domains = ctx.domains();
     let all = differences(expected.iter().flatten(), answer.iter().flatten());
     let uses = roles(&all);
     let real = |name: &Symbol| domains.symbols.get(name) == Some(&Domain::real());
@@ -235,12 +226,8 @@ pub(super) const OTHER_NUMBERS: [&str; 3] = [
 ];
 
 /// Two systems, at least one of several relations.
-pub(super) fn compare(
-    ctx: &Context,
-    expected: &[Normal],
-    answer: &[Normal],
-    domains: &Domains,
-) -> Grade {
+pub(super) fn compare(ctx: &Context, expected: &[Normal], answer: &[Normal]) -> Grade {
+    let domains = ctx.domains();
     // One relation each, beside what must not be zero.
     if let (Some((e, _)), Some((a, _))) = (main(expected), main(answer))
         && only_symbol([&e.difference, &a.difference]).is_some()
@@ -311,7 +298,7 @@ fn without_bars(n: &Normal) -> Vec<Normal> {
 /// Every relation of the one system with one of the other that says the same.
 fn matched(ctx: &Context, expected: &[Normal], answer: &[Normal]) -> Option<Grade> {
     let plain = ctx.plain();
-    let domains = &ctx.key.question.domains;
+    let domains = ctx.domains();
     let mut left: Vec<&Normal> = answer.iter().collect();
     let mut assumed: Vec<String> = Vec::new();
     for e in expected {

@@ -43,7 +43,8 @@ impl Desk<'_> {
         // The latest first.
         let mut implied = self.believed.iter().rev();
         let found = implied.find(|(cause, values)| {
-            self.vanish(differences, values) || self.is_rounded_after(text, link, *cause, values)
+            self.vanish(differences, values)
+                || self.is_rounded_after(text, link, values, Some(*cause))
         });
         let found = found.map(|(cause, _)| *cause);
         found.or_else(|| {

@@ -15,11 +15,17 @@ impl Desk<'_> {
     /// Whether a side in numbers is the value of the other, up to the rounding of the numbers in the line; the scene's
     /// values are put in. A number of the scene is exact.
     pub(super) fn is_rounded(&self, text: &str, link: &Link, instead: &Values) -> bool {
-        self.is_rounded_from(text, link, instead, &ratio(0, 1))
+        self.is_rounded_after(text, link, instead, None)
     }
 
-    /// The same of a line that goes on from numbers which may be off by a share `more`.
-    fn is_rounded_from(&self, text: &str, link: &Link, instead: &Values, more: &Rational) -> bool {
+    /// The same of a line that follows from a wrong one, whose numbers may be off as well.
+    pub(super) fn is_rounded_after(
+        &self,
+        text: &str,
+        link: &Link,
+        instead: &Values,
+        cause: Option<usize>,
+    ) -> bool {
         if instead.is_empty() && self.is_within_own(link) {
             return true;
         }
@@ -37,7 +43,9 @@ impl Desk<'_> {
         };
         // Without digits to round a number is meant as it stands.
         let (mut share, decimal) = coarsest(text, &values).unwrap_or_default();
-        share += more;
+        share += cause
+            .and_then(|cause| self.coarse.get(&cause).cloned())
+            .unwrap_or_default();
         let room = Tolerance::Relative(share.clone());
         let all_given = values.len() == self.sheet.scene.parameters.len();
         sides.iter().all(|(a, b)| {
@@ -67,19 +75,6 @@ impl Desk<'_> {
             let constant = a.symbols().is_empty() && b.symbols().is_empty();
             constant && number::within(&b, &a, &room) == Some(true)
         })
-    }
-
-    /// Whether a line is what a wrong one implies, as far as the digits of both tell.
-    pub(super) fn is_rounded_after(
-        &self,
-        text: &str,
-        link: &Link,
-        cause: usize,
-        values: &Values,
-    ) -> bool {
-        let none = ratio(0, 1);
-        let more = self.coarse.get(&cause).unwrap_or(&none);
-        self.is_rounded_from(text, link, values, more)
     }
 
     /// Notes how far the numbers of a wrong line may be off.
