@@ -21,6 +21,7 @@ mod pages;
 mod rounded;
 mod said;
 mod sought;
+mod start;
 mod tending;
 mod text;
 mod vectors;
