@@ -240,8 +240,7 @@ pub(super) fn at_zeros(
     near: &dyn Fn(&Expr, &Expr) -> bool,
     domains: &Domains,
 ) -> Option<Content> {
-    let (sides, signs) = expected.relations()?;
-    let ([left, right], [Relation::Equal]) = (&sides[..], &signs[..]) else {
+    let ([left, right], [Relation::Equal]) = expected.relations()? else {
         return None;
     };
     let gap = left.expr()? - right.expr()?;
