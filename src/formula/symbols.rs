@@ -423,7 +423,10 @@ fn mathematical(c: char) -> Option<&'static str> {
 
 /// The letter of a Greek name.
 pub(crate) fn greek_letter(name: &str) -> Option<char> {
-    let letters = "αβγδεζηθικλμνξρστυφχψωΓΔΘΛΞΣΥΦΨΩπħ";
+    static BY_NAME: LazyLock<FxHashMap<&str, char>> = LazyLock::new(|| {
+        let letters = "αβγδεζηθικλμνξρστυφχψωΓΔΘΛΞΣΥΦΨΩħ".chars();
+        letters.filter_map(|c| Some((greek_name(c)?, c))).collect()
+    });
     let plain = match name {
         "varphi" => "phi",
         "vartheta" => "theta",
@@ -433,7 +436,7 @@ pub(crate) fn greek_letter(name: &str) -> Option<char> {
         "ell" => return Some('ℓ'),
         other => other,
     };
-    letters.chars().find(|c| greek_name(*c) == Some(plain))
+    BY_NAME.get(plain).copied()
 }
 
 /// Names that mean an angle unless the scene says otherwise.
