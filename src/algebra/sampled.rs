@@ -7,7 +7,8 @@ use super::mono::powers;
 use super::poly::Poly;
 use super::prime::{PLAIN, prime, random, seed};
 use crate::expr::number::to_f64;
-use crate::expr::{Int, Rational, Symbol};
+use crate::expr::{Int, Rational, Symbol, effort};
+use smallvec::SmallVec;
 
 /// Points at which an unproved sign is looked at. Enough that a sign change over a tenth of the domain is hardly missed;
 /// what is missed still stands in the list of assumptions.
@@ -53,10 +54,20 @@ impl Points {
     }
 }
 
-/// Coefficients in doubles, with their monomials.
-fn in_doubles(p: &Poly) -> Vec<(f64, &[u64])> {
+/// Coefficients in doubles, with the variables of their monomials and the exponents.
+fn in_doubles(p: &Poly) -> Vec<(f64, SmallVec<[(usize, i32); 4]>)> {
     let coefficient = |k: &Int| to_f64(&Rational::from(k.clone()));
-    p.terms().map(|(mono, k)| (coefficient(k), mono)).collect()
+    let own = |mono| powers(mono).map(|(v, k)| (v, k as i32)).collect();
+    p.terms()
+        .map(|(mono, k)| (coefficient(k), own(mono)))
+        .collect()
+}
+
+/// A sum with terms of that size in all; 0 where rounding leaves its sign open, `None` where it has no value.
+fn known(total: f64, size: f64) -> Option<f64> {
+    let is_known = total.abs() > 1e-9 * size;
+    size.is_finite()
+        .then_some(if is_known { total } else { 0.0 })
 }
 
 impl Field {
@@ -65,8 +76,17 @@ impl Field {
         self.ensure_samples();
         let (mut plus, mut minus) = (false, false);
         let terms = in_doubles(p);
-        for k in &self.held().points {
-            if let Some(value) = self.sample_terms(&terms, *k) {
+        let points = &self.held().points;
+        let samples = self.samples.borrow();
+        for k in points {
+            let (mut total, mut size) = (0.0, 0.0);
+            for (coeff, powers) in &terms {
+                let factors = powers.iter().map(|(v, e)| samples[*v][*k].powi(*e));
+                let value = factors.fold(*coeff, |product, factor| product * factor);
+                total += value;
+                size += value.abs();
+            }
+            if let Some(value) = known(total, size) {
                 plus |= value > 0.0;
                 minus |= value < 0.0;
             }
@@ -115,28 +135,27 @@ impl Field {
 
     /// Values at all sample points.
     fn values(&self, p: &Poly) -> Vec<Option<f64>> {
-        let terms = in_doubles(p);
-        let all = 0..self.sample_count();
-        all.map(|k| self.sample_terms(&terms, k)).collect()
-    }
-
-    /// Value at a sample point; 0 where rounding leaves the sign open, `None` where a generator has no value.
-    fn sample_terms(&self, terms: &[(f64, &[u64])], k: usize) -> Option<f64> {
+        let count = self.sample_count();
         let samples = self.samples.borrow();
-        let (mut total, mut size) = (0.0, 0.0);
-        for (coeff, mono) in terms {
-            let mut value = *coeff;
-            for (v, power) in powers(mono) {
-                value *= samples[v][k].powi(power as i32);
+        let (mut totals, mut sizes) = (vec![0.0; count], vec![0.0; count]);
+        let mut product = vec![0.0; count];
+        effort::take((p.len() * count) as u64);
+        for (coeff, powers) in in_doubles(p) {
+            product.fill(coeff);
+            for (v, k) in powers {
+                let factors = product.iter_mut().zip(&samples[v]);
+                match k {
+                    1 => factors.for_each(|(value, x)| *value *= x),
+                    _ => factors.for_each(|(value, x)| *value *= x.powi(k)),
+                }
             }
-            total += value;
-            size += f64::abs(value);
+            for ((value, total), size) in product.iter().zip(&mut totals).zip(&mut sizes) {
+                *total += value;
+                *size += value.abs();
+            }
         }
-        if !size.is_finite() {
-            return None;
-        }
-        let known = f64::abs(total) > 1e-9 * size;
-        Some(if known { total } else { 0.0 })
+        let sums = totals.into_iter().zip(sizes);
+        sums.map(|(total, size)| known(total, size)).collect()
     }
 
     /// Values of an element at all sample points.
