@@ -587,12 +587,25 @@ fn square_group(terms: &[Term]) -> Option<Vec<usize>> {
         return None;
     }
     let plain = |i: &usize| terms[*i].gathered.is_none();
-    let of = |i: usize| Poly::term(&terms[i].mono, terms[i].coeff.clone());
+    let squares = terms.iter().map(|t| mono_add(&t.mono, &t.mono).ok());
+    let squares: Vec<Option<Mono>> = squares.collect();
     (0..terms.len()).filter(plain).find_map(|i| {
         (i + 1..terms.len()).filter(plain).find_map(|j| {
-            let four = of(i).mul(&of(j)).ok()?.scale(&Int::from(4));
-            let is_middle = |k: &usize| of(*k).mul(&of(*k)).is_ok_and(|square| square == four);
-            let middle = (0..terms.len()).filter(plain).find(is_middle)?;
+            let (one, other) = (&terms[i], &terms[j]);
+            if one.coeff.is_negative() != other.coeff.is_negative() {
+                return None;
+            }
+            let mono = mono_add(&one.mono, &other.mono).ok()?;
+            let has_mono = |k: &usize| {
+                let square = squares[*k].as_ref();
+                square.is_some_and(|square| trimmed(square) == trimmed(&mono))
+            };
+            let is_four = |k: &usize| {
+                let middle = &terms[*k].coeff;
+                middle * middle == &(&one.coeff * &other.coeff) * &Int::from(4)
+            };
+            let mut all = (0..terms.len()).filter(plain);
+            let middle = all.find(|k| has_mono(k) && is_four(k))?;
             let mut group = vec![i, middle, j];
             group.sort_unstable();
             group.dedup();
