@@ -136,15 +136,22 @@ fn balance(a: &mut DMatrix<f64>, b: &mut DVector<f64>) -> Vec<f64> {
         false => 1.0,
     };
     for _ in 0..12 {
+        let mut changes = false;
         for (i, right) in b.iter_mut().enumerate() {
             let factor = power(a.row(i).amax());
             a.row_mut(i).scale_mut(factor);
             *right *= factor;
+            changes |= factor != 1.0;
         }
         for (j, unit) in unit.iter_mut().enumerate() {
             let factor = power(a.column(j).amax());
             a.column_mut(j).scale_mut(factor);
             *unit *= factor;
+            changes |= factor != 1.0;
+        }
+        // After a round that changes nothing none does.
+        if !changes {
+            break;
         }
     }
     unit
