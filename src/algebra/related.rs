@@ -10,7 +10,7 @@ use super::poly::Poly;
 use super::sampled::Points;
 use super::substitution::MOST_TERMS;
 use crate::domain::{Domain, Relation};
-use crate::expr::{Expr, Rational, Symbol, ratio};
+use crate::expr::{Expr, Rational, Symbol, effort, ratio};
 
 /// Relations put in one after the other for one sign.
 const DEPTH: usize = 3;
@@ -172,6 +172,9 @@ impl Field {
         search: &mut Search,
     ) -> Option<Sign> {
         for relation in relations {
+            if effort::spent() {
+                return None;
+            }
             for v in relation.excess.variables() {
                 let is_free =
                     matches!(self.gens[v].kind, Kind::Symbol(_)) && self.gens[v].relation.is_none();

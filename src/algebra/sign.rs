@@ -14,7 +14,7 @@ use super::mono::{exponent, mono_variables};
 use super::poly::Poly;
 use super::substitution::Found;
 use crate::domain::Limit;
-use crate::expr::{Function, Int, Rational, Symbol, ratio};
+use crate::expr::{Function, Int, Rational, Symbol, effort, ratio};
 
 /// Most terms of a quadratic whose discriminant, with as many terms squared, is looked at.
 const MOST_QUADRATIC: usize = 40;
@@ -94,7 +94,7 @@ impl Field {
         if let Some(sign) = self.by_coefficients(p, &[]) {
             return Some(sign);
         }
-        if p.len() > super::substitution::MOST_TERMS {
+        if p.len() > super::substitution::MOST_TERMS || effort::spent() {
             return None;
         }
         self.sign_of_factors(p, 3)
@@ -125,9 +125,12 @@ impl Field {
     }
 
     fn sign_irreducible(&self, p: &Poly, depth: u32) -> Option<Sign> {
+        let told = self.by_coefficients(p, &[]);
+        if told.is_some() || effort::spent() {
+            return told;
+        }
         let told = self
-            .by_coefficients(p, &[])
-            .or_else(|| self.by_logarithm(p))
+            .by_logarithm(p)
             .or_else(|| self.by_relations_and_more(p, depth))
             .or_else(|| self.by_ends(p, depth));
         if told.is_some() {
@@ -381,7 +384,9 @@ impl Field {
             let is_positive = self.sign_poly(radicand) == Some(Sign::Positive);
             self.asked.borrow_mut().pop();
             // What was not proved for want of work, or because another root was being looked at, is looked for again.
-            if is_positive || self.asked.borrow().is_empty() && !self.fuel.is_spent() {
+            if is_positive
+                || self.asked.borrow().is_empty() && !self.fuel.is_spent() && !effort::spent()
+            {
                 self.roots.borrow_mut().insert(v, is_positive);
             }
             is_positive

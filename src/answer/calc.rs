@@ -10,7 +10,7 @@ pub use crate::algebra::tidy;
 use crate::algebra::{self, Field, Sign};
 use crate::domain::{Domains, roles, samples, samples_until};
 use crate::equality;
-use crate::expr::{Expr, Function, Node, Point, Symbol};
+use crate::expr::{Expr, Function, Node, Point, Symbol, effort};
 use crate::formula::Sentence;
 use crate::interval::{Interval, Outcome, evaluate};
 
@@ -103,6 +103,9 @@ pub fn square(e: &Expr, p: &Symbol, domains: &Domains) -> Option<Expr> {
 pub fn is_zero(e: &Expr, domains: &Domains) -> Option<bool> {
     if Field::of(domains, e).is_ok_and(|(field, x)| field.is_zero(&x)) {
         return Some(true);
+    }
+    if effort::spent() {
+        return None;
     }
     let roles = roles(&[e]);
     let (domains, _) = domains.completed(&roles);
@@ -197,10 +200,15 @@ pub fn constant(e: &Expr) -> Option<Sign> {
 
 /// The sign at points of the domain, by enclosures.
 pub(super) fn seen(e: &Expr, domains: &Domains) -> Seen {
-    match met_anywhere(e, domains) {
+    let seen = match met_anywhere(e, domains) {
         (3.., 0) if !equality::falls_below_zero(e, domains) => Seen::Positive,
         (0, 3..) if !equality::falls_below_zero(&-e, domains) => Seen::Negative,
         _ => Seen::Mixed,
+    };
+    // What could not be looked at to the end is not seen.
+    match effort::spent() {
+        true => Seen::Mixed,
+        false => seen,
     }
 }
 
@@ -224,6 +232,9 @@ fn met(e: &Expr, domains: &Domains, most: usize) -> (usize, usize) {
     let roles = roles(&[e]);
     let (domains, _) = domains.completed(&roles);
     let (mut above, mut below, mut tried) = (0, 0, 0);
+    if effort::spent() {
+        return (above, below);
+    }
     samples_until(&roles, &domains, POINTS, |sample| {
         match evaluate::<Interval>(e, &sample.point(roles.radians)) {
             Outcome::Value(v) if v.low > 0.0 => above += 1,
@@ -292,6 +303,9 @@ fn without_denominators(e: Expr, domains: &Domains) -> Expr {
 
 /// What decides the sign of an expression: factors known to be positive are left away. Gives the rest, such as a − h.
 pub fn essential(e: &Expr, domains: &Domains) -> Expr {
+    if effort::spent() {
+        return e.clone();
+    }
     let tidied = tidy(e, domains).unwrap_or_else(|_| e.clone());
     let tidied = without_denominators(tidied, domains);
     let mut minus = false;

@@ -17,7 +17,7 @@ use crate::algebra::Sign;
 use crate::dimension::{self, Dimension};
 use crate::domain::{Domain, Domains};
 use crate::equality::{self, Equality, How};
-use crate::expr::{Expr, Function, Node, Symbol};
+use crate::expr::{Expr, Function, Node, Symbol, effort};
 use crate::formula::{Relation, write_plain};
 use crate::formula::{Sentence, sentence};
 use crate::scene::{Ask, Question, Scene};
@@ -253,7 +253,15 @@ type Stated<'e> = (&'e Expr, Relation, &'e Expr);
 impl Work<'_> {
     /// The answers, of `of` in place of what the question names where a component is asked; a maximum also tells its place.
     fn answers(&self, of: Option<&Expr>) -> Result<Vec<Answer>, Refused> {
-        let one = match &self.question.ask {
+        let asked = &self.question.ask;
+        let is_search = matches!(asked, Ask::Condition { .. } | Ask::Maximum { .. });
+        if is_search && effort::spent() {
+            let mut out = self.blank("");
+            let why = "not looked for: the work of the scene is used up";
+            out.text.push(Sentence::words(why));
+            return Ok(vec![out]);
+        }
+        let one = match asked {
             Ask::Value {
                 formula,
                 with,

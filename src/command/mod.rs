@@ -11,6 +11,7 @@ mod sheet;
 use std::collections::BTreeMap;
 
 use crate::derive::friction::table;
+use crate::expr::effort;
 use crate::render::friction::Shown;
 use crate::render::{self, pretty};
 use crate::scene::{self, Scene};
@@ -88,7 +89,7 @@ fn with_hint(message: &str, hint: Option<&str>) -> String {
 /// Derives the closed forms a scene asks for, and proves them.
 pub fn derive(scene: &Scene, format: Format) -> Result<Output, String> {
     if scene.friction().is_some() {
-        return cases(scene, format);
+        return effort::of_scene(|| cases(scene, format));
     }
     let worked = worked::out(scene)?;
     let text = match format {

@@ -38,7 +38,7 @@ use crate::answer::calc::{at_least_zero, constant, is_zero, tidy};
 use crate::answer::{Answer, Check, Refused, TOO_LONG};
 use crate::derive::Stop;
 use crate::domain::Domain;
-use crate::expr::{Expr, Point, Symbol, Vector};
+use crate::expr::{Expr, Point, Symbol, Vector, effort};
 use crate::formula::{sentence, write_plain};
 use crate::scene::{Ask, Scene, Stage, StageKind};
 
@@ -66,6 +66,10 @@ const BRANCHES: usize = 32;
 
 /// Tells a scene: its one impact, or its stages. Where an impact has several outcomes, what follows it is told for each.
 pub fn tell(scene: &Scene) -> Result<Told, Refused> {
+    effort::of_scene(|| told_and_answered(scene))
+}
+
+fn told_and_answered(scene: &Scene) -> Result<Told, Refused> {
     let mut told = match scene.has_stages() {
         true => {
             let course = course(scene)?;
@@ -91,7 +95,7 @@ pub fn tell(scene: &Scene) -> Result<Told, Refused> {
 
 /// The stages of a scene as [`tell`] has them, without what is asked and without a second look at them: what a picture needs.
 pub fn course(scene: &Scene) -> Result<Told, Refused> {
-    through(scene, None)
+    effort::of_scene(|| through(scene, None))
 }
 
 /// The same; what begins where the file begins begins with a state, where one is given.

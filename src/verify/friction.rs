@@ -12,7 +12,7 @@ use crate::answer::calc::{Seen, sign};
 use crate::derive::friction::{Bound, Case, Direction, Table};
 use crate::domain::Domains;
 use crate::expr::number::to_f64;
-use crate::expr::{Expr, Point, Rational, Symbol};
+use crate::expr::{Expr, Point, Rational, Symbol, effort};
 use crate::formula::Relation;
 use crate::interval::{Interval, evaluate};
 use crate::laws::friction::{Side, When};
@@ -151,6 +151,10 @@ pub fn outcomes(scene: &Scene) -> Result<Vec<Outcome>, String> {
 
 /// The same with those that its values exclude.
 pub fn all_outcomes(scene: &Scene) -> Result<Vec<Outcome>, String> {
+    effort::of_scene(|| out_of_table(scene))
+}
+
+fn out_of_table(scene: &Scene) -> Result<Vec<Outcome>, String> {
     let table = match crate::derive::friction::table(scene) {
         Ok(Some(table)) => table,
         Ok(None) => {
