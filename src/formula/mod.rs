@@ -56,7 +56,7 @@ pub(crate) use prose::changes;
 pub use quotient::Quotient;
 pub(crate) use sentence::sentence;
 pub use sentence::{Piece, Sentence, capital, either, listed, sides, trimmed};
-pub(crate) use several::{UNNAMED, letters_apart, values_of_one};
+pub(crate) use several::{UNNAMED, letters_apart, relations, values_of_one};
 pub use symbols::{Declared, Symbols, letter};
 pub(crate) use symbols::{is_angle_name, is_greek, letters};
 pub(crate) use units::plain_unit;

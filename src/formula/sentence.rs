@@ -58,20 +58,35 @@ impl Sentence {
         Sentence(self.0.iter().map(put).collect())
     }
 
-    /// Where it begins with a condition, what that says is positive, or not negative, and whether it is the former.
+    /// Where it begins with a condition that is needed, what that says is positive, or not negative, and whether it is the former.
     pub fn condition(&self) -> Option<(Expr, bool)> {
         self.conditions().next()
     }
 
-    /// Whether it tells a condition as one of two things that will do: "the way is short, or v ≥ u".
-    pub fn is_alternative(&self) -> bool {
-        let first = self.0.iter().position(|p| matches!(p, Piece::Formula(_)));
-        let before = first.and_then(|i| self.0.get(i.checked_sub(1)?));
-        matches!(before, Some(Piece::Words(words)) if words.ends_with(", or "))
+    /// The same of all conditions that are needed: those it begins with, unless something else will do as well.
+    pub fn conditions(&self) -> impl Iterator<Item = (Expr, bool)> {
+        let is_needed = !self.is_partial();
+        self.stated().take_while(move |_| is_needed)
     }
 
-    /// The same of all conditions that it begins with, joined by "and".
-    pub fn conditions(&self) -> impl Iterator<Item = (Expr, bool)> {
+    /// Whether it tells a condition as one of two things that will do, "the way is short, or v ≥ u", "v ≥ u, or that w ≥ u", or
+    /// as that of one of several values, "v ≥ u, for x = l".
+    pub fn is_partial(&self) -> bool {
+        self.0.iter().any(|piece| match piece {
+            Piece::Words(words) => {
+                words == ", for " || words.ends_with(", or ") || words.ends_with(", or that ")
+            }
+            Piece::Formula(_) => false,
+        })
+    }
+
+    /// Whether it tells a condition at all, needed or partial.
+    pub fn is_condition(&self) -> bool {
+        self.is_partial() || self.stated().next().is_some()
+    }
+
+    /// All conditions that it begins with, joined by "and", whether they are needed or not.
+    pub fn stated(&self) -> impl Iterator<Item = (Expr, bool)> {
         let joined = |i: usize| match i {
             0 => true,
             _ => matches!(&self.0[i - 1], Piece::Words(words) if words == " and "),
@@ -271,5 +286,36 @@ impl From<&Symbol> for Sentence {
 impl From<&Sentence> for Sentence {
     fn from(other: &Sentence) -> Sentence {
         other.clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_condition_needs_is_no_half_of_an_alternative() {
+        let [u, v, w] = ["u", "v", "w"].map(|name| Expr::symbol(name));
+        let [first, second] = [(&v - &u, false), (&v - &w, true)];
+        let one = sentence!("{} ≥ {} (so that it slides)", &v, &u);
+        assert_eq!(one.conditions().collect::<Vec<_>>(), [first.clone()]);
+        let both = sentence!("{} ≤ {} and {} > {}", &u, &v, &v, &w);
+        assert_eq!(both.condition(), Some(first.clone()));
+        assert_eq!(
+            both.conditions().collect::<Vec<_>>(),
+            [first.clone(), second]
+        );
+        let other = sentence!("{} < {}", &w, &u);
+        for partial in [
+            Sentence::join([one.clone(), other], ", or that "),
+            sentence!("{}, for {} = {}", &one, &w, &u),
+        ] {
+            assert!(partial.is_partial() && partial.is_condition(), "{partial}");
+            assert_eq!(partial.condition(), None, "{partial}");
+            assert_eq!(partial.stated().next(), Some(first.clone()), "{partial}");
+        }
+        let short = sentence!("the way is short, or {} ≥ {}", &v, &u);
+        assert!(short.is_partial() && short.is_condition() && short.stated().next().is_none());
+        assert!(!Sentence::from("it slides, or rests").is_condition());
     }
 }

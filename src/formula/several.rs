@@ -1,5 +1,7 @@
 //! Several values or bounds that are said as one: alternatives, lists, sets, intervals and their unions.
 
+use std::ops::Range;
+
 use super::frames::{below_each_other, without_braces};
 use super::prose::{Held, lead_to_values};
 use super::{
@@ -165,43 +167,83 @@ fn infinity(end: &str) -> Option<bool> {
     found.then_some(!end.starts_with(['-', '−']))
 }
 
+/// The signs between the sides of equations and inequalities, as people type them, the longer ones before what they begin with.
+const SIGNS: [(&str, Relation); 35] = [
+    ("\\leqslant", Relation::LessEqual),
+    ("\\leqq", Relation::LessEqual),
+    ("\\leq", Relation::LessEqual),
+    ("\\le", Relation::LessEqual),
+    ("\\lt", Relation::Less),
+    ("<=", Relation::LessEqual),
+    ("=<", Relation::LessEqual),
+    ("<>", Relation::NotEqual),
+    ("<", Relation::Less),
+    ("≤", Relation::LessEqual),
+    ("⩽", Relation::LessEqual),
+    ("≦", Relation::LessEqual),
+    ("\\geqslant", Relation::GreaterEqual),
+    ("\\geqq", Relation::GreaterEqual),
+    ("\\geq", Relation::GreaterEqual),
+    ("\\ge", Relation::GreaterEqual),
+    ("\\gt", Relation::Greater),
+    (">=", Relation::GreaterEqual),
+    (">", Relation::Greater),
+    ("≥", Relation::GreaterEqual),
+    ("⩾", Relation::GreaterEqual),
+    ("≧", Relation::GreaterEqual),
+    ("\\neq", Relation::NotEqual),
+    ("\\ne", Relation::NotEqual),
+    ("!=", Relation::NotEqual),
+    ("≠", Relation::NotEqual),
+    ("\\approx", Relation::Approximately),
+    ("\\simeq", Relation::Approximately),
+    ("\\doteq", Relation::Approximately),
+    ("≈", Relation::Approximately),
+    ("≃", Relation::Approximately),
+    ("==", Relation::Equal),
+    (":=", Relation::Equal),
+    ("=", Relation::Equal),
+    ("≡", Relation::Equal),
+];
+
+/// The signs of relation in a text, in order: where each stands, and what it says.
+pub(crate) fn relations(text: &str) -> impl Iterator<Item = (Range<usize>, Relation)> {
+    let may_begin = |c: char| !c.is_ascii() || "<>=!:\\".contains(c);
+    let mut at = 0;
+    std::iter::from_fn(move || {
+        while let Some(next) = text[at..].find(may_begin) {
+            let start = at + next;
+            let found = SIGNS.iter().find(|(sign, _)| begins(&text[start..], sign));
+            let length = found.map(|(sign, _)| sign.len());
+            at = start + length.or(text[start..].chars().next().map(char::len_utf8))?;
+            if let Some((_, relation)) = found {
+                return Some((start..at, *relation));
+            }
+        }
+        None
+    })
+}
+
+/// Whether a text begins with a sign; a command of LaTeX goes on as far as its letters.
+fn begins(text: &str, sign: &str) -> bool {
+    let behind = text.strip_prefix(sign);
+    let goes_on = |rest: &str| sign.starts_with('\\') && rest.starts_with(char::is_alphabetic);
+    behind.is_some_and(|rest| !goes_on(rest))
+}
+
 /// A chain with blanks for an end that is no bound: `-∞ < x < 3`, `\infty > x \ge 3`.
 pub(super) fn without_infinity(text: &str, symbols: &Symbols) -> Option<String> {
-    const SIGNS: [(&str, bool); 14] = [
-        ("\\leqslant", true),
-        ("\\leq", true),
-        ("\\le", true),
-        ("\\lt", true),
-        ("<=", true),
-        ("<", true),
-        ("≤", true),
-        ("\\geqslant", false),
-        ("\\geq", false),
-        ("\\ge", false),
-        ("\\gt", false),
-        (">=", false),
-        (">", false),
-        ("≥", false),
-    ];
-    let sign = |at: usize| {
-        let stands = |sign: &str| {
-            let behind = text[at..].strip_prefix(sign)?;
-            let command = sign.starts_with('\\') && behind.starts_with(|c: char| c.is_alphabetic());
-            (!command).then_some(())
-        };
-        let mut found = SIGNS.iter();
-        found.find_map(|(sign, less)| stands(sign).map(|()| (at, at + sign.len(), *less)))
-    };
-    let mut found = text.char_indices().filter_map(|(at, _)| sign(at));
-    let (first, (from, last, less)) = (found.next()?, found.next()?);
-    if found.next().is_some() || first.2 != less || symbols.find("inf").is_some() {
+    let mut found = relations(text).filter(|(_, sign)| sign.is_order());
+    let ((first, sign), (last, other)) = (found.next()?, found.next()?);
+    let less = sign.is_below();
+    if found.next().is_some() || less != other.is_below() || symbols.find("inf").is_some() {
         return None;
     }
-    let low = infinity(&text[..first.0]).is_some_and(|positive| positive != less);
-    let high = infinity(&text[last..]).is_some_and(|positive| positive == less);
+    let low = infinity(&text[..first.start]).is_some_and(|positive| positive != less);
+    let high = infinity(&text[last.end..]).is_some_and(|positive| positive == less);
     let (start, stop) = match (low, high) {
-        (true, false) => (first.1, text.len()),
-        (false, true) => (0, from),
+        (true, false) => (first.end, text.len()),
+        (false, true) => (0, last.start),
         _ => return None,
     };
     Some(format!(
@@ -671,5 +713,30 @@ fn named(content: &Content) -> Option<(Option<Symbol>, Vec<Expr>, Option<Unit>)>
         Content::Either(values) => Some((name, values.clone(), None)),
         Content::Quantity(q) => Some((name, vec![q.value.clone()], Some(q.unit.clone()))),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_sign_is_found_where_it_stands_and_read_as_what_it_says() {
+        for (sign, relation) in SIGNS {
+            let text = format!("a {sign} b");
+            let found: Vec<_> = relations(&text).collect();
+            assert_eq!(found, [(2..2 + sign.len(), relation)], "{sign}");
+            let mut symbols = Symbols::strict();
+            ["a", "b"].iter().for_each(|name| symbols.declare(name));
+            let read = super::super::read(&text, &symbols).expect(sign);
+            match read.content {
+                Content::Relations(_, signs) => assert_eq!(signs, [relation], "{sign}"),
+                other => panic!("{sign}: {other:?}"),
+            }
+        }
+        let none = relations("\\left( a \\geometry b \\right)").next();
+        assert_eq!(none, None);
+        let row: Vec<_> = relations("w = 2 \\le 3 ≈ x").map(|(at, _)| at).collect();
+        assert_eq!(row, [2..3, 6..9, 12..15]);
     }
 }

@@ -385,7 +385,7 @@ fn plain(word: &str) -> Option<Tok> {
         "lt" => Tok::Relation(Relation::Less),
         "gt" => Tok::Relation(Relation::Greater),
         "ne" | "neq" => Tok::Relation(Relation::NotEqual),
-        "approx" | "simeq" | "cong" => Tok::Relation(Relation::Approximately),
+        "approx" | "simeq" | "cong" | "doteq" => Tok::Relation(Relation::Approximately),
         "equiv" => Tok::Relation(Relation::Equal),
         "vert" | "mid" | "Vert" => Tok::Bar,
         "lvert" | "lVert" => Tok::OpenBar,

@@ -114,14 +114,7 @@ pub fn sheet(scene: Scene) -> Result<Sheet, derive::Stop> {
 
 /// Where an answer is asked for: a motion that does not get to its end has no speed there.
 fn where_it_is(chosen: &[&Answer], mut domains: Domains) -> Domains {
-    let plain = |s: &&Sentence| {
-        !["or that", ", for "]
-            .iter()
-            .any(|w| s.to_string().contains(w))
-    };
-    let rests_on = chosen
-        .iter()
-        .flat_map(|a| a.assumptions.iter().filter(plain));
+    let rests_on = chosen.iter().flat_map(|a| &a.assumptions);
     for (excess, strict) in rests_on.flat_map(Sentence::conditions) {
         domains = domains.given(&excess, !strict);
     }
@@ -165,7 +158,7 @@ impl Sheet {
     pub fn granted(&self, parameter: &Symbol) -> Vec<(Relation, Expr)> {
         let domains = &self.scene.domains;
         let all = self.all.iter().chain(&self.derivation.answers);
-        let conditions = all.flat_map(|a| a.assumptions.iter().filter_map(Sentence::condition));
+        let conditions = all.flat_map(|a| a.assumptions.iter().flat_map(Sentence::conditions));
         let solved = conditions.filter_map(|(excess, strict)| {
             let value = solve_for(&excess, parameter, domains)
                 .or_else(|| size_in(&excess, parameter, domains))?;

@@ -5,6 +5,7 @@ use super::sentence::sentence;
 use super::words::say;
 use crate::algebra::{Sign, sign};
 use crate::answer::Answer;
+use crate::expr::Expr;
 use crate::formula::{Piece, Sentence};
 use crate::scene::{Ask, Scene};
 
@@ -27,19 +28,20 @@ fn needed(scene: &Scene, mut all: Vec<Sentence>) -> Vec<Sentence> {
     let mut k = 0;
     while k < all.len() {
         let others = all.iter().enumerate().filter(|(j, _)| *j != k);
-        let mut others = others.filter_map(|(_, other)| other.condition());
-        let follows = all[k].condition().is_some_and(|(e, is_open)| {
-            !is_case(&all[k])
-                && others.any(|(given, open)| {
-                    let domains = scene.domains.given(&given, !open);
-                    match sign(&e, &domains) {
-                        Some(Sign::Positive) => true,
-                        Some(told) => told.is_not_negative() && !is_open,
-                        None => false,
-                    }
-                })
-        });
-        match follows {
+        let others = others.flat_map(|(_, other)| other.conditions());
+        let others: Vec<(Expr, bool)> = others.collect();
+        let follows = |(e, is_open): (Expr, bool)| {
+            others.iter().any(|(given, open)| {
+                let domains = scene.domains.given(given, !open);
+                match sign(&e, &domains) {
+                    Some(Sign::Positive) => true,
+                    Some(told) => told.is_not_negative() && !is_open,
+                    None => false,
+                }
+            })
+        };
+        let is_needed = all[k].condition().is_some() && !is_case(&all[k]);
+        match is_needed && all[k].conditions().all(follows) {
             true => drop(all.remove(k)),
             false => k += 1,
         }
@@ -47,10 +49,9 @@ fn needed(scene: &Scene, mut all: Vec<Sentence>) -> Vec<Sentence> {
     all
 }
 
-/// Whether a condition is that of a case, which stands behind it in brackets, or of one of several values.
+/// Whether a condition is that of a case, which stands behind it in brackets.
 fn is_case(condition: &Sentence) -> bool {
-    let begins = |words: &str| words.starts_with(" (") || words.starts_with(", for ");
-    let opens = |p: &Piece| matches!(p, Piece::Words(words) if begins(words));
+    let opens = |p: &Piece| matches!(p, Piece::Words(words) if words.starts_with(" ("));
     condition.0.iter().any(opens)
 }
 

@@ -131,7 +131,7 @@ fn conditions(all: &[Answer], item: &str) -> Vec<String> {
         .find(is_it)
         .into_iter()
         .flat_map(|a| &a.assumptions);
-    let conditions = given.filter(|words| words.condition().is_some());
+    let conditions = given.filter(|words| words.is_condition());
     conditions.map(ToString::to_string).collect()
 }
 

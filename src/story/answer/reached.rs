@@ -324,8 +324,7 @@ pub(super) fn on_the_way(
         }
         let leading = leading(stages, world, q, earlier).into_iter();
         let all = leading.flat_map(|i| &stages[i].assumptions);
-        let all: Vec<&Sentence> = all.filter(|words| words.is_alternative()).collect();
-        besides(answer, all.into_iter());
+        besides(answer, all.filter(|words| words.is_partial()));
     }
 }
 
@@ -341,11 +340,7 @@ pub(super) fn led_to(stages: &[StageTold], answer: &mut Answer) {
         }
     });
     let all: Vec<Sentence> = each.flatten().collect();
-    besides(
-        answer,
-        all.iter()
-            .filter(|words| words.condition().is_some() || words.is_alternative()),
-    );
+    besides(answer, all.iter().filter(|words| words.is_condition()));
 }
 
 /// Lets an answer that is the same in all cases tell that one of them happens, where others are left away.
@@ -422,11 +417,10 @@ pub(in crate::story) fn tell(scene: &Scene, ask: &Ask, needs: &[Need], answer: &
         }
     }
     answer.assumptions.sort();
-    // The same condition for two reasons is told once; for one of several values it may be told of each.
+    // The same condition for two reasons is told once; one of several values is told of each.
     let alike = |a: &Sentence, b: &Sentence| {
         let [a_needs, b_needs] = [a, b].map(|s| s.conditions().collect::<Vec<_>>());
-        let of_one = |s: &Sentence| s.to_string().contains(", for ");
-        !a_needs.is_empty() && a_needs == b_needs && !of_one(a) && !of_one(b)
+        !a_needs.is_empty() && a_needs == b_needs
     };
     answer
         .assumptions

@@ -545,7 +545,7 @@ fn granted(told: &StageTold, domains: &Domains, out: &mut Vec<Sentence>) {
     let all = told.assumptions.iter().cloned();
     for one in all.chain(needs).chain(cases).chain(given) {
         let holds = |(e, open): (Expr, bool)| keeps_to(&e, !open, domains) == Some(true);
-        let is_sure = one.condition().is_some() && one.conditions().all(holds);
+        let is_sure = one.stated().next().is_some() && one.stated().all(holds);
         // The same may be told with its reason.
         let words = one.to_string();
         let is_told = out

@@ -6,52 +6,18 @@ use super::Finding;
 use super::desk::Desk;
 use super::number::{Figure, components};
 use crate::expr::{Expr, Symbol};
-use crate::formula::{self, Content};
+use crate::formula::{self, Content, Relation};
 use crate::scene::Printed;
 
-/// Signs between the sides of a row.
-const EQUAL: &[&str] = &["=", "≈", "\\approx", "\\simeq", "\\doteq"];
-
-/// Signs that tell which side is the larger one.
-const ORDER: &[&str] = &[
-    "<=",
-    ">=",
-    "<",
-    ">",
-    "≤",
-    "≥",
-    "\\le",
-    "\\leq",
-    "\\leqslant",
-    "\\ge",
-    "\\geq",
-    "\\geqslant",
-    "\\lt",
-    "\\gt",
-];
-
-/// The longest sign with which a text begins.
-fn sign_of<'s>(text: &str, signs: &[&'s str]) -> Option<&'s str> {
-    let begins = |sign: &&&str| {
-        let behind = text.strip_prefix(**sign);
-        let goes_on = |rest: &str| rest.starts_with(|c: char| c.is_ascii_alphabetic());
-        behind.is_some_and(|rest| !(sign.starts_with('\\') && goes_on(rest)))
-    };
-    signs.iter().filter(begins).max_by_key(|s| s.len()).copied()
-}
-
-/// The places of the sides of a text.
+/// The places of the sides of a text; those that another sign than one of equality parts are one where not asked for.
 fn sides(text: &str, with_order: bool) -> Vec<Range<usize>> {
-    let (mut all, mut start, mut at) = (Vec::new(), 0, 0);
-    while let Some(c) = text[at..].chars().next() {
-        let order = sign_of(&text[at..], ORDER);
-        let sign = order.or_else(|| sign_of(&text[at..], EQUAL));
-        let length = sign.map_or(c.len_utf8(), str::len);
-        if sign.is_some() && (with_order || order.is_none()) {
-            all.push(start..at);
-            start = at + length;
+    let parts = |relation| matches!(relation, Relation::Equal | Relation::Approximately);
+    let (mut all, mut start) = (Vec::new(), 0);
+    for (at, relation) in formula::relations(text) {
+        if with_order || parts(relation) {
+            all.push(start..at.start);
+            start = at.end;
         }
-        at += length;
     }
     all.push(start..text.len());
     all
