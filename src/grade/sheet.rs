@@ -13,7 +13,7 @@ use crate::derive::{self, Derivation, Moment};
 use crate::domain::Domains;
 use crate::equality;
 use crate::expr::{Expr, Symbol};
-use crate::formula::{Content, Relation, Sentence};
+use crate::formula::{self, Content, Relation, Sentence};
 use crate::scene::{self, Ask, Print, Scene};
 use crate::verify::printed::{Finding, UNEXPLAINED};
 
@@ -313,8 +313,11 @@ impl Sheet {
                 Print::Number { of, text, .. } => (of, text),
                 _ => continue,
             };
-            let as_it_stands =
-                printed.at.is_empty() && printed.short.is_empty() && printed.small.is_empty();
+            // Of a row of several sides the judge would take the last, and another may be the wrong one.
+            let as_it_stands = printed.at.is_empty()
+                && printed.short.is_empty()
+                && printed.small.is_empty()
+                && formula::relations(text).count() < 2;
             let slips = ["comes out when", "right up to the factor"];
             let known = finding.explained.as_ref().filter(|e| *e != UNEXPLAINED);
             let open = known.is_none_or(|e| slips.iter().any(|slip| e.starts_with(slip)));

@@ -214,9 +214,7 @@ impl Desk<'_> {
     ) -> Result<(), String> {
         let reading = self.read(text, printed)?;
         let name = Symbol::from(item);
-        if reading.content.answer().expr().and_then(Expr::as_symbol) == Some(&name) {
-            return Err(format!("{item} stands for itself, and no value is printed"));
-        }
+        self.is_of(&name, &reading.content)?;
         let bound = self.bound(&name, &reading.content);
         let said = self.said_of(&name, &reading.content);
         let is_said = bound.is_none() && said.is_some();
@@ -301,6 +299,25 @@ impl Desk<'_> {
                 .or_else(|| self.short_factor(&all));
         }
         Ok(())
+    }
+
+    /// Whether a formula gives the item something; one for another parameter, `m = …`, gives it nothing.
+    fn is_of(&self, item: &Symbol, content: &Content) -> Result<(), String> {
+        if content.answer().expr().and_then(Expr::as_symbol) == Some(item) {
+            return Err(format!("{item} stands for itself, and no value is printed"));
+        }
+        let Content::Relations(sides, _) = content else {
+            return Ok(());
+        };
+        let first = sides.first().and_then(|side| side.expr()?.as_symbol());
+        let bounded = self.bounds.get(item).and_then(|(of, ..)| of.as_symbol());
+        let is_other = |name: &Symbol| name != item && self.scene.parameter(name).is_some();
+        match first.filter(|name| is_other(name) && bounded != Some(*name)) {
+            Some(name) if self.said_of(item, content).is_none() => Err(format!(
+                "{name} is a parameter of the scene, and no name of {item}"
+            )),
+            _ => Ok(()),
+        }
     }
 
     /// `cos(alpha) = …` and `e = sqrt(H/h)` say what alpha and H are: both sides with the item, or the parameter that it gives,

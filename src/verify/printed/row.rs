@@ -6,7 +6,7 @@ use super::Finding;
 use super::desk::Desk;
 use super::number::{Figure, components};
 use crate::expr::{Expr, Symbol};
-use crate::formula::{self, Content, Relation};
+use crate::formula::{self, Content, Relation, Symbols};
 use crate::scene::Printed;
 
 /// The places of the sides of a text; those that another sign than one of equality parts are one where not asked for.
@@ -32,6 +32,8 @@ impl Desk<'_> {
         text: &str,
         finding: &mut Finding,
     ) -> Result<(), String> {
+        let own = self.under_own_name(printed, item, text);
+        let text = own.as_deref().unwrap_or(text);
         let places = sides(text, false);
         if self.breaks_in_the_middle(printed, item, text, &places, finding) {
             return Ok(());
@@ -70,6 +72,25 @@ impl Desk<'_> {
             }
         }
         Ok(())
+    }
+
+    /// A text that leads with a single name that the scene does not know, `\omega = …` for the item `w`: that is what the book calls
+    /// the answer.
+    fn under_own_name(&self, printed: &Printed, item: &str, text: &str) -> Option<String> {
+        let places = sides(text, false);
+        let [first, second, others @ ..] = places.as_slice() else {
+            return None;
+        };
+        let name = &text[first.clone()];
+        let read = formula::read(name, &Symbols::open()).ok()?;
+        let is_name = read.content.expr().is_some_and(|e| e.as_symbol().is_some());
+        if !is_name || self.read(name, printed).is_ok() {
+            return None;
+        }
+        Some(match others {
+            [] => text[second.clone()].to_string(),
+            _ => format!("{item} {}", &text[first.end..]),
+        })
     }
 
     /// Whether a formula between the first and the last of a row is wrong; then that is what is found.
