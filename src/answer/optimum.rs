@@ -182,6 +182,8 @@ fn over_positive(
     at.name = format!("{name}_at");
     at.latex = format!("\\arg {}", out.latex);
     at.words = format!("{words} for which it is largest");
+    let there = Expr::symbol(&at.name).power(Expr::ratio(1, power));
+    at.put_in = vec![(put(&slope, there), Expr::zero(), flat)];
     // How it was found is told with the value.
     at.discarded = Vec::new();
     at.text = Vec::new();

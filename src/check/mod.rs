@@ -4,6 +4,7 @@
 //! Comes in: the JSON of `carom solution`. Goes out: a [`Report`] that names every step that does not hold. Nothing of the
 //! deriving code is used: formulas are read and evaluated, the scene inside the file is read and solved in numbers.
 
+mod defined;
 mod impacts;
 mod near;
 mod replay;
@@ -252,6 +253,7 @@ fn collect(
         let needs = step["needs"].as_array().into_iter().flatten();
         let needs = needs.map(|need| read(need, &known.symbols, &of));
         let needs: Vec<Expr> = needs.collect::<Result<_, _>>()?;
+        let is_of_a_case = defines.as_deref().is_some_and(defined::is_case);
         for list in ["before", "after"] {
             for claim in step[list].as_array().into_iter().flatten() {
                 let side = |name: &str| read(&claim[name], &known.symbols, &of);
@@ -273,8 +275,12 @@ fn collect(
                     text: written(claim, "="),
                     left,
                     right,
+                    // Where an answer of a case is that, what else a step says of it holds anyway.
+                    needs: match is_of_a_case && defines.is_none() {
+                        true => Vec::new(),
+                        false => needs.clone(),
+                    },
                     defines,
-                    needs: needs.clone(),
                 });
                 if claims.equal.len() > MOST {
                     return unusable(format!("more than {MOST} claims"));

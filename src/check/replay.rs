@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 
+use super::defined::{Defined, Here, is_of_a_case};
 use super::impacts::Impact;
 use super::{Claim, Meaning, POINTS, Report};
 use crate::expr::{Expr, Point, Rational, Symbol};
@@ -62,7 +63,7 @@ pub(super) fn replay(impact: &Impact, claims: &[&Claim], report: &mut Report) {
         symbols_at(scene, meanings, &mut doubles, numeric::solve_f64);
         (point, doubles)
     });
-    compare(points.collect(), meanings, claims, report);
+    compare(points.collect(), (scene, meanings), claims, report);
 }
 
 /// Whether nothing that has to be ≥ 0 is negative at a point.
@@ -103,13 +104,15 @@ pub(super) fn needed(
 /// Puts points, exact and in doubles, into both sides of every claim.
 pub(super) fn compare(
     points: Vec<(Point<Rational>, Point<f64>)>,
-    meanings: &BTreeMap<Symbol, Meaning>,
+    (scene, meanings): (&Scene, &BTreeMap<Symbol, Meaning>),
     claims: &[&Claim],
     report: &mut Report,
 ) {
+    let defined = Defined::new(scene, claims);
     let mut told: Vec<Told> = claims.iter().map(|_| Told::default()).collect();
     for (mut point, doubles) in points {
         let mut doubles = with_angles(&doubles);
+        let here = Here::default();
         for (claim, told) in claims.iter().zip(&mut told) {
             if let Some(name) = &claim.defines
                 && matches!(meanings.get(name), Some(Meaning::Defined))
@@ -120,6 +123,13 @@ pub(super) fn compare(
                 }
                 if let Some(value) = claim.right.evaluate(&doubles) {
                     doubles.values.insert(name.clone(), value);
+                }
+                if is_of_a_case(claim) {
+                    told.held = true;
+                    continue;
+                }
+                if let Some(Err(why)) = defined.held(name, &claim.right, (&doubles, &here)) {
+                    told.failed = told.failed.take().or(Some(why));
                 }
             }
             if !holds(&claim.needs, &doubles) {

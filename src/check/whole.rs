@@ -104,7 +104,8 @@ pub(super) fn replay(
     for (impact, found) in impacts.iter().zip(found) {
         found.tell(impact, report);
     }
-    super::replay::compare(points, meanings, claims, report);
+    super::defined::in_cases(scene, &needed, claims, report);
+    super::replay::compare(points, (scene, meanings), claims, report);
 }
 
 /// What was found of an impact at the points where the scene was followed.

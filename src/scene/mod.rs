@@ -68,6 +68,7 @@ pub use motion::{
 pub use printed::{Print, Printed};
 pub use questions::INSTANTANEOUS_CENTER;
 pub use stage::{OneSided, Stage, StageKind, Turns};
+pub use stages::without_case;
 
 /// Longest text of a scene file, in bytes.
 pub const LONGEST: usize = 1 << 20;

@@ -7,7 +7,7 @@
 use super::integrate;
 use crate::answer::Check;
 use crate::answer::calc::{is_zero, tidy};
-use crate::answer::{Answer, Form, limit};
+use crate::answer::{Answer, Form, Near, limit};
 use crate::domain::{Domain, Domains};
 use crate::expr::{Expr, Symbol};
 use crate::formula::sentence;
@@ -79,6 +79,14 @@ pub(super) fn share(mut out: Answer, given: [&Expr; 3], domains: &Domains) -> Ve
         "the share divided by φ² tends to 1/6 as φ → 0",
         sixth,
     ));
+    // What is left out goes with φ⁴.
+    short.near.extend(during.as_symbol().map(|time| Near {
+        left: share.clone(),
+        right: leading.clone(),
+        parameter: time.clone(),
+        to: Some(Expr::zero()),
+        order: 2,
+    }));
     short.form = Form::value(leading);
     out.form = Form::value(share);
     vec![out, short]

@@ -12,7 +12,7 @@ use crate::answer::{Answer, Known, Refused};
 use crate::domain::{Origin, Relation};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, sentence};
-use crate::scene::{Question, Scene};
+use crate::scene::{Question, Scene, without_case};
 
 /// What must be ≥ 0, in words and as expressions.
 type Given = Vec<(String, Expr)>;
@@ -187,13 +187,6 @@ pub(super) fn remember(worlds: &mut [World], answers: &[Answer]) {
             }
         }
     }
-}
-
-/// The name of an answer without the number of its case.
-pub(super) fn without_case(name: &str) -> &str {
-    let numbered = name.rsplit_once("_case");
-    let numbered = numbered.filter(|(_, k)| k.bytes().all(|c| c.is_ascii_digit()));
-    numbered.map_or(name, |(plain, _)| plain)
 }
 
 /// Whether an answer about a stage, one of several to a question, is the one of this way.

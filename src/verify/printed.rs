@@ -5,6 +5,7 @@
 //! the value it should have, a slip that explains it where one is found, and the cheap check that would have caught it.
 
 mod cases;
+mod coefficient;
 mod desk;
 mod explain;
 mod inequality;
@@ -15,8 +16,8 @@ mod row;
 mod special;
 
 pub use cases::in_cases;
-use desk::Desk;
 pub(crate) use desk::friction_bound;
+use desk::{Desk, for_the_coefficient};
 
 use crate::answer::Answer;
 use crate::derive::Derivation;
@@ -96,7 +97,7 @@ impl<'a> Way<'a> {
             .into_iter()
             .flat_map(|(words, needs)| needs.iter().map(move |e| (words, e)));
         for (what, e) in needs {
-            let words = Sentence::not_negative(e).to_string();
+            let words = for_the_coefficient(self.scene, &Sentence::not_negative(e)).to_string();
             let origin = Origin::Outcome(what.to_string());
             domains = domains.with_relation(domain::Relation::needed(e, true, words, origin));
         }
@@ -113,7 +114,7 @@ pub fn check(way: &Way) -> Vec<Finding> {
     desk.consequences(&mut findings);
     for (finding, printed) in findings.iter_mut().zip(&scene.printed) {
         if let (Some(true), Print::Formula { item, .. }) = (finding.holds, &printed.what) {
-            finding.given = conditions(all, item);
+            finding.given = conditions(scene, all, item);
             finding.only_where = cases::in_words(&finding.given);
         }
     }
@@ -124,7 +125,7 @@ pub fn check(way: &Way) -> Vec<Finding> {
 }
 
 /// What an answer rests on beyond what the scene states.
-fn conditions(all: &[Answer], item: &str) -> Vec<String> {
+fn conditions(scene: &Scene, all: &[Answer], item: &str) -> Vec<String> {
     let is_it = |a: &&Answer| a.name == item || a.question == item;
     let given = all
         .iter()
@@ -132,7 +133,8 @@ fn conditions(all: &[Answer], item: &str) -> Vec<String> {
         .into_iter()
         .flat_map(|a| &a.assumptions);
     let conditions = given.filter(|words| words.is_condition());
-    conditions.map(ToString::to_string).collect()
+    let solved = conditions.map(|words| for_the_coefficient(scene, words).to_string());
+    solved.collect()
 }
 
 impl Desk<'_> {
@@ -280,6 +282,9 @@ impl Desk<'_> {
             let judged = self.rounded(printed, &figure, item, &of, finding);
             judged.is_ok()
         });
+        if let (Some(false), false, [pair]) = (finding.holds, is_number, &all[..]) {
+            self.coefficient(printed, &name, (text, pair), finding);
+        }
         if let Some((sign, ..)) = bound {
             self.sense(&name, sign, finding);
         }

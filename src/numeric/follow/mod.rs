@@ -37,6 +37,7 @@ mod motion;
 mod outline;
 mod passage;
 mod state;
+mod tips;
 mod turns;
 mod wind;
 
@@ -58,6 +59,7 @@ pub use mechanism::integrated;
 pub use motion::{Driven, Moved, Sample};
 pub use outline::Solid;
 pub use state::{BodyState, Component, Open, State, Why, kinetic};
+pub use tips::tips;
 
 /// A stage that was followed to its end.
 #[derive(Clone, Debug)]

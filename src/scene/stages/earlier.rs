@@ -94,6 +94,13 @@ fn is_known(scene: &Scene, name: &Symbol, stage: usize) -> bool {
     }
 }
 
+/// The name of an answer without the number of its case.
+pub fn without_case(name: &str) -> &str {
+    let numbered = name.rsplit_once("_case");
+    let numbered = numbered.filter(|(_, k)| k.bytes().all(|c| c.is_ascii_digit()));
+    numbered.map_or(name, |(plain, _)| plain)
+}
+
 impl Scene {
     /// The question whose answer, or a component of it, has this name.
     pub fn answering(&self, name: &str) -> Option<&Question> {

@@ -10,6 +10,7 @@ mod meanwhile;
 mod seen;
 mod slide;
 
+pub use earlier::without_case;
 pub(super) use hinged::spread;
 pub(super) use kind::TIME;
 pub(super) use meanwhile::home;

@@ -25,7 +25,7 @@ use super::{Before, Detail, Inline, Math, Part, Scope, Slot, Solution, Writer};
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Piece, Sentence, sentence as saying};
-use crate::scene::{Ask, Scene, Stage, StageKind};
+use crate::scene::{Ask, Scene, Stage, StageKind, without_case};
 use crate::story::{Case, StageTold, Told, line};
 
 /// Longest condition, in characters, that is a heading.
@@ -54,6 +54,7 @@ pub(super) fn tell(scene: &Scene, told: &Told, detail: Detail) -> Solution {
     }
     asked::beyond_motion(&mut page.solution, scene, &answers);
     page.rests_on();
+    page.cases();
     page.solution
 }
 
@@ -119,6 +120,30 @@ struct Page<'a> {
 }
 
 impl Page<'_> {
+    /// Lets the steps that name answers of a case tell what leads there.
+    fn cases(&mut self) {
+        let is_of_a_case = |a: &&Answer| without_case(&a.name) != a.name;
+        for answer in self.told.answers.iter().filter(is_of_a_case) {
+            let Some(at) = answer.told else { continue };
+            let on_the_way = line(&self.told.stages, at).flat_map(|(i, k)| {
+                let stage = &self.told.stages[i];
+                let case = stage.cases.get(k).into_iter();
+                let own = case.flat_map(|case| {
+                    let when = case.when.iter().map(|e| e.substitute(&case.handed));
+                    when.chain(case.conditions.iter().map(|(_, e)| e.clone()))
+                });
+                let given = stage.given.iter().map(|(_, e)| e.clone());
+                stage.needs.iter().cloned().chain(given).chain(own)
+            });
+            let needs: Vec<Expr> = on_the_way.collect();
+            let names =
+                |step: &&mut super::Step| step.defines.as_deref() == Some(answer.name.as_str());
+            if let Some(step) = self.solution.steps.iter_mut().find(names) {
+                step.needs = needed(self.scene, needs.iter());
+            }
+        }
+    }
+
     /// What is told, and how it is read.
     fn opening(&mut self) {
         self.solution.section(0, Vec::new());

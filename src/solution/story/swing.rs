@@ -40,10 +40,12 @@ impl Page<'_> {
             "The rotation ends where weight has taken up the kinetic energy. The center of mass has then risen by {}:",
             [words::formula(&h)],
         ));
-        let claim = Claim::new(h.clone(), height.clone());
+        let named = Claim::new(h.clone(), height.clone());
+        let balanced = Claim::new(&weight * &h, start.clone());
+        let claims = vec![named, balanced];
         let step = self
             .solution
-            .step(Vec::new(), vec![claim], "kinetic energy over weight");
+            .step(Vec::new(), claims, "kinetic energy over weight");
         if let Some(step) = self.solution.steps.last_mut() {
             step.defines = Some(letter);
         }
@@ -84,8 +86,13 @@ impl Page<'_> {
                 "It began {} {}, a distance {} away, and ends {} {} it:",
                 [say(first), about, length, place, say(last)],
             ));
+            let claim = Claim::new(h.clone(), swung.clone());
+            let step = self
+                .solution
+                .step(Vec::new(), vec![claim], "where the rotation leads");
             let math = words::related(&h, "=", &swung);
-            self.solution.display(vec![Line::plain(math)]);
+            let step = Some(step);
+            self.solution.display(vec![Line { math, step }]);
             let meaning = Meaning::Answer(angle.question.clone(), None);
             self.solution.meanings.insert(name, meaning);
         }

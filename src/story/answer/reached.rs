@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use super::super::worlds::{World, without_case};
+use super::super::worlds::World;
 use super::super::{Case, StageTold, line};
 use super::supposed;
 use crate::answer::calc::{self, above_zero, beyond_zero, essential, is_zero, tidy};
@@ -13,7 +13,7 @@ use crate::answer::{Answer, Form, Known, given_alike, limit};
 use crate::domain::{Domain, Domains, Origin, Relation};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Sentence, sentence};
-use crate::scene::{Ask, ContactLaw, Question, Scene, StageKind};
+use crate::scene::{Ask, ContactLaw, Question, Scene, StageKind, without_case};
 use crate::verify::possible::{Condition, Rule};
 
 /// A step away from a value.

@@ -8,15 +8,14 @@ use std::f64::consts::TAU;
 use std::iter::successors;
 
 use super::super::StageTold;
-use super::super::worlds::without_case;
 use super::values::moved;
 use super::{CLOSE, Compared, POINTS, Second, Seen, World, points_of, shaken};
 use crate::answer::{Answer, Check};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Relation;
 use crate::numeric::Answer as Found;
-use crate::numeric::follow::{self, What};
-use crate::scene::{Ask, ContactLaw, FrictionEvent, Mode, Question, Scene};
+use crate::numeric::follow;
+use crate::scene::{Ask, FrictionEvent, Question, Scene, without_case};
 
 /// How far from a threshold or a largest value its sides are looked at, in parts of it.
 const ASIDE: f64 = 1e-3;
@@ -325,28 +324,13 @@ impl Asked<'_> {
         let at = answer.formula()?;
         let turns = || {
             let at = at.evaluate(&seen.point)?;
-            let stage = question.stage?;
-            let law = &self.scene.stages[stage].scene.contacts[contact].law;
-            let ContactLaw::Friction(law) = law else {
-                return None;
-            };
-            let mu = law.mu.as_symbol()?;
-            let [below, above] = [-ASIDE, ASIDE].map(|step| {
-                let there = moved(&seen.point, &[(mu.clone(), at * (1.0 + step))]);
-                let followed = follow::follow(self.scene, &there).ok()?;
-                match &followed.stages[stage].as_ref().ok()?.what {
-                    What::Impact(impact) => impact.mode,
-                    What::Motion(_) => None,
-                }
-            });
-            let [below, above] = [below?, above?];
-            let sticks = |mode: Mode| mode.sticks() || mode == Mode::InsideCone;
-            let slides = |mode: Mode| matches!(mode, Mode::Slides | Mode::OnCone);
-            match event {
-                FrictionEvent::Sticks => Some(sticks(above) && !sticks(below)),
-                FrictionEvent::Slides => Some(slides(below) && !slides(above)),
-                FrictionEvent::Jams => None,
-            }
+            follow::tips(
+                self.scene,
+                question.stage?,
+                (contact, event),
+                at,
+                &seen.point,
+            )
         };
         let otherwise = || String::from("the contact does something else beside it");
         Some(turns().map_or(Held::Unseen, |turns| Held::So(turns, otherwise())))

@@ -5,12 +5,14 @@
 use std::collections::BTreeMap;
 
 use super::Way;
-use crate::algebra::tidy;
+use crate::algebra::{Sign, sign, tidy};
 use crate::answer::{Answer, Form};
 use crate::dimension::Dimension;
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, dot, minus};
-use crate::formula::{self, Content, Reading, Relation, Symbols, write_unicode};
+use crate::formula::{
+    self, Content, Reading, Relation, Sentence, Symbols, sentence, write_unicode,
+};
 use crate::scene::{Ask, ContactLaw, FrictionEvent, Printed, Scene};
 
 /// What formulas are read and evaluated with.
@@ -336,6 +338,44 @@ pub(crate) fn friction_bound(scene: &Scene, name: &str) -> Option<(Symbol, Relat
         FrictionEvent::Sticks | FrictionEvent::Jams => Relation::GreaterEqual,
     };
     Some((law.mu.as_symbol()?.clone(), relation))
+}
+
+/// A condition solved for a coefficient of friction, `mu ≤ u/v` for `u − mu v ≥ 0`, where it is one on that; else as it is.
+pub(super) fn for_the_coefficient(scene: &Scene, words: &Sentence) -> Sentence {
+    let Some((excess, strict)) = words.condition() else {
+        return words.clone();
+    };
+    let stages = scene.stages.iter().flat_map(|stage| &stage.scene.contacts);
+    let all = scene.contacts.iter().chain(stages);
+    let mut all = all.filter_map(|contact| match &contact.law {
+        ContactLaw::Friction(law) => law.mu.as_symbol(),
+        ContactLaw::Decided(decided) => decided.law.mu.as_symbol(),
+        _ => None,
+    });
+    let solved = all.find_map(|mu| {
+        let slope = excess.derivative(mu);
+        if slope.mentions(mu) {
+            return None;
+        }
+        let op = match (sign(&slope, &scene.domains)?, strict) {
+            (Sign::Positive, true) => " > ",
+            (Sign::Positive, false) => " ≥ ",
+            (Sign::Negative, true) => " < ",
+            (Sign::Negative, false) => " ≤ ",
+            _ => return None,
+        };
+        let bound = -(excess.put(mu, &Expr::zero()) / slope);
+        let bound = tidy(&bound, &scene.domains).unwrap_or(bound);
+        Some(sentence!("{}{}{}", mu, op, &bound))
+    });
+    match solved {
+        Some(Sentence(mut solved)) => {
+            // The reason stays behind it.
+            solved.extend(words.0.iter().skip(3).cloned());
+            Sentence(solved)
+        }
+        None => words.clone(),
+    }
 }
 
 /// What is asked of velocities and spins, just before: one value, or two components.

@@ -168,7 +168,7 @@ impl Desk<'_> {
 }
 
 /// How a number was miscopied from the right one: its last digit, its sign, or a power of ten.
-fn slip_of_digits(written: &Rational, right: &Rational, place: i32) -> Option<String> {
+pub(super) fn slip_of_digits(written: &Rational, right: &Rational, place: i32) -> Option<String> {
     let half = ten_to(place) * ratio(1, 2);
     if (written - right).abs() < ten_to(place) {
         return Some("the last digit was cut off or rounded the wrong way".into());

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::desk::Desk;
+use super::desk::{Desk, for_the_coefficient};
 use crate::answer::Answer;
 use crate::answer::calc::sign;
 use crate::domain::{Domains, Origin, Relation};
@@ -49,7 +49,7 @@ impl Desk<'_> {
         for words in self.conditions(printed) {
             for (excess, strict) in words.conditions() {
                 let excess = excess.substitute(&self.closed);
-                let words = words.to_string();
+                let words = for_the_coefficient(self.scene, words).to_string();
                 all.push(Relation::needed(&excess, !strict, words, Origin::Stated));
             }
         }
