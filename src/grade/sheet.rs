@@ -3,6 +3,7 @@
 mod earlier;
 pub(in crate::grade) mod judge;
 mod rows;
+mod told;
 
 use super::believed::{self, Believed, Story, Written};
 use super::relation::{size_in, solve_for};
@@ -222,6 +223,9 @@ impl Sheet {
         let mut chosen: Vec<&Answer> = answers.iter().filter(|a| a.question == name).collect();
         let mut component = None;
         if chosen.is_empty() {
+            if let Some(entry) = self.in_relations(name) {
+                return Ok(entry);
+            }
             let answer = answers.iter().find(|a| a.name == name);
             let answer = answer.ok_or_else(|| self.without_value(name))?;
             component = Some(usize::from(answer.name.ends_with("_y")));
@@ -285,6 +289,22 @@ impl Sheet {
             ),
             None => format!("the scene asks for no {name:?}; it asks for {all}"),
         }
+    }
+
+    /// The key of an answer that is no single value, where relations of a parameter say it.
+    fn in_relations(&self, name: &str) -> Option<Entry> {
+        let answer = self.all.iter().find(|a| a.name == name)?;
+        let question = self.scene.question(&answer.question)?;
+        let content = told::relations(answer)?;
+        let mut declared = self.question();
+        declared.domains = where_it_is(&[answer], declared.domains);
+        Some(Entry {
+            name: name.to_string(),
+            question: question.clone(),
+            component: None,
+            words: answer.words.clone(),
+            key: key_of(content, &declared),
+        })
     }
 
     /// The wrong answers to a quantity that single beliefs lead to, in closed form; those to one component of a vector where
