@@ -228,13 +228,13 @@ impl Symbols {
         Some([x?, y?])
     }
 
-    /// Reads inequalities or equations, one or a chain: the formulas and what stands between them. Their dimensions are not
-    /// looked at.
+    /// Reads inequalities or equations, one or a chain: the formulas, and quantities, and what stands between them. Their
+    /// dimensions are not looked at.
     pub fn relations(
         &self,
         text: &Text,
         faults: &mut Vec<Fault>,
-    ) -> Option<(Vec<Expr>, Vec<Relation>)> {
+    ) -> Option<(Vec<Content>, Vec<Relation>)> {
         let reading = match formula::read(&text.text, &self.names) {
             Ok(reading) => reading,
             Err(trouble) => {
@@ -249,14 +249,21 @@ impl Symbols {
         let Content::Relations(sides, relations) = &reading.content else {
             return Some((Vec::new(), Vec::new()));
         };
-        let sides: Option<Vec<Expr>> = sides.iter().map(|s| s.expr().cloned()).collect();
-        Some((sides.unwrap_or_default(), relations.clone()))
+        let sides = match sides.iter().all(|side| side.expr().is_some()) {
+            true => sides.clone(),
+            false => Vec::new(),
+        };
+        Some((sides, relations.clone()))
     }
 
     /// What is wrong with comparing two formulas: their dimensions, or one within them.
-    pub fn clash(&self, a: &Expr, b: &Expr) -> Option<String> {
+    pub fn clash(&self, a: &Content, b: &Content) -> Option<String> {
         let known = |name: &str| self.dimensions.get(name).cloned().flatten();
-        let of = |e: &Expr| dimension::of(e, &known).map_err(|c| c.message(&formula::write_plain));
+        let of = |content: &Content| match (content, content.expr()) {
+            (Content::Quantity(q), _) => Ok(Some(q.unit.dimension.clone())),
+            (_, Some(e)) => dimension::of(e, &known).map_err(|c| c.message(&formula::write_plain)),
+            (_, None) => Ok(None),
+        };
         match (of(a), of(b)) {
             (Err(message), _) | (_, Err(message)) => Some(message),
             (Ok(Some(a)), Ok(Some(b))) if a != b => Some(format!("{a} is compared with {b}")),

@@ -327,7 +327,10 @@ impl Bounded<'_> {
             self.symbols.mark_used(&name);
         }
         let own = Expr::symbol(&self.name.text);
-        if let Some(message) = self.symbols.clash(&own, &e) {
+        if let Some(message) = self
+            .symbols
+            .clash(&Content::Scalar(own.clone()), &Content::Scalar(e.clone()))
+        {
             return Fault::new(formula.span, message).add_to(faults);
         }
         let sign = if open { "<" } else { "≤" };

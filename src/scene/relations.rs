@@ -9,9 +9,9 @@ use super::proof::middle;
 use super::record::Text;
 use super::{Scene, parameters};
 use crate::algebra::{Sign, sign};
-use crate::domain::{Domain, Domains, Relation, roles, samples};
+use crate::domain::{Domain, Domains, Limit, Relation, roles, samples};
 use crate::expr::{Expr, Function, Node, ratio};
-use crate::formula;
+use crate::formula::{self, Content};
 use crate::interval::{Interval, Outcome, evaluate};
 
 /// Reads the relations of a file into the scene.
@@ -47,19 +47,65 @@ pub(super) fn resolve(
             };
             let closed = matches!(relation, R::LessEqual | R::GreaterEqual);
             if let Some(message) = symbols.clash(&pair[0], &pair[1]) {
-                faults.push(Fault::new(text.span, message));
+                let mut fault = Fault::new(text.span, message);
+                if pair.iter().any(is_bare_number) {
+                    fault = fault.hint("a number has its unit behind it, such as \"v > 3 m/s\"");
+                }
+                faults.push(fault);
                 continue;
             }
-            let plain = formula::write_plain;
-            let words = format!(
-                "{} {} {}",
-                plain(&pair[0]),
-                relation.sign(),
-                plain(&pair[1])
-            );
+            let [Some(small), Some(large)] = [small, large].map(Content::expr) else {
+                continue;
+            };
+            let [left, right] = [&pair[0], &pair[1]].map(as_written);
+            let words = format!("{left} {} {right}", relation.sign());
+            let known = scene.domains.relations.len();
             add(scene, [small, large], closed, words, text.span, faults);
+            let is_new = scene.domains.relations.len() > known;
+            if is_new && pair.iter().any(|s| matches!(s, Content::Quantity(_))) {
+                bounded(scene, [small, large], closed);
+            }
         }
     }
+}
+
+/// Whether a side is a number without a unit.
+fn is_bare_number(side: &Content) -> bool {
+    matches!(side, Content::Scalar(e) if e.is_constant())
+}
+
+/// A side as it was written.
+fn as_written(side: &Content) -> String {
+    match side {
+        Content::Quantity(q) => format!("{} {}", formula::write_plain(&q.written), q.unit_text),
+        side => side.expr().map(formula::write_plain).unwrap_or_default(),
+    }
+}
+
+/// Lets the last relation, one of a parameter with a quantity, be the end of its domain: points are then found beyond it.
+fn bounded(scene: &mut Scene, [small, large]: [&Expr; 2], closed: bool) {
+    let (name, number, is_low) = match (small.as_symbol(), large.as_symbol()) {
+        (None, Some(name)) => (name, small.as_number(), true),
+        (Some(name), None) => (name, large.as_number(), false),
+        _ => return,
+    };
+    let Some(number) = number else { return };
+    let domain = scene.domains.symbols.entry(name.clone());
+    let domain = domain.or_insert_with(Domain::positive);
+    let end = if is_low {
+        &mut domain.low
+    } else {
+        &mut domain.high
+    };
+    let new = Limit::number(number.clone(), !closed);
+    let is_closer = |end: &Limit| match is_low {
+        true => end.approximate() > new.approximate(),
+        false => end.approximate() < new.approximate(),
+    };
+    if !end.as_ref().is_some_and(is_closer) {
+        *end = Some(new);
+    }
+    scene.domains.relations.pop();
 }
 
 /// Adds `small < large` (or ≤) to what is known of the parameters, unless it contradicts that.

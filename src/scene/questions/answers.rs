@@ -256,7 +256,7 @@ impl Reader<'_, '_> {
         if let ([left, right], [relation]) = (sides.as_slice(), relations.as_slice())
             && !matches!(relation, Relation::NotEqual | Relation::Approximately)
         {
-            return Some((left.clone(), *relation, right.clone()));
+            return Some((left.expr()?.clone(), *relation, right.expr()?.clone()));
         }
         let message = "expected one relation between two formulas";
         self.refuse(text, message, "such as \"K_top <= 0\" or \"omega_end = 0\"")
