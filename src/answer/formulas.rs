@@ -399,7 +399,8 @@ impl Work<'_> {
                 hint => format!("{}; {hint}", why.reason),
             };
             open.text.push(sentence!("not found: {}", why));
-            open.checks.push(Check::new("maximum", "not found", None));
+            open.checks
+                .push(Check::new("maximum", super::NOT_FOUND, None));
             vec![open]
         }))
     }

@@ -363,7 +363,7 @@ fn exact() -> Check {
 }
 
 fn open(kind: &'static str) -> Check {
-    Check::new(kind, "not found", None)
+    Check::new(kind, super::NOT_FOUND, None)
 }
 
 /// Words for a value that the parameter cannot come to.

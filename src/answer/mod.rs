@@ -36,6 +36,9 @@ use crate::scene::{Ask, Parameter, Question, Scene};
 /// The symbol whose square stands for a parameter under a root.
 const ROOT: &str = "\u{1}root";
 
+/// What a check says where nothing was found.
+pub const NOT_FOUND: &str = "not found";
+
 /// What earlier answers stand for, by name, in parameters alone.
 pub type Known = BTreeMap<Symbol, Expr>;
 

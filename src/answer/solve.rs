@@ -3,7 +3,7 @@
 //! In: an expression, the symbol, domains. Out: closed forms of the values within the domain, each with what must hold for it,
 //! and the reason why others were discarded.
 
-use num_integer::Integer;
+use num_integer::{Integer, Roots as _};
 
 use super::calc::{Seen, decisive, essential, in_bars, is_zero, seen, sign, tidy};
 use crate::algebra::{self, Element, Field, Powers, Sign, Stop};
@@ -264,7 +264,11 @@ fn within_interval(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots
         }
     }
     for coefficients in factors {
-        let candidates = match closed(&mut field, &coefficients)? {
+        let found = match closed(&mut field, &coefficients)? {
+            None => around_middle(&mut field, &coefficients)?,
+            found => found,
+        };
+        let candidates = match found {
             Some(candidates) => candidates,
             None => {
                 let factor = coefficients.iter().map(|c| field.expr(c)).collect();
@@ -308,13 +312,59 @@ fn closed(field: &mut Field, c: &[Element]) -> Result<Option<Vec<Expr>>, Unsolve
             continue;
         }
         let root = y.power(Expr::ratio(1, d as i64));
-        let minus = -&root;
-        out.push(tidied(field, &root)?);
-        if d % 2 == 0 {
-            out.push(tidied(field, &minus)?);
+        let sides = [Some(root.clone()), (d % 2 == 0).then(|| -&root)];
+        for (side, sign) in sides.into_iter().flatten().zip([1, -1]) {
+            out.push(match root_of_number(&y, d) {
+                Some(root) => Expr::from(sign) * root,
+                None => tidied(field, &side)?,
+            });
         }
     }
     Ok(Some(out))
+}
+
+/// A root of a positive number above the second, as a power of the least number that it is one of: ⁸√128 is 2^(7/8).
+fn root_of_number(y: &Expr, d: usize) -> Option<Expr> {
+    let y = y
+        .as_number()
+        .filter(|y| y.numer().as_i64() > Some(0) && d > 2)?;
+    let [over, under] = [y.numer().as_i64()?, y.denom().as_i64()?];
+    let powers = (1..=62u32)
+        .rev()
+        .map(|j| (j, over.nth_root(j), under.nth_root(j)));
+    let mut powers = powers
+        .filter(|(j, a, b)| a.checked_pow(*j) == Some(over) && b.checked_pow(*j) == Some(under));
+    let (j, a, b) = powers.next()?;
+    Some(Expr::ratio(a, b).power(Expr::ratio(i64::from(j), d as i64)))
+}
+
+/// The same of a polynomial in x and what lies in the middle of its roots, as (1 + x)⁸ = 2 is one in 1 + x.
+fn around_middle(field: &mut Field, c: &[Element]) -> Result<Option<Vec<Expr>>, Unsolved> {
+    let Some(degree) = c.iter().rposition(|c| !field.is_zero(c)).filter(|n| *n > 2) else {
+        return Ok(None);
+    };
+    let count = field.integer(degree as i64);
+    let whole = field.mul(&count, &c[degree])?;
+    let middle = field.neg(&field.div(&c[degree - 1], &whole)?);
+    if field.is_zero(&middle) {
+        return Ok(None);
+    }
+    let mut shifted = c[..=degree].to_vec();
+    for i in 0..degree {
+        for j in (i..degree).rev() {
+            let step = field.mul(&middle, &shifted[j + 1])?;
+            shifted[j] = field.add(&shifted[j], &step)?;
+        }
+    }
+    let Some(found) = closed(field, &shifted)? else {
+        return Ok(None);
+    };
+    let middle = field.expr(&middle);
+    let moved = found.iter().map(|y| match y.is_constant() {
+        true => Ok(y + &middle),
+        false => tidied(field, &(y + &middle)),
+    });
+    moved.collect::<Result<_, _>>().map(Some)
 }
 
 fn tidied(field: &mut Field, e: &Expr) -> Result<Expr, Unsolved> {

@@ -54,10 +54,12 @@ pub(super) fn fill(
     };
     let roots = solve(&gap, parameter, domains);
     let real = roots.as_ref().ok().filter(|_| relation != Relation::Equal);
-    let (roots, domains) = match real.and_then(|found| where_real(found, domains)) {
-        Some((wanted, granted)) => {
-            out.assumptions.extend(wanted);
-            (solve(&gap, parameter, &granted), &granted.clone())
+    let real = real.and_then(|found| where_real(found, domains));
+    let whole_domains = domains;
+    let (roots, domains) = match &real {
+        Some(Wanted { granted, told, .. }) => {
+            out.assumptions.extend(told.iter().cloned());
+            (solve(&gap, parameter, granted), granted)
         }
         None => (roots, domains),
     };
@@ -112,6 +114,9 @@ pub(super) fn fill(
     if let ([root], false) = (roots.inside.as_slice(), out.range.is_empty()) {
         otherwise(out, parameter, &gap, relation, root, domains);
     }
+    if let (Some(real), false) = (&real, out.range.is_empty()) {
+        unreal(out, parameter, &gap, relation, real, whole_domains);
+    }
     if rooted {
         for check in out.checks.iter_mut().filter(|c| c.kind == "sign") {
             let under = "what stands under the root has opposite signs";
@@ -135,14 +140,7 @@ fn otherwise(
         return;
     };
     let strict = matches!(relation, Relation::Less | Relation::Greater);
-    let turned = match relation.is_below() {
-        true => -gap,
-        false => gap.clone(),
-    };
-    let holds = |at_end: bool| {
-        let beyond = domains.given(&-need, at_end);
-        keeps_to(&turned, !strict, &beyond)
-    };
+    let holds = |at_end: bool| holds_there(gap, relation, &domains.given(&-need, at_end));
     let at_end = !closed || strict && holds(true) == Some(false);
     let Some(holds) = holds(at_end) else {
         return;
@@ -158,18 +156,53 @@ fn otherwise(
             *one = sharper;
         }
     }
+    out.text.push(instead(parameter, (&-need, at_end), holds));
+}
+
+/// Tells what is so where what stands under the roots of the values is negative, or zero: always or never, where that is proved.
+fn unreal(
+    out: &mut Answer,
+    parameter: &Symbol,
+    gap: &Expr,
+    relation: Relation,
+    real: &Wanted,
+    domains: &Domains,
+) {
+    let [core] = real.cores.as_slice() else {
+        return;
+    };
+    let beyond = -core;
+    for at_end in [true, false] {
+        if let Some(holds) = holds_there(gap, relation, &domains.given(&beyond, at_end)) {
+            out.text.push(instead(parameter, (&beyond, at_end), holds));
+            return;
+        }
+    }
+}
+
+/// Whether a relation is proved to hold on a whole domain, or nowhere on it.
+fn holds_there(gap: &Expr, relation: Relation, domains: &Domains) -> Option<bool> {
+    let turned = match relation.is_below() {
+        true => -gap,
+        false => gap.clone(),
+    };
+    let strict = matches!(relation, Relation::Less | Relation::Greater);
+    keeps_to(&turned, !strict, domains)
+}
+
+/// That a relation holds for every value of a parameter or for none, where something is positive, or not negative.
+fn instead(parameter: &Symbol, (there, at_end): (&Expr, bool), holds: bool) -> Sentence {
     let instead = match at_end {
-        true => Sentence::not_negative(&-need),
-        false => Sentence::positive(&-need),
+        true => Sentence::not_negative(there),
+        false => Sentence::positive(there),
     };
     let how = if holds { "every" } else { "no" };
-    let words = sentence!(
+    sentence!(
         "where {} instead, it holds for {} {}",
         instead,
         how,
         parameter
-    );
-    out.text.push(words);
+    )
 }
 
 /// What stands under the root where a difference is a root, but for positive factors: it is there, and not negative, just
@@ -225,10 +258,20 @@ fn meet(
     }
 }
 
-/// The domains within which what stands under the roots of the values is positive, and what that asks; `None` where it is sure.
-fn where_real(roots: &Roots, domains: &Domains) -> Option<(Vec<Sentence>, Domains)> {
+/// What is wanted so that values are real.
+struct Wanted {
+    /// What is to be positive.
+    cores: Vec<Expr>,
+    /// The same in words.
+    told: Vec<Sentence>,
+    /// The domains on which it is.
+    granted: Domains,
+}
+
+/// What must be positive under the roots of the values; `None` where that is sure.
+fn where_real(roots: &Roots, domains: &Domains) -> Option<Wanted> {
     let mut granted = domains.clone();
-    let mut wanted = Vec::new();
+    let (mut cores, mut told) = (Vec::new(), Vec::new());
     for part in roots.inside.iter().flat_map(|root| root.value.parts()) {
         let under = match part.node() {
             Node::Power(base, k) if k.as_number().is_some_and(|k| !k.is_integer()) => base,
@@ -245,11 +288,18 @@ fn where_real(roots: &Roots, domains: &Domains) -> Option<(Vec<Sentence>, Domain
             _ if core.is_constant() => continue,
             Seen::Proved(Sign::NotNegative) if under.parts().any(divides) => {}
             Seen::Proved(_) => continue,
-            _ => wanted.push(above_zero(&core, &granted)),
+            _ => {
+                told.push(above_zero(&core, &granted));
+                cores.push(core.clone());
+            }
         }
         granted = granted.given(&core, false);
     }
-    (granted != *domains).then_some((wanted, granted))
+    (granted != *domains).then_some(Wanted {
+        cores,
+        told,
+        granted,
+    })
 }
 
 /// On which side of the root the inequality holds.

@@ -2,7 +2,7 @@
 
 use super::Detail;
 use super::words;
-use crate::answer::{Answer, Check};
+use crate::answer::{Answer, Check, NOT_FOUND};
 use crate::scene::Scene;
 
 /// ` = 1.2 m/s`, where the scene gives every value.
@@ -33,6 +33,8 @@ pub(super) fn number(scene: &Scene, answer: &Answer) -> Option<String> {
 pub(super) fn worth_telling(checks: &[Check], detail: Detail) -> Option<String> {
     let full = detail == Detail::Full;
     let all = checks.iter().filter(|c| full || c.holds != Some(true));
+    // That it was not found stands with the answer.
+    let all = all.filter(|c| c.words != NOT_FOUND);
     known(&all.cloned().collect::<Vec<_>>())
 }
 
