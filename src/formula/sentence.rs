@@ -128,6 +128,11 @@ impl Sentence {
         beyond_zero(e, [" > ", " < "])
     }
 
+    /// `e = 0` in the same way.
+    pub fn zero(e: &Expr) -> Sentence {
+        beyond_zero(e, [" = ", " = "])
+    }
+
     /// A template with a piece in each of its gaps `{}`.
     pub fn filled<const N: usize>(template: &str, pieces: [Sentence; N]) -> Sentence {
         debug_assert_eq!(template.matches("{}").count(), N, "{template}");

@@ -11,9 +11,14 @@ use crate::scene::{Ask, Scene};
 
 /// What an answer rests on beyond what the whole solution does, which is told at its end; what is to be shown needs it all.
 pub(super) fn given_that(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer) {
-    let all = scene.has_stages() || matches!(ask, Ask::Show { .. });
+    let is_shown = matches!(ask, Ask::Show { .. });
     let given = answer.assumptions.iter();
-    let given = given.filter(|a| all || !solution.assumptions.contains(&a.to_string()));
+    let given = given.filter(|a| {
+        let words = a.to_string();
+        // Where contacts are is no matter of one answer.
+        let is_apart = scene.has_stages() && !words.contains("` lies on `");
+        is_shown || is_apart || !solution.assumptions.contains(&words)
+    });
     let given = needed(scene, given.cloned().collect());
     if !given.is_empty() {
         let mut text = vec![say("Given that ")];

@@ -20,6 +20,10 @@ pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
     let possible = possible::judge(scene, &derivation);
     let mut known = super::answer::as_decided(scene);
     for open in possible.open() {
+        if open.is_equation {
+            proof.assumptions.extend(open.told());
+            continue;
+        }
         let need = super::answer::of_condition(open).filter(|_| open.divides(&known));
         let Some(need) = need else { continue };
         if open.rule == Rule::Approach {
@@ -52,6 +56,7 @@ pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
         when: Vec::new(),
         rubs: String::new(),
         conditions: Vec::new(),
+        places: Vec::new(),
         handed: BTreeMap::new(),
         after: after.clone(),
         scene: scene.clone(),

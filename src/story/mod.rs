@@ -8,6 +8,7 @@ mod alone;
 mod answer;
 mod change;
 mod granted;
+mod grips;
 mod impact;
 mod integrate;
 mod joined;
@@ -151,7 +152,8 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
                 .map(|told| motion::stays_in_front(&placed, &stages, branch, told))
                 .and_then(|told| motion::riders_stay(&placed, &stages, branch, told))
                 .and_then(|told| impact::stays_held(&placed, &stages, branch, told))
-                .map(|told| motion::meets_again(scene, &placed, &stages, branch, told));
+                .map(|told| motion::meets_again(scene, &placed, &stages, branch, told))
+                .map(|told| grips::pulls(&placed, &stages, branch, told));
             let mut told = match (told, begins) {
                 (Ok(told), _) => told,
                 (Err(why), _) if why.contradicts => {

@@ -18,7 +18,7 @@ use crate::domain::Domains;
 use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::interval::rounding;
 use crate::numeric::follow::{self, BodyState, Component, Followed, Loss, Lost, Passed, What};
-use crate::scene::Scene;
+use crate::scene::{Scene, Stage};
 
 /// Points at which each way through the cases is followed.
 const POINTS: usize = 2;
@@ -339,6 +339,13 @@ impl Second<'_> {
         let seen = self.points.iter().filter(here);
         let seen = seen.filter_map(|seen| passed(self.scene, &seen.followed, told));
         let mut all: Vec<Vec<[usize; 2]>> = seen.map(|p| p.passing.clone()).collect();
+        if all.iter().all(Vec::is_empty) && self.has_company(told) {
+            // Which of two bodies gets farther few points may not show.
+            let more = points_of(names(self.scene), &self.scene.domains, ELSEWHERE);
+            let more = more.filter_map(|point| seen_at(self.scene, &[], point));
+            let more = more.filter_map(|s| passed(self.scene, &s.followed, told).cloned());
+            all.extend(more.map(|p| p.passing));
+        }
         let pair = *all.iter().find_map(|p| p.first())?;
         let is_everywhere = |all: &[Vec<[usize; 2]>]| all.iter().all(|p| p.contains(&pair));
         if is_everywhere(&all) {
@@ -359,6 +366,16 @@ impl Second<'_> {
             false => (" at some of the points looked at", None),
         };
         Some((pair, Check::new(POSSIBLE, between(pair) + words, holds)))
+    }
+
+    /// Whether another motion begins where this one does.
+    fn has_company(&self, told: &StageTold) -> bool {
+        let stages = &self.scene.stages;
+        let is_motion = |s: &&Stage| !s.kind.moved().is_empty();
+        let mine = stages.iter().find(|s| s.name == told.placed.name);
+        let from = mine.filter(is_motion).and_then(|mine| mine.from);
+        let beside = stages.iter().filter(|s| s.from == from).filter(is_motion);
+        from.is_some() && beside.count() > 1
     }
 
     /// Holds places, angles, velocities, spins and times of a stage against what was followed.

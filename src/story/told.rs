@@ -8,9 +8,9 @@ use crate::answer::{Answer, Check, Refused};
 use crate::derive::Derivation;
 use crate::expr::{Expr, Symbol, Vector, minus};
 use crate::formula::Sentence;
-use crate::scene::{Scene, Stage, direction};
+use crate::scene::{Ask, Scene, Stage, direction};
 use crate::verify::Proof;
-use crate::verify::possible::Possible;
+use crate::verify::possible::{Condition, Possible};
 
 /// How a body has been taking part.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -149,6 +149,8 @@ pub struct Case {
     pub rubs: String,
     /// What must be ≥ 0 for it, in words and as an expression; empty where it holds on the whole domain.
     pub conditions: Vec<(String, Expr)>,
+    /// What must hold so that its contacts lie on their bodies; the same whatever comes of the impact.
+    pub places: Vec<Condition>,
     /// What its friction needs to be ≥ 0, in the symbols of its scene.
     pub when: Vec<Expr>,
     /// Symbols that stand for what an earlier stage hands on, in the scene and the derivation, with their values.
@@ -382,6 +384,21 @@ impl Told {
     pub fn holds(&self) -> bool {
         let mut cases = self.stages.iter().flat_map(|s| &s.cases);
         self.ended.is_empty() && cases.all(|c| c.possible.holds()) && self.is_proved()
+    }
+
+    /// Whether all that fails is what somebody wanted to see shown.
+    pub fn fails_in_claims_alone(&self, scene: &Scene) -> bool {
+        let is_claim = |answer: &Answer| {
+            let question = scene.question(&answer.question);
+            question.is_some_and(|q| matches!(q.ask, Ask::Show { .. }))
+        };
+        let others = self.answers.iter().filter(|a| !is_claim(a));
+        let mut others = others
+            .flat_map(|a| &a.checks)
+            .chain(self.checks_of_stages());
+        let mut cases = self.stages.iter().flat_map(|s| &s.cases);
+        let can_be = self.ended.is_empty() && cases.all(|c| c.possible.holds());
+        can_be && !self.is_proved() && others.all(|c| c.holds != Some(false))
     }
 
     /// Whether no check failed.

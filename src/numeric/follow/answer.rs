@@ -7,8 +7,8 @@ use std::fmt;
 
 use super::impact::velocity_at;
 use super::{
-    BodyState, Component, Course, Driven, Followed, Impact, Impulse, Lost, Moved, Open, Passed,
-    Solid, State, What, kinetic, turns,
+    BodyState, Component, Course, Driven, Followed, Impact, Impulse, Lost, Moved, OfTurn, Open,
+    Passed, Solid, State, What, kinetic, turns,
 };
 use crate::expr::arithmetic::{cross, dot};
 use crate::expr::{Point, Symbol, Vector};
@@ -86,7 +86,8 @@ pub fn answer(
     values: &Point<f64>,
 ) -> Result<Answer<f64>, Unanswered> {
     if let Ask::Turn { .. } = &question.ask {
-        return of_a_turn(scene, followed, &question.ask, values);
+        let found = of_a_turn(scene, followed, &question.ask, values)?;
+        return Ok(Answer::Scalar(found.value));
     }
     let course = scene.course();
     let alone = (!scene.has_stages()).then_some(0);
@@ -110,13 +111,13 @@ pub fn answer(
     numbers.asked(&question.ask)
 }
 
-/// A turn among several, by its number.
-fn of_a_turn(
+/// What is asked of a turn among several, by its number.
+pub fn of_a_turn(
     scene: &Scene,
     followed: &Followed,
     ask: &Ask,
     values: &Point<f64>,
-) -> Result<Answer<f64>, Unanswered> {
+) -> Result<OfTurn, Unanswered> {
     let Ask::Turn {
         number,
         turns,

@@ -52,7 +52,7 @@ use super::points::{self, Needed, needed, with_angles};
 use crate::expr::{Expr, Point, Symbol, Vector};
 use crate::scene::{Scene, Stage, StageKind};
 
-pub use answer::{Unanswered, answer, named};
+pub use answer::{Unanswered, answer, named, of_a_turn};
 pub use impact::{Breach, Impact, Impulse, Opening};
 pub use lost::{Loss, Lost};
 pub use mechanism::integrated;
@@ -60,6 +60,7 @@ pub use motion::{Driven, Moved, Sample};
 pub use outline::Solid;
 pub use state::{BodyState, Component, Open, State, Why, kinetic};
 pub use tips::tips;
+pub use turns::OfTurn;
 
 /// A stage that was followed to its end.
 #[derive(Clone, Debug)]
@@ -201,6 +202,12 @@ fn through(scene: &Scene, solids: Vec<Solid>, start: &State, values: &Point<f64>
             passed.passing = passage::passing(scene, solids, &values, (stage, passed), &at_once);
             let back = passage::back_through(&course, &followed, (stage, passed), &values);
             passed.passing.extend(back);
+            for (i, pair) in passage::beside(scene, (&course, &followed), passed, &values) {
+                passed.passing.push(pair);
+                if let Ok(other) = &mut followed.stages[i] {
+                    other.passing.push(pair);
+                }
+            }
         }
         followed.stages.push(passed);
     }

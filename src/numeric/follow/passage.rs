@@ -56,18 +56,7 @@ pub(super) fn passing(
     let Some(last) = moved.samples.last().filter(|s| s.time > 0.0) else {
         return Vec::new();
     };
-    let outlines: Vec<Vec<Piece>> = (scene.bodies.iter().zip(solids))
-        .map(|(body, solid)| {
-            let mut out = Vec::new();
-            let known = pieces(body, solid.center, values, &mut out);
-            known.map(|()| out).unwrap_or_default()
-        })
-        .collect();
-    let angles = scene.bodies.iter().map(|b| match b.is_particle() {
-        true => Some(0.0),
-        false => b.angle.evaluate(values),
-    });
-    let angles: Vec<Option<f64>> = angles.collect();
+    let outlines = Outlines::of(scene, solids, values);
     let pose = |b: usize, time: f64| -> Option<[f64; 3]> {
         for moved in at_once.iter().copied().chain([moved]) {
             if let Some(i) = moved.bodies.iter().position(|m| *m == b) {
@@ -87,25 +76,164 @@ pub(super) fn passing(
     let times = times(moved);
     let mut out = Vec::new();
     for &a in &moved.bodies {
-        for b in (0..outlines.len()).filter(|b| *b != a) {
+        for b in (0..scene.bodies.len()).filter(|b| *b != a) {
             let is_seen = moved.bodies.contains(&b) && b < a;
             // What another stage moves meanwhile is looked at there.
             let is_seen = is_seen || stage.apart.contains(&b);
-            if is_seen || outlines[a].is_empty() || outlines[b].is_empty() || joined(scene, [a, b])
-            {
-                continue;
-            }
-            let placed = |body: usize, time: f64| -> Option<Vec<Placed<'_>>> {
-                let (pose, from) = (pose(body, time)?, angles[body]?);
-                Some(outlines[body].iter().map(|p| p.at(pose, from)).collect())
-            };
-            let course: Option<Vec<[Vec<Placed<'_>>; 2]>> = times
-                .iter()
-                .map(|t| Some([placed(a, *t)?, placed(b, *t)?]))
-                .collect();
-            if course.is_some_and(|course| pass(&course)) {
+            if !is_seen && outlines.pass([a, b], &times, pose) {
                 out.push([a.min(b), a.max(b)]);
             }
+        }
+    }
+    out
+}
+
+/// The outlines of the bodies of a scene, and how the file has turned them.
+struct Outlines<'a> {
+    scene: &'a Scene,
+    pieces: Vec<Vec<Piece>>,
+    angles: Vec<Option<f64>>,
+}
+
+impl<'a> Outlines<'a> {
+    fn of(scene: &'a Scene, solids: &[Solid], values: &Point<f64>) -> Outlines<'a> {
+        let outline = |(body, solid): (&Body, &Solid)| {
+            let mut out = Vec::new();
+            let known = pieces(body, solid.center, values, &mut out);
+            known.map(|()| out).unwrap_or_default()
+        };
+        let angles = scene.bodies.iter().map(|b| match b.is_particle() {
+            true => Some(0.0),
+            false => b.angle.evaluate(values),
+        });
+        Outlines {
+            scene,
+            pieces: scene.bodies.iter().zip(solids).map(outline).collect(),
+            angles: angles.collect(),
+        }
+    }
+
+    /// Whether two bodies that nothing joins pass through each other, by their poses at these times.
+    fn pass(
+        &self,
+        [a, b]: [usize; 2],
+        times: &[f64],
+        pose: impl Fn(usize, f64) -> Option<[f64; 3]>,
+    ) -> bool {
+        let has_none = [a, b].iter().any(|b| self.pieces[*b].is_empty());
+        if has_none || joined(self.scene, [a, b]) {
+            return false;
+        }
+        let placed = |body: usize, time: f64| -> Option<Vec<Placed<'_>>> {
+            let (pose, from) = (pose(body, time)?, self.angles[body]?);
+            Some(self.pieces[body].iter().map(|p| p.at(pose, from)).collect())
+        };
+        let course: Option<Vec<[Vec<Placed<'_>>; 2]>> = times
+            .iter()
+            .map(|t| Some([placed(a, *t)?, placed(b, *t)?]))
+            .collect();
+        course.is_some_and(|course| !course.is_empty() && pass(&course))
+    }
+}
+
+/// A motion on one of several branches that go on from the same impact.
+struct Branch<'a> {
+    moved: &'a Moved,
+    /// When it begins after that impact \[s\].
+    begins: f64,
+    /// When it ends; never for bodies that have come to rest and that nothing moves any more.
+    ends: f64,
+    /// All bodies that the branch moves up to there.
+    bodies: Vec<usize>,
+}
+
+impl<'a> Branch<'a> {
+    /// A motion at the end of stages, the last one first, that follow each other from where the branches part.
+    fn of(
+        course: &[Stage],
+        followed: &Followed,
+        way: impl Iterator<Item = usize>,
+        (index, passed): (usize, &'a Passed),
+    ) -> Option<Branch<'a>> {
+        let What::Motion(moved) = &passed.what else {
+            return None;
+        };
+        if course[index].during.is_some() {
+            return None;
+        }
+        let (mut begins, mut bodies) = (0.0, moved.bodies.clone());
+        for j in way {
+            // What happens at the same time as a motion before it takes no time of its own.
+            if course[j].during.is_none() {
+                begins += followed.stages[j].as_ref().ok()?.time.clone().ok()?;
+            }
+            bodies.extend(course[j].kind.moved());
+        }
+        let ends = begins + passed.time.clone().ok()?;
+        let rests = |b: &usize| {
+            let body = &passed.after.bodies[*b];
+            let mut motion = body.velocity.iter().chain([&body.spin]);
+            motion.all(|v| *v == Ok(0.0))
+        };
+        let goes_on = course.iter().any(|s| s.from == Some(index));
+        let stays = !goes_on && moved.bodies.iter().all(rests);
+        Some(Branch {
+            moved,
+            begins,
+            ends: if stays { f64::INFINITY } else { ends },
+            bodies,
+        })
+    }
+
+    /// Where it has a body at a time after the branches part; it waits before it begins to move and after it has come to rest.
+    fn pose(&self, body: usize, time: f64) -> Option<[f64; 3]> {
+        let k = self.moved.bodies.iter().position(|m| *m == body)?;
+        let lasts = self.moved.samples.last()?.time;
+        let time = (time - self.begins).clamp(0.0, lasts);
+        Some(self.moved.pose(k, time))
+    }
+}
+
+/// The motions followed before that go on beside this one, on other branches from the same impact, with the pairs of bodies that
+/// pass through each other meanwhile.
+pub(super) fn beside(
+    scene: &Scene,
+    (course, followed): (&[Stage], &Followed),
+    passed: &Passed,
+    values: &Point<f64>,
+) -> Vec<(usize, [usize; 2])> {
+    let index = followed.stages.len();
+    let way = |i: usize| successors(course[i].from, |j| course[*j].from);
+    let mut out = Vec::new();
+    for (i, other) in followed.stages.iter().enumerate() {
+        let (Ok(other), false) = (other, way(index).any(|j| j == i)) else {
+            continue;
+        };
+        let Some(parting) = way(i).find(|i| way(index).any(|j| j == *i)) else {
+            continue;
+        };
+        let branch = |index: usize, passed| {
+            let since = way(index).take_while(|j| *j != parting);
+            Branch::of(course, followed, since, (index, passed))
+        };
+        let (Some(mine), Some(theirs)) = (branch(index, passed), branch(i, other)) else {
+            continue;
+        };
+        // Where both move a body they tell of different things that may happen.
+        if mine.bodies.iter().any(|b| theirs.bodies.contains(b)) {
+            continue;
+        }
+        let window = mine.begins.max(theirs.begins)..=mine.ends.min(theirs.ends);
+        let both = [&mine, &theirs].into_iter();
+        let each = both.flat_map(|b| times(b.moved).into_iter().map(|t| t + b.begins));
+        let mut times: Vec<f64> = each.filter(|t| window.contains(t)).collect();
+        times.sort_by(f64::total_cmp);
+        let pose = |b, time| mine.pose(b, time).or_else(|| theirs.pose(b, time));
+        let outlines = Outlines::of(scene, &followed.solids, values);
+        for a in &mine.moved.bodies {
+            let pairs = theirs.moved.bodies.iter().map(|b| [*a.min(b), *a.max(b)]);
+            let passing = pairs.filter(|pair| outlines.pass(*pair, &times, pose));
+            out.extend(passing.map(|pair| (i, pair)));
         }
     }
     out
@@ -254,6 +382,20 @@ fn pass(course: &[[Vec<Placed<'_>>; 2]]) -> bool {
         size.max(reach).max(p.at[0].hypot(p.at[1]))
     });
     let tolerance = TOUCH * size;
+    // A body that is small beside its way is not told from where it touches; a particle is none.
+    let reach = |k: usize| {
+        let pieces = course[0][k].iter().map(|p| p.piece);
+        pieces.fold(0.0f64, |most, p| {
+            most.max(p.half[0].max(p.half[1]) + p.radius)
+        })
+    };
+    if [0, 1]
+        .map(reach)
+        .iter()
+        .any(|r| *r > 0.0 && *r < 10.0 * tolerance)
+    {
+        return false;
+    }
     if ways.iter().any(|way| way[0] < -tolerance) {
         return false;
     }

@@ -617,6 +617,9 @@ impl Page<'_> {
         let mut followed = stages.chain(answers).filter(followed).peekable();
         let is_followed = followed.peek().is_some() && followed.all(|c| c.holds == Some(true));
         let words = match self.told.holds() {
+            false if self.told.fails_in_claims_alone(self.scene) => {
+                "What was to be shown does not hold, as it says there; the other results stand."
+            }
             false => "A check failed: do not use these results before the fault is found.",
             true if self.solution.detail != Detail::Normal => return,
             true if is_followed && self.told.stages.iter().any(|s| s.cases.is_empty()) => {

@@ -6,7 +6,7 @@ mod motion;
 mod reached;
 mod turns;
 
-pub(super) use motion::angular;
+pub(super) use motion::{angular, bearing};
 pub(super) use reached::{
     as_decided, is_of_outcomes, leave_to_cases, needs, of_condition, of_impact, part, picked, tell,
 };
@@ -22,6 +22,7 @@ use crate::expr::{Expr, Symbol};
 use crate::formula::{Piece, Sentence, sentence};
 use crate::scene::{Ask, Question, Scene, Stage, StageKind};
 use crate::verify::APPROACH;
+use crate::verify::possible::Condition;
 
 /// Answers all questions.
 pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Refused> {
@@ -509,8 +510,14 @@ fn rests_on(case: &Case) -> Vec<Sentence> {
     let told = |words: &Sentence| is_told && words.to_string() == APPROACH;
     case.assumptions()
         .filter(|words| !told(words))
-        .chain(case.conditions.iter().map(supposed))
+        .chain(happens_where(case))
         .collect()
+}
+
+/// What must hold for an outcome of an impact.
+fn happens_where(case: &Case) -> impl Iterator<Item = Sentence> {
+    let places = case.places.iter().filter_map(Condition::told);
+    case.conditions.iter().map(supposed).chain(places)
 }
 
 /// What must be ≥ 0, with the words for it.
@@ -587,6 +594,9 @@ fn threshold(question: &Question, ways: Vec<(usize, &StageTold, Way)>) -> Vec<An
             if out.iter().any(|a| a.form == answer.form) {
                 continue;
             }
+            answer
+                .assumptions
+                .extend(case.places.iter().filter_map(Condition::told));
             way.put(&mut answer);
             if !out.is_empty() {
                 number_case(&mut answer, out.len() + 1);
@@ -650,7 +660,7 @@ fn of_case(
             let why = words::active(case);
             a.text
                 .push(sentence!("nothing is transmitted there: {}", why));
-            a.assumptions.extend(case.conditions.iter().map(supposed));
+            a.assumptions.extend(happens_where(case));
             (a.latex, a.dimension) = (answer.latex, answer.dimension);
             a.checks = case.identities().cloned().collect();
             out.push(a);

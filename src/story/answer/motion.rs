@@ -519,7 +519,13 @@ fn energy_check(told: &StageTold, domains: &Domains) -> Option<Check> {
 }
 
 /// Force of the fixed point on a turning body along a direction: m a_G less the weight.
-fn bearing(told: &StageTold, turn: &Turn, way: i64, along: &Vector, at_end: bool) -> Expr {
+pub(in crate::story) fn bearing(
+    told: &StageTold,
+    turn: &Turn,
+    way: i64,
+    along: &Vector,
+    at_end: bool,
+) -> Expr {
     let stage = &told.placed;
     let body = turn.lump(&stage.scene);
     let inertia = stage::inertia_about(stage, turn);

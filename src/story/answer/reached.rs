@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use super::super::worlds::World;
 use super::super::{Case, StageTold, line};
-use super::supposed;
+use super::{happens_where, supposed};
 use crate::answer::calc::{self, above_zero, beyond_zero, essential, is_zero, tidy};
 use crate::answer::{Answer, Form, Known, given_alike, limit};
 use crate::domain::{Domain, Domains, Origin, Relation};
@@ -115,13 +115,8 @@ pub(in crate::story) fn of_impact(scene: &Scene, case: &Case, question: &Questio
 pub(in crate::story) fn of_condition(c: &Condition) -> Option<Need> {
     let excess = c.essential.as_ref().filter(|_| !c.is_equation)?;
     let closed = c.rule != Rule::Approach;
-    let holds = match closed {
-        true => Sentence::not_negative(excess),
-        false => Sentence::positive(excess),
-    };
-    let told = sentence!("{} ({})", holds, &c.words);
     let origin = Origin::Outcome(c.words.clone());
-    Some(Need::new(excess, closed, origin, told))
+    Some(Need::new(excess, closed, origin, c.told()?))
 }
 
 /// The scene's domains where friction does what is told.
@@ -288,7 +283,9 @@ fn of_stages(
         let conditions = conditions.map(|condition @ (why, e)| {
             Need::new(e, true, Origin::Outcome(why.clone()), supposed(condition))
         });
-        ends.chain(conditions)
+        let places = case.into_iter().flat_map(|case| &case.places);
+        let places = places.filter_map(of_condition);
+        ends.chain(conditions).chain(places)
     });
     all.collect()
 }
@@ -335,12 +332,16 @@ pub(super) fn led_to(stages: &[StageTold], answer: &mut Answer) {
     let each = before.iter().rev().map(|(stage, outcome)| {
         let told = &stages[*stage];
         match told.cases.get(*outcome) {
-            Some(case) => case.conditions.iter().map(supposed).collect(),
-            None => told.assumptions.clone(),
+            Some(case) => happens_where(case).collect::<Vec<_>>(),
+            None => {
+                let mut all = told.assumptions.clone();
+                all.retain(|words| words.is_condition());
+                all
+            }
         }
     });
     let all: Vec<Sentence> = each.flatten().collect();
-    besides(answer, all.iter().filter(|words| words.is_condition()));
+    besides(answer, all.iter());
 }
 
 /// Lets an answer that is the same in all cases tell that one of them happens, where others are left away.
@@ -389,13 +390,21 @@ fn besides<'a>(answer: &mut Answer, all: impl Iterator<Item = &'a Sentence>) {
 
 /// Adds to an answer what it rests on of all that is needed.
 pub(in crate::story) fn tell(scene: &Scene, ask: &Ask, needs: &[Need], answer: &mut Answer) {
-    // A largest value needs what holds at its place.
+    // A largest value needs what holds at its place, a limit what holds as it is come to.
     let place = match ask {
         Ask::Maximum { .. } => answer.range.iter(),
         _ => [].iter(),
     };
     let place = place.map(|(of, _, value)| Some((of.as_symbol()?.clone(), value.clone())));
-    let place: Known = place.flatten().collect();
+    let mut place: Known = place.flatten().collect();
+    if let Ask::Limit {
+        parameter,
+        to: Some(to),
+        ..
+    } = ask
+    {
+        place.insert(parameter.clone(), to.clone());
+    }
     let besides = |need: &Need, all: &[Need]| {
         let others: Vec<Need> = all.iter().filter(|n| *n != need).cloned().collect();
         part(scene, &others).domains
@@ -410,9 +419,16 @@ pub(in crate::story) fn tell(scene: &Scene, ask: &Ask, needs: &[Need], answer: &
             left.retain(|n| *n != need);
             continue;
         }
-        // The place may lie where it ends.
+        // The place may lie where it ends. A limit is come to from one side, and that is told.
         let is_end = is_zero(&there.relation.excess, &scene.domains) == Some(true);
-        if !is_end && !answer.assumptions.contains(&there.told) {
+        let there = match ask {
+            Ask::Limit { .. } if is_end || tidy(&there.relation.excess, domains).is_err() => {
+                need.clone()
+            }
+            _ if is_end => continue,
+            _ => there,
+        };
+        if !answer.assumptions.contains(&there.told) {
             answer.assumptions.push(there.told);
         }
     }

@@ -7,6 +7,8 @@
 
 use std::collections::BTreeSet;
 
+use num_integer::Integer;
+
 use super::{put, rests_on, supposed, unanswered, ways};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, at_least_zero, is_zero, keeps_to, sign, tidy};
@@ -390,9 +392,15 @@ fn plain_law(terms: &[Expr], number: &Symbol, domains: &Domains) -> Result<Law, 
     let whole = tidied(first + &factor)?;
     // a + c (1 − rⁿ) may be a multiple of 1 − rⁿ⁺¹.
     let later = (0..=1).find(|j| is(&(&(&whole * &ratio.powi(*j)) - &factor)));
-    let value = match later {
-        Some(j) => &whole * &(&Expr::one() - &raised(&ratio, &(&n + &Expr::from(j)), domains)),
-        None => first + &(&factor * &(&Expr::one() - &raised(&ratio, &n, domains))),
+    let (from, parts, turns) = match later {
+        Some(j) => (Expr::zero(), whole, &n + &Expr::from(j)),
+        None => (first.clone(), factor, n),
+    };
+    let (one, power) = (Expr::one(), raised(&ratio, &turns, domains));
+    // Powers of what is more than one are more than one.
+    let value = match is_positive(&-&gap) {
+        true => from + -&parts * (power - one),
+        false => from + parts * (one - power),
     };
     Ok(Law {
         value,
@@ -409,6 +417,9 @@ fn raised(ratio: &Expr, exponent: &Expr, domains: &Domains) -> Expr {
             _ => vec![k * exponent],
         })
     };
+    if let Some((base, k)) = common_power(ratio, domains) {
+        return base.power(times(&Expr::from(k)));
+    }
     match ratio.node() {
         Node::Power(base, k) if k.as_number().is_some() => base.power(times(k)),
         _ if ratio.has_root() => match tidy(&ratio.powi(2), domains) {
@@ -417,6 +428,26 @@ fn raised(ratio: &Expr, exponent: &Expr, domains: &Domains) -> Expr {
         },
         _ => ratio.power(exponent.clone()),
     }
+}
+
+/// What is positive and of which a product is a whole power above the first: a²/(a + b)² is the square of a/(a + b).
+fn common_power(product: &Expr, domains: &Domains) -> Option<(Expr, i64)> {
+    let Node::Product(factors) = product.node() else {
+        return None;
+    };
+    let parts = factors.iter().map(|factor| match factor.node() {
+        Node::Power(base, k) => {
+            let k = k.as_number().filter(|k| k.is_integer())?;
+            Some((base.clone(), k.numer().as_i64()?))
+        }
+        _ => Some((factor.clone(), 1)),
+    });
+    let parts = parts.collect::<Option<Vec<(Expr, i64)>>>()?;
+    let k = parts.iter().fold(0, |all: i64, (_, k)| all.gcd(k));
+    let bases = parts.iter().map(|(base, each)| base.powi(each / k.max(1)));
+    let base = Expr::product(bases.collect::<Vec<_>>());
+    let is_positive = sign(&base, domains) == Seen::Proved(Sign::Positive);
+    (k > 1 && is_positive).then_some((base, k))
 }
 
 /// A sequence from its term 0 on, of which the terms from 1 on are known.

@@ -165,8 +165,7 @@ pub(super) fn hinges_fit(stage: &Stage, scene: &Scene, before: &State) -> Result
                     "whether the bodies move alike at the hinge `{}` is open: {why}",
                     hinge.name
                 );
-                let hint =
-                    "what is caught in the impact is a contact with the law sticking, not a hinge";
+                let hint = no_hinge(scene, &hinge.bodies);
                 return Err(Refused::new(&stage.name, why, hint));
             }
             if is_zero(&gap, &scene.domains) == Some(false) {
@@ -175,13 +174,27 @@ pub(super) fn hinges_fit(stage: &Stage, scene: &Scene, before: &State) -> Result
                     "with the motion handed on, `{first}` and `{second}` move differently at the hinge `{}`",
                     hinge.name
                 );
-                let hint =
-                    "what is caught in the impact is a contact with the law sticking, not a hinge";
+                let hint = no_hinge(scene, &hinge.bodies);
                 return Err(Refused::new(&stage.name, why, hint));
             }
         }
     }
     Ok(())
+}
+
+/// What to do about a hinge whose bodies do not move alike when an impact begins.
+fn no_hinge(scene: &Scene, bodies: &[usize; 2]) -> &'static str {
+    let is_struck = |b: &usize| {
+        let mut contacts = scene.contacts.iter().flat_map(|c| &c.bodies);
+        contacts.any(|struck| struck == b) || scene.blows.iter().any(|blow| blow.body == *b)
+    };
+    let mut moving = bodies.iter().filter(|b| !scene.bodies[**b].is_fixed());
+    match moving.any(is_struck) {
+        true => "what is caught in the impact is a contact with the law sticking, not a hinge",
+        false => {
+            "a hinge at the top of the scene belongs to every impact: put this one into the \"hinges\" of the impact that needs it"
+        }
+    }
 }
 
 /// Bodies that part before they touch do not collide. Gives what must be ≥ 0 for them to approach, where that is not sure.

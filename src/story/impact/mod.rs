@@ -23,6 +23,7 @@ use crate::expr::{Expr, Symbol};
 use crate::formula::{Sentence, sentence};
 use crate::scene::{ContactLaw, OneSided, Scene, Stage};
 use crate::verify::friction;
+use crate::verify::possible::Condition;
 
 /// Works out an impact.
 pub(super) fn tell(
@@ -85,19 +86,29 @@ pub(super) fn tell(
     if cases.is_empty() {
         return Err(no_case(stage, &base, contradiction));
     }
-    let mut places = Vec::new();
     for case in &mut cases {
         case.conditions.extend(approaching.iter().cloned());
-        places.extend(add_possible(case, &base.domains));
+        add_possible(case, &base.domains);
         case.after = state_after(stage, &before, case)?;
     }
     let after = cases[0].after.clone();
     let kept = kept(&base, one_sided, &cases);
     let mut assumptions: Vec<Sentence> = Vec::new();
-    places.sort_by(|a, b| a.1.cmp(&b.1));
-    places.dedup_by(|a, b| a.1 == b.1);
-    for (words, e) in cases[0].conditions.iter().chain(&places) {
+    // What one of several cases needs is told with it.
+    for condition @ (words, e) in &cases[0].conditions {
+        if cases
+            .iter()
+            .any(|case| !case.conditions.contains(condition))
+        {
+            continue;
+        }
         assumptions.push(sentence!("{} ({})", Sentence::not_negative(e), words));
+    }
+    let places = cases.iter().flat_map(|case| &case.places);
+    for told in places.filter_map(Condition::told) {
+        if !assumptions.contains(&told) {
+            assumptions.push(told);
+        }
     }
     assumptions.extend(cases.iter().filter_map(|case| gain(&base, case)));
     let checks = cases[0].proof.scene.clone();

@@ -127,6 +127,7 @@ pub(super) fn case(
         when: outcome.when.clone(),
         rubs: outcome.words.clone(),
         conditions,
+        places: Vec::new(),
         handed: handed.clone(),
         after: before.clone(),
         scene,
@@ -254,25 +255,25 @@ fn has_point(conditions: &[(String, Expr)], domains: &Domains) -> bool {
     !samples_until(&roles, &given, TRIED, |_| true).is_empty()
 }
 
-/// Adds what must hold so that a case is possible, where its conditions do not say it. Gives what must hold of places, whatever
-/// the case.
-pub(super) fn add_possible(case: &mut Case, domains: &Domains) -> Vec<(String, Expr)> {
+/// Adds what must hold so that a case is possible, where its conditions do not say it.
+pub(super) fn add_possible(case: &mut Case, domains: &Domains) {
     let known = case.conditions.iter();
     let mut known = known.fold(domains.clone(), |given, (_, e)| given.given(e, true));
     case.possible.given(&known);
-    let mut places = Vec::new();
     for open in case.possible.open() {
+        if open.is_equation {
+            case.places.push(open.clone());
+            continue;
+        }
         let Some(e) = open.essential.as_ref().filter(|_| open.divides(&known)) else {
             continue;
         };
         known = known.given(e, true);
-        let into = match open.rule {
-            Rule::Place => &mut places,
-            _ => &mut case.conditions,
-        };
-        into.push((open.words.clone(), e.clone()));
+        match open.rule {
+            Rule::Place => case.places.push(open.clone()),
+            _ => case.conditions.push((open.words.clone(), e.clone())),
+        }
     }
-    places
 }
 
 /// Makes contacts of the supports and strings that act, and asks for what tells whether each one acts or is left: the question,

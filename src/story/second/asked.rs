@@ -13,8 +13,7 @@ use super::{CLOSE, Compared, POINTS, Second, Seen, World, points_of, shaken};
 use crate::answer::{Answer, Check};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Relation;
-use crate::numeric::Answer as Found;
-use crate::numeric::follow;
+use crate::numeric::follow::{self, OfTurn};
 use crate::scene::{Ask, FrictionEvent, Question, Scene, without_case};
 
 /// How far from a threshold or a largest value its sides are looked at, in parts of it.
@@ -53,6 +52,11 @@ pub(super) struct Asked<'a> {
 impl Asked<'_> {
     /// Holds an answer against what was followed; `None` for one that no number is asked of.
     pub fn check(&self, question: &Question, answer: &Answer) -> Option<Check> {
+        // What was to be shown and is refuted may hold at some points.
+        let is_claim = matches!(question.ask, Ask::Show { .. });
+        if is_claim && answer.checks.iter().any(|c| c.holds == Some(false)) {
+            return None;
+        }
         let mut compared = Compared::default();
         let formulas = question.ask.formulas().into_iter();
         let mut about = formulas.flat_map(|formula| self.needs(formula));
@@ -168,12 +172,13 @@ impl Asked<'_> {
             let told = answer
                 .formula()
                 .and_then(|formula| formula.evaluate(&point));
-            let found = follow::answer(self.scene, &seen.followed, question, &point);
-            let (Some(told), Ok(Found::Scalar(found))) = (told, found) else {
+            let found = follow::of_a_turn(self.scene, &seen.followed, &question.ask, &point);
+            let (Some(told), Ok(OfTurn { value, rounding })) = (told, found) else {
                 return Held::Unseen;
             };
-            let gap = (told - found).abs();
-            if gap.is_nan() || gap > NOISE * told.abs().max(found.abs()) {
+            let gap = (told - value).abs();
+            if gap.is_nan() || gap > NOISE * told.abs().max(value.abs()) + rounding {
+                let found = value;
                 let apart = format!("in turn {turn} it is {told:.9} here and {found:.9} there");
                 return Held::So(false, apart);
             }

@@ -32,6 +32,7 @@ use std::collections::BTreeMap;
 use crate::derive::Derivation;
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, Vector, dot, minus};
+use crate::formula::{Sentence, sentence};
 use crate::laws::{self, Unknown};
 use crate::scene::outline::Need;
 use crate::scene::{Body, Contact, ContactLaw, Scene, touch};
@@ -104,6 +105,18 @@ impl Condition {
             verdict: self.verdict,
             essential: self.essential.clone(),
         }
+    }
+
+    /// What it asks of the parameters where it holds on a part of the domain only, with its reason.
+    pub fn told(&self) -> Option<Sentence> {
+        let essential = self.essential.as_ref()?;
+        let holds = match (self.is_equation, self.rule) {
+            (true, _) => Sentence::zero(essential),
+            // Bodies at rest against each other do not collide.
+            (false, Rule::Approach) => Sentence::positive(essential),
+            (false, _) => Sentence::not_negative(essential),
+        };
+        Some(sentence!("{} ({})", holds, &self.words))
     }
 
     /// Whether it holds on some of a part of the domain, and not on all of it.

@@ -1,0 +1,122 @@
+//! What a contact that sticks does while a body turns about it: it pushes, or it has to pull, as only what grips can.
+//!
+//! In: a rotation, told, and the stages before it. Out: the same with what is said of the contact that holds its fixed point.
+
+use super::answer::bearing;
+use super::motion::{arms, sense};
+use super::{StageTold, line};
+use crate::algebra::Sign;
+use crate::answer::calc::{Seen, essential, is_zero, sign, tidy};
+use crate::expr::{Expr, Vector, minus};
+use crate::formula::{Sentence, sentence};
+use crate::scene::{Stage, StageKind, Turn};
+
+/// A contact at the fixed point of a rotation.
+struct Grip {
+    name: String,
+    /// The direction in which it pushes the body, where the scene gives it.
+    pushes: Option<Vector>,
+}
+
+/// Says of a rotation about a contact where that would have to pull. Without a normal it pushes where its force has a part
+/// toward the center of mass.
+pub(super) fn pulls(
+    stage: &Stage,
+    stages: &[StageTold],
+    branch: Option<(usize, usize)>,
+    mut told: StageTold,
+) -> StageTold {
+    let StageKind::Turn(turn) = &stage.kind else {
+        return told;
+    };
+    let spin = &told.before.spin[turn.body];
+    let (Some(grip), Ok((way, _))) = (grip(stage, stages, branch, turn), sense(stage, spin, turn))
+    else {
+        return told;
+    };
+    if told.before.why_open([spin]).is_some() || told.energy.is_none() {
+        return told;
+    }
+    let [first, last] = arms(stage, turn, spin);
+    let mut ends = match &grip.pushes {
+        // Where the body turns, the surface that it touches is another one.
+        Some(normal) => vec![(normal, false, "beginning")],
+        None => vec![(&first, false, "beginning"), (&last, true, "end")],
+    };
+    // The end of a rotation before it was looked at there.
+    let before = branch.map(|(i, _)| &stages[i].placed.kind);
+    if matches!(before, Some(StageKind::Turn(before)) if before.body == turn.body) {
+        ends.remove(0);
+    }
+    let mut domains = stage.scene.domains.clone();
+    let mut before: Option<Expr> = None;
+    for (along, at_end, when) in ends {
+        let push = bearing(&told, turn, way, along, at_end);
+        let need = match tidy(&push, &domains) {
+            Ok(push) => essential(&push, &domains),
+            Err(_) => continue,
+        };
+        let (name, motion) = (&grip.name, &stage.name);
+        // Where it pushes by more than at the beginning, that says it all.
+        let more = before
+            .as_ref()
+            .map(|before| sign(&(&need - before), &domains));
+        if matches!(more, Some(Seen::Proved(s)) if s.is_not_negative()) {
+            continue;
+        }
+        told.assumptions.push(match sign(&need, &domains) {
+            Seen::Proved(s) if s.is_not_negative() => continue,
+            seen if seen.is_negative() || seen == Seen::Proved(Sign::NotPositive) => {
+                sentence!("`{}` grips: it pulls at the {} of `{}`", name, when, motion)
+            }
+            _ => sentence!(
+                "`{}` grips, unless {}, so that it only pushes at the {} of `{}`",
+                name,
+                Sentence::not_negative(&need),
+                when,
+                motion
+            ),
+        });
+        domains = domains.given(&need, true);
+        before = Some(need);
+    }
+    told
+}
+
+/// The contact that holds the fixed point of a rotation since the last impact there; `None` where a hinge or a string does.
+fn grip(
+    stage: &Stage,
+    stages: &[StageTold],
+    branch: Option<(usize, usize)>,
+    turn: &Turn,
+) -> Option<Grip> {
+    let domains = &stage.scene.domains;
+    let is_pivot = |at: &Vector| {
+        let mut gap = minus(at, &turn.about).into_iter();
+        gap.all(|c| is_zero(&c, domains) == Some(true))
+    };
+    let holds = |bodies: &[usize; 2], at: &Vector| bodies.contains(&turn.body) && is_pivot(at);
+    for (i, k) in branch.into_iter().flat_map(|at| line(stages, at)) {
+        let Some(case) = stages[i].cases.get(k) else {
+            continue;
+        };
+        let scene = &case.scene;
+        let mut hinges = scene.hinges.iter();
+        if hinges.any(|h| holds(&h.bodies, &h.at)) {
+            return None;
+        }
+        let mut contacts = scene.contacts.iter();
+        if let Some(contact) = contacts.find(|c| holds(&c.bodies, &c.at)) {
+            let into = contact.bodies[1] == turn.body;
+            let normal = contact.normal.clone();
+            return (!contact.is_string).then(|| Grip {
+                name: contact.name.clone(),
+                pushes: match into {
+                    true => normal,
+                    false => normal.map(|n| n.map(|c: Expr| -c)),
+                },
+            });
+        }
+    }
+    None
+}
