@@ -107,7 +107,7 @@ impl Lexer<'_> {
             }
             if !self.units_first {
                 // Without declarations 3 m g is a force more often than a unit, and m V a momentum; a word of four letters is a unit.
-                const TELLING: &str = "kg rad deg rev revs rpm cm mm km Hz Nm Ns kN kJ MJ mph ft J N kWh eV keV MeV bar hp uC uF uA pF nF mH mol";
+                const TELLING: &str = "kg rad deg rev revs rpm cm mm km Hz Nm Ns kN kJ MJ mph ft J N kWh MWh GWh kVA MVA kW MW kPa MPa GPa eV keV MeV bar hp uC uF uA pF nF mH mol";
                 let telling = words(&plain).any(|w| among(TELLING, w) || w.len() > 3)
                     || is_unit_first(&plain)
                     || plain.contains("/s")

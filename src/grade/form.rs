@@ -2,8 +2,8 @@
 
 use super::{Diagnosis, Grade, Key, Verdict};
 use crate::algebra::{Element, Field, tidy};
-use crate::expr::{Expr, Node, Symbol};
-use crate::formula::{Content, Link, Reading, Shape, Written};
+use crate::expr::{Expr, Node, Symbol, ratio};
+use crate::formula::{Content, Link, Literal, Reading, Shape, Written};
 
 /// A demand on the form of an answer.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -76,9 +76,9 @@ fn unmet(form: &Form, key: &Key, answer: &Reading) -> Option<(&'static str, Stri
             ("DIFF_FORM_SYMBOLS", words)
         }
         Form::Digits(n) => {
-            let words = match answer.literal.as_ref().map(|literal| literal.digits) {
-                Some(digits) if digits == *n => return None,
-                Some(digits) => {
+            let words = match &answer.literal {
+                Some(literal) if (counted(literal)..=literal.digits).contains(n) => return None,
+                Some(Literal { digits, .. }) => {
                     format!("{n} significant digits are asked for, and it has {digits}")
                 }
                 None => format!("a decimal number with {n} significant digits is asked for"),
@@ -107,6 +107,16 @@ fn is_long(key: &Key, answer: &Reading) -> bool {
     answer.content.answer().exprs().iter().any(long) || answer.written.last().is_some_and(reducible)
 }
 
+/// The digits of a number that surely count: those before the zeros at the end of a whole one, all of a decimal.
+fn counted(literal: &Literal) -> u32 {
+    if literal.decimal {
+        return literal.digits;
+    }
+    let number = literal.value.to_string();
+    let zeros = number.len() - number.trim_end_matches('0').len();
+    literal.digits.saturating_sub(zeros as u32).max(1)
+}
+
 /// Whether equal terms or factors stand side by side.
 fn repeats(e: &Expr) -> bool {
     let twice = |parts: &[Expr]| {
@@ -133,7 +143,78 @@ fn reducible(w: &Written) -> bool {
         }
         _ => false,
     };
-    rooted || num_integer::gcd(above, below) > 1 || w.pieces().into_iter().any(reducible)
+    rooted
+        || unfinished(w)
+        || num_integer::gcd(above, below) > 1
+        || w.pieces().into_iter().any(reducible)
+}
+
+/// Whether a step of arithmetic is left: numbers added, multiplied or raised, a term 0, a factor or an exponent 1, a fraction
+/// below a fraction line or alone above one.
+fn unfinished(w: &Written) -> bool {
+    let inside = |w: &Written| match &w.shape {
+        Shape::Bracket(inside) => (**inside).clone(),
+        _ => w.clone(),
+    };
+    let is_fraction = |w: &Written| match &inside(w).shape {
+        Shape::Fraction(..) => true,
+        Shape::Product(factors) => factors.iter().skip(1).any(|(link, _)| *link == Link::Over),
+        _ => false,
+    };
+    match &w.shape {
+        Shape::Sum(terms) => {
+            let numbers = terms.iter().filter(|(_, term)| rational(term)).count();
+            let zero = |w: &Written| w.literal().is_some_and(|l| l.value == ratio(0, 1));
+            numbers > 1 || terms.len() > 1 && terms.iter().any(|(_, term)| zero(term))
+        }
+        Shape::Product(factors) => {
+            let over = |i: usize, link: &Link| i > 0 && *link == Link::Over;
+            let all = || factors.iter().enumerate();
+            let [above, below] = [false, true].map(|side| {
+                let here = all().filter(|(i, (link, _))| over(*i, link) == side);
+                here.map(|(_, (_, factor))| factor).collect::<Vec<_>>()
+            });
+            let whole =
+                |side: &[&Written]| side.iter().filter_map(|w| signless(w)).collect::<Vec<_>>();
+            let (mine, theirs) = (whole(&above), whole(&below));
+            let one = mine.contains(&1) && above.len() > 1 || theirs.contains(&1);
+            let alone = !below.is_empty() && above.len() == 1 && is_fraction(above[0]);
+            let nested = alone || below.iter().any(|w| is_fraction(w));
+            mine.len() > 1 || theirs.len() > 1 || one || nested
+        }
+        Shape::Fraction(above, below) => {
+            is_fraction(above) || is_fraction(below) || signless(below) == Some(1)
+        }
+        Shape::Power(base, exponent) => {
+            let n = whole(exponent);
+            n == Some(1) || n.is_some() && whole(base).is_some_and(|base| base != 10)
+        }
+        _ => false,
+    }
+}
+
+/// The whole number of a factor, whatever its sign.
+fn signless(w: &Written) -> Option<i64> {
+    match &w.shape {
+        Shape::Bracket(inside) => signless(inside),
+        Shape::Sum(terms) => match &terms[..] {
+            [(_, only)] => signless(only),
+            _ => None,
+        },
+        _ => whole(w),
+    }
+}
+
+/// Whether a term is a number without a root or a function: `1`, `1/3`, `0.5`.
+fn rational(w: &Written) -> bool {
+    match &w.shape {
+        Shape::Number(_) => true,
+        Shape::Bracket(_) | Shape::Product(_) | Shape::Fraction(..) => {
+            w.pieces().into_iter().all(rational)
+        }
+        Shape::Sum(terms) => terms.iter().all(|(_, term)| rational(term)),
+        _ => false,
+    }
 }
 
 /// Greatest number in which squares are looked for.
