@@ -225,6 +225,7 @@ impl Parser<'_> {
         }
         let (start, mut end) = (first.start, first.end);
         let mut numeric = first.is_numeric();
+        let mut counted = is_counted(&first);
         let mut angle = self.has_angle(&first);
         let mut named = is_name(&first);
         let mut factors = vec![(Link::Beside, first)];
@@ -272,12 +273,30 @@ impl Parser<'_> {
                     }
                     false
                 }
+                // `arctan 3/4` and `sin π/6`: of the quotient, unless somebody meant the number above alone.
+                Tok::Slash if counted && !token.spaced => {
+                    let rest = &self.lexer.text[self.lexer.pos..];
+                    if quotient_ends(rest) {
+                        let long = self.lexer.usual();
+                        let mut stop = token.end + 1;
+                        if long {
+                            self.next()?;
+                            let below = self.factor()?;
+                            stop = below.end;
+                            factors.push((Link::Over, below));
+                        }
+                        self.lexer.note(Remark::Argument { long }, start, end, stop);
+                        end = if long { stop } else { end };
+                    }
+                    false
+                }
                 _ => false,
             };
             if !goes_on {
                 break;
             }
             let factor = self.factor()?;
+            counted &= is_counted(&factor);
             end = factor.end;
             let still = factor.is_numeric();
             angle |= self.has_angle(&factor);
@@ -330,6 +349,22 @@ fn lone_number(text: &str) -> bool {
     let behind = rest.trim_start_matches(|c: char| c.is_ascii_digit());
     let next = behind.trim_start().chars().next();
     behind.len() < rest.len() && next.is_none_or(|c| "+-−±=<>)]}|,$".contains(c))
+}
+
+/// Whether the text goes on with a whole number that ends what stands below a slash.
+fn quotient_ends(text: &str) -> bool {
+    let behind = text.trim_start_matches(|c: char| c.is_ascii_digit());
+    let next = behind.chars().next();
+    behind.len() < text.len() && next.is_none_or(|c| " +-−±=≈<>≤≥)]}|,;$*·\\".contains(c))
+}
+
+/// Whether it is a number, or π.
+fn is_counted(written: &Written) -> bool {
+    match &written.shape {
+        Shape::Number(_) => true,
+        Shape::Symbol(name) => &**name == "pi",
+        _ => false,
+    }
 }
 
 fn is_name(written: &Written) -> bool {

@@ -232,12 +232,27 @@ pub(super) fn unit_behind(
 
 /// What an author should know about an expected formula in which a slash could reach further or less far.
 pub(super) fn told(expected: &str, reading: &Reading) -> Option<String> {
-    if !reading.slashes {
-        return None;
-    }
-    let slash = |n: &&Note| matches!(n.remark, Remark::Slash { .. });
+    let slash = |n: &&Note| match n.remark {
+        Remark::Slash { .. } => reading.slashes,
+        _ => is_quotient(n, expected),
+    };
     let note = reading.notes.iter().find(slash)?;
     Some(note.message(expected))
+}
+
+/// Whether a function without brackets stands before a quotient of numbers, `arctan 3/4`.
+fn is_quotient(note: &Note, text: &str) -> bool {
+    let above = text.get(note.start..note.middle).unwrap_or_default();
+    let below = text.get(note.middle..note.end).unwrap_or_default();
+    let above = above.replace("\\pi", "π").replace("pi", "π");
+    let number = |piece: &str| {
+        piece
+            .chars()
+            .all(|c| c.is_ascii_digit() || ". π".contains(c))
+    };
+    matches!(note.remark, Remark::Argument { .. })
+        && number(&above)
+        && below.strip_prefix('/').is_some_and(number)
 }
 
 /// The fault of a slash whose reach is not shown by brackets, where that is asked for.
@@ -277,6 +292,10 @@ pub(super) fn ambiguity(
             let hint = "the formula can be read in two ways; use brackets to say which is meant";
             if tight_root(&other, answer, right) {
                 let words = "the root sign may reach over one letter or over all of them";
+                undecide(finding, words);
+            } else if !right && other.notes.iter().any(|note| is_quotient(note, answer)) {
+                let words =
+                    "the function may be taken of the quotient or of the number before the slash";
                 undecide(finding, words);
             } else if behind_fraction(&other, answer) {
                 undecide(
