@@ -316,27 +316,48 @@ fn chain(ctx: &Context, answer: &Reading, finding: &mut Grade) {
     let wrong = sides
         .get(1..)
         .and_then(|sides| broken(ctx, sides, &signs[1..]));
-    let apart = wrong.or_else(|| apart(ctx, sides, signs).filter(|_| ctx.diagnose));
-    let Some([one, two]) = apart else { return };
-    if wrong.is_some() && finding.is_equivalent() {
-        *finding = chain_apart(ctx, [one, two]);
+    let apart = apart(ctx, sides, signs).filter(|_| ctx.diagnose && wrong.is_none());
+    let apart = apart.map(|pair| pair.map(|e| Content::Scalar(e.clone())));
+    let is_wrong = wrong.is_some();
+    let Some(pair) = wrong.or(apart) else { return };
+    if is_wrong && finding.is_equivalent() {
+        *finding = chain_apart(ctx, [&pair[0], &pair[1]]);
     } else if ctx.diagnose {
         finding
             .diagnosis
-            .extend(chain_apart(ctx, [one, two]).diagnosis);
+            .extend(chain_apart(ctx, [&pair[0], &pair[1]]).diagnosis);
     }
 }
 
 /// The finding of two sides that are not equal.
-fn chain_apart(ctx: &Context, [one, two]: [&Expr; 2]) -> Grade {
-    let words = format!("{} and {} are not equal", ctx.say(one), ctx.say(two));
+fn chain_apart(ctx: &Context, pair: [&Content; 2]) -> Grade {
+    let [one, two] = pair.map(|side| match side {
+        Content::Scalar(e) => ctx.say(e),
+        other => show(other),
+    });
+    let words = format!("{one} and {two} are not equal");
     let hint = "two sides of your chain of equations are not equal";
     Grade::told("DIFF_CHAIN", "kind", words, hint)
 }
 
-/// Two neighbouring values that are not equal although a chain says so, and not what is rounded for the other; names that the
-/// question does not know may be anything.
-fn broken<'a>(ctx: &Context, sides: &'a [Content], signs: &[Relation]) -> Option<[&'a Expr; 2]> {
+/// The finding where numbers at the end of an answer are not equal although its chain says so.
+pub(super) fn numbers_apart(key: &Key, answer: &Content) -> Option<Grade> {
+    let Content::Relations(sides, signs) = answer else {
+        return None;
+    };
+    let options = Options::default();
+    let ctx = Context::new(key, &options, false);
+    let number = |side: &&Content| side.expr().is_some_and(Expr::is_constant);
+    let count = sides.iter().rev().take_while(number).count();
+    let from = sides.len() - count;
+    let [one, two] = broken(&ctx, sides.get(from..)?, signs.get(from..)?)?;
+    Some(chain_apart(&ctx, [&one, &two]))
+}
+
+/// Two values that are not equal although a chain says so, and not what is rounded for the other. A number without a unit has
+/// that of the last side; names that the question does not know may be anything, and what stands on both sides of them is
+/// equal all the same.
+fn broken(ctx: &Context, sides: &[Content], signs: &[Relation]) -> Option<[Content; 2]> {
     let unit = |side: &Content| match side {
         Content::Quantity(q) => q.unit.dimension.clone(),
         _ => Dimension::none(),
@@ -346,23 +367,33 @@ fn broken<'a>(ctx: &Context, sides: &'a [Content], signs: &[Relation]) -> Option
             .iter()
             .all(|name| &**name == "pi" || named::declared_symbol(ctx, name))
     };
-    let differ = |(pair, sign): (&'a [Content], &Relation)| {
-        let [one, two] = [pair[0].expr()?, pair[1].expr()?];
-        let same_kind = unit(&pair[0]) == unit(&pair[1]) && known(one) && known(two);
-        let exact = *sign == Relation::Equal && !(one.is_constant() && two.is_constant());
-        let apart = match sign {
-            _ if !same_kind => false,
-            Relation::Equal if exact => equality::decide(one, two, ctx.domains())
+    let measured = named::in_unit_of_last(sides);
+    let mut before: Option<(usize, &Content, &Expr)> = None;
+    for (i, side) in measured.iter().enumerate() {
+        let Some(two) = side.expr().filter(|e| known(e)) else {
+            continue;
+        };
+        let Some((from, first, one)) = before.replace((i, side, two)) else {
+            continue;
+        };
+        let between = &signs[from..i];
+        let constant = one.is_constant() && two.is_constant();
+        let same_kind = unit(first) == unit(side) || one.is_zero() && two.is_zero();
+        let equal = |sign: &Relation| matches!(sign, Relation::Equal | Relation::Approximately);
+        let rounded = constant || between.contains(&Relation::Approximately);
+        let apart = match between.iter().all(equal) {
+            false => false,
+            true if !same_kind => constant,
+            true if rounded => named::is_close(ctx, one, two) == Some(false),
+            true => equality::decide(one, two, ctx.domains())
                 .equality
                 .is_different(),
-            Relation::Equal | Relation::Approximately => {
-                named::is_close(ctx, one, two) == Some(false)
-            }
-            _ => false,
         };
-        apart.then_some([one, two])
-    };
-    sides.windows(2).zip(signs).find_map(differ)
+        if apart {
+            return Some([first.clone(), side.clone()]);
+        }
+    }
+    None
 }
 
 /// Two neighbouring sides of a chain of equations, after its first, that are not equal.

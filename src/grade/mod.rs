@@ -402,7 +402,7 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
     }
     if let Some(parts) = worked::worked(key, answer, &reading) {
         let mut grade = judge_here(key, parts.formula, options);
-        if grade.verdict == Verdict::Equivalent {
+        if !parts.is_broken(&mut grade) {
             parts.unjudged(key, &mut grade);
         }
         return grade;
@@ -433,14 +433,14 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         finding.assumed.push("the direction is not judged".into());
     }
     let settled = finding.note == "EQUIV_READING";
-    let open_to_doubt = options.strength == Strength::Identity
+    // A wrong answer is never told so where another reading is right, however fast.
+    let open_to_doubt = (options.strength == Strength::Identity
+        || finding.verdict == Verdict::Different)
         && !settled
         && (reading.choices > u32::from(reading.slashes)
             || doubt::power_of_function(&reading.content).is_some());
     doubt::euler(key, &reading, options, &mut finding);
-    if options.strength == Strength::Identity {
-        doubt::raised(key, answer, options, &mut finding);
-    }
+    doubt::raised(key, answer, options, &mut finding);
     doubt::primes(key, &reading, options, &mut finding);
     doubt::imaginary(key, &reading, &mut finding);
     doubt::any_whole_number(key, &reading, &mut finding);

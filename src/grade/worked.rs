@@ -1,6 +1,7 @@
 //! A formula with its number behind it, `v = √(2gh) = 14 m/s`: where a formula is asked that is what is judged, and the number
 //! only where the question gives values.
 
+use super::compare;
 use super::{Diagnosis, Grade, Key, Proof, Verdict, read};
 use crate::dimension;
 use crate::expr::{Expr, Symbol};
@@ -14,6 +15,8 @@ pub(super) struct Worked<'a> {
     pub number: &'a str,
     /// How that was read.
     pub reading: Reading,
+    /// What is told where the numbers are not equal to each other.
+    apart: Option<Grade>,
 }
 
 /// Cuts an answer that ends in a number with its unit, in degrees, or behind ≈, where a formula in symbols is asked; nothing
@@ -67,16 +70,33 @@ pub(super) fn worked<'a>(key: &Key, answer: &'a str, reading: &Reading) -> Optio
         &answer[..places[symbolic - 1].0],
         &answer[places.last()?.1..],
     );
+    let apart = compare::numbers_apart(key, &reading.content);
     let reading = read::answer(key, number).ok()?;
     read::answer(key, formula).ok()?;
     Some(Worked {
         formula,
         number,
         reading,
+        apart,
     })
 }
 
 impl Worked<'_> {
+    /// Makes the grade of a right formula that of a chain whose numbers are not equal, where they are not.
+    pub(super) fn is_broken(&self, grade: &mut Grade) -> bool {
+        if let Some(found) = self
+            .apart
+            .as_ref()
+            .filter(|_| grade.verdict == Verdict::Equivalent)
+        {
+            grade.verdict = found.verdict;
+            grade.note = found.note;
+            grade.proof = found.proof.clone();
+            grade.diagnosis.extend(found.diagnosis.iter().cloned());
+        }
+        grade.verdict != Verdict::Equivalent
+    }
+
     /// Tells in the grade of a right formula that its number is not judged, or that it cannot measure what is asked.
     pub(super) fn unjudged(&self, key: &Key, grade: &mut Grade) {
         let known = |name: &str| key.question.dimension_of(name);

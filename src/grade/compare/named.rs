@@ -135,7 +135,10 @@ fn nameless(
     signs: &[Relation],
 ) -> Option<Grade> {
     let plain = ctx.plain();
-    let sides = &in_unit_of_last(expected, sides);
+    let sides = &match expected {
+        Content::Quantity(_) => in_unit_of_last(sides),
+        _ => sides.to_vec(),
+    };
     let (first, others) = sides.split_first()?;
     let mut finding = values(&plain, expected, first);
     // `KE = mv²/2`: letters that stand nowhere else are a name of the value.
@@ -148,12 +151,15 @@ fn nameless(
         finding = values(&plain, expected, value);
     }
     // `10/2 = 5 m`, `2√3 ≈ 3.46 cm`: what leads to the quantity at the end.
-    if let Some((last @ Content::Quantity(_), before)) = sides.split_last()
+    let same_kind = |last: &Quantity, side: &Content| matches!(side, Content::Quantity(q) if q.unit.dimension == last.unit.dimension);
+    if let Some((last @ Content::Quantity(unit), before)) = sides.split_last()
         && matches!(expected, Content::Quantity(_))
         && signs
             .iter()
             .all(|sign| matches!(sign, Relation::Equal | Relation::Approximately))
-        && before.iter().all(|side| close(ctx, side, last))
+        && before
+            .iter()
+            .all(|side| same_kind(unit, side) && close(ctx, side, last))
     {
         let last = values(&plain, expected, last);
         if last.is_equivalent() {
@@ -173,7 +179,7 @@ fn nameless(
         // Numbers alone are no equation for anything.
         Some((_, other)) if sides.iter().all(constant) => {
             Some(match (right, first.expr(), other.expr()) {
-                (true, Some(one), Some(two)) => chain_apart(ctx, [one, two]),
+                (true, Some(_), Some(_)) => chain_apart(ctx, [first, other]),
                 _ => values(ctx, expected, first),
             })
         }
@@ -181,9 +187,9 @@ fn nameless(
     }
 }
 
-/// The sides before a quantity at the end, with its unit behind their bare numbers where a quantity is expected.
-fn in_unit_of_last(expected: &Content, sides: &[Content]) -> Vec<Content> {
-    let (Content::Quantity(_), Some(Content::Quantity(last))) = (expected, sides.last()) else {
+/// The sides before a quantity at the end, with its unit behind their bare numbers.
+pub(super) fn in_unit_of_last(sides: &[Content]) -> Vec<Content> {
+    let Some(Content::Quantity(last)) = sides.last() else {
         return sides.to_vec();
     };
     let measured = |side: &Content| match side {

@@ -144,7 +144,7 @@ impl Sheet {
         let reading = read::answer(&entry.key, answer).ok()?;
         let parts = worked(&entry.key, answer, &reading)?;
         let mut grade = self.judge_in_given(entry, parts.formula, options);
-        if grade.verdict != Verdict::Equivalent {
+        if parts.is_broken(&mut grade) {
             return Some(grade);
         }
         match self.numeric(entry, &parts.reading, parts.number, options) {
