@@ -8,6 +8,7 @@ use super::fault::{Fault, Faulty};
 use super::prose::{changes, goes_on, is_in, leads};
 use super::several::MOST;
 use super::{name, plain_unit};
+use crate::dimension;
 
 const OPEN: [&str; 2] = ["\\boxed", "\\fbox"];
 /// What ends the formula before a box.
@@ -93,6 +94,11 @@ fn around(text: &str, mut at: usize, inside: [usize; 2]) -> Faulty<String> {
         out.replace_range(start - 1..start, open);
         out.replace_range(at..start - 1, &" ".repeat(start - 1 - at));
     }
+    if joined {
+        for frame in ["\\(", "\\)", "\\[", "\\]"] {
+            out = out.replace(frame, "  ");
+        }
+    }
     Ok(out.replace('$', " "))
 }
 
@@ -142,17 +148,7 @@ fn joined_boxes(text: &str, mut at: usize) -> Faulty<Option<usize>> {
         let Some(Ok([other, _, end])) = last_box(text, at) else {
             break;
         };
-        let between = text.get(end + 1..at).unwrap_or_default();
-        let between = between.replace("\\text", " ").replace("\\quad", " ");
-        let said = between.replace(['$', '{', '}'], " ");
-        let said = said.trim();
-        let (word, name) = said.split_once(' ').unwrap_or((said, ""));
-        let named = || {
-            name.trim_end()
-                .strip_suffix('=')
-                .is_some_and(|name| !name.trim().contains(' '))
-        };
-        if !matches!(word, "and" | "or" | "," | ";") || !name.is_empty() && !named() {
+        if !joins(text.get(end + 1..at).unwrap_or_default()) {
             break;
         }
         first = Some(other);
@@ -164,6 +160,32 @@ fn joined_boxes(text: &str, mut at: usize) -> Faulty<Option<usize>> {
     let name = named.and_then(|named| named.rsplit([' ', '$']).next());
     let begins = name.and_then(|name| text[..first].rfind(name));
     Ok(Some(begins.unwrap_or(first)))
+}
+
+/// Whether what stands between two boxes joins them: a comma or a word, a unit before it, and the name of the next behind it.
+fn joins(between: &str) -> bool {
+    const DRESS: [&str; 8] = [
+        "\\text", "\\mathrm", "\\quad", "\\(", "\\)", "\\[", "\\]", "\\,",
+    ];
+    let bare = DRESS
+        .iter()
+        .fold(between.to_string(), |text, sign| text.replace(sign, " "));
+    let bare = format!(" {} ", bare.replace(['$', '{', '}'], " ").trim());
+    let signs = [" and ", " or ", ",", ";"].into_iter();
+    let Some((at, sign)) = signs
+        .filter_map(|sign| Some((bare.find(sign)?, sign)))
+        .min()
+    else {
+        return false;
+    };
+    let (unit, name) = (bare[..at].trim(), bare[at + sign.len()..].trim());
+    let name = name.strip_prefix("and ").unwrap_or(name);
+    let measures = |unit: &str| plain_unit(unit).is_some_and(|unit| dimension::unit(&unit).is_ok());
+    let named = |name: &str| {
+        name.strip_suffix('=')
+            .is_some_and(|name| !name.trim().contains(' '))
+    };
+    (unit.is_empty() || measures(unit)) && (name.is_empty() || matches!(name, "and") || named(name))
 }
 
 /// Words that take back what was said.
@@ -185,6 +207,22 @@ fn beside(before: &str, inside: &str, behind: &str) -> bool {
     let (sentence, further) = behind.split_at(end.unwrap_or(behind.len()));
     let mut all = words(sentence).chain(words(further));
     if all.any(|(word, _)| is_in(TAKEN_BACK, word)) {
+        return true;
+    }
+    // `\boxed{5}. Final answer: 10`
+    let concludes = |(word, at): (&str, usize)| {
+        let rest = behind[at + word.len()..].trim_start();
+        let said = ["is ", ":", "="]
+            .iter()
+            .find_map(|lead| rest.strip_prefix(lead));
+        let again = |said: &str| {
+            let said = bare(said).strip_prefix(inside.trim());
+            said.is_some_and(|rest| !rest.starts_with(char::is_alphanumeric))
+        };
+        said.is_some_and(|said| says_value(said) && !again(said))
+    };
+    let answers = words(behind).filter(|(word, _)| word.eq_ignore_ascii_case("answer"));
+    if answers.last().is_some_and(concludes) {
         return true;
     }
     let last = trimmed(before);
@@ -372,7 +410,7 @@ fn behind(text: &str, close: usize, math: bool, touched: bool) -> Faulty<Option<
     let body = bare(&rest[..stop]).trim_end_matches(punctuation);
     let end = close + stop;
     let apart = rest[..rest.len() - bare(rest).len()].contains([' ', '$']);
-    let unit = plain_unit(body).and_then(|plain| crate::dimension::unit(&plain).ok());
+    let unit = plain_unit(body).and_then(|plain| dimension::unit(&plain).ok());
     if unit.is_some_and(|unit| !unit.dimension.is_none() || unit.angle) {
         return Ok(Some((end, true)));
     }

@@ -52,7 +52,7 @@ use fault::Faulty;
 pub(crate) use frames::lines_apart;
 pub use note::{Note, Remark};
 use parser::{Parser, Side};
-pub(crate) use prose::changes;
+pub(crate) use prose::{before_condition, changes, concluded};
 pub use quotient::Quotient;
 pub(crate) use sentence::sentence;
 pub use sentence::{Piece, Sentence, capital, either, listed, sides, trimmed};
@@ -238,9 +238,16 @@ fn word_between(
         None => {
             let found = prose::conditional(text);
             let name = |(at, length): &(usize, usize)| &text[at + 1..at + length - 1];
-            let found = found.filter(|found| symbols.find(name(found)).is_none())?;
+            let found = found.filter(|found| symbols.find(name(found)).is_none());
+            let letter = |c: char| symbols.find(c.encode_utf8(&mut [0; 4])).is_some();
+            let known = |word: &str| symbols.find(word).is_some() || word.chars().all(letter);
+            let inside = || {
+                let read = [reading.written.first()?.start, reading.written.last()?.end];
+                let (start, end) = prose::word_inside(text, read, &known)?;
+                Some((start - 1, end - start + 2))
+            };
             (
-                found,
+                found.or_else(inside)?,
                 "give the formula alone, without the condition behind it",
             )
         }

@@ -50,7 +50,7 @@ pub(crate) fn changes(word: &str) -> bool {
         incorrectly increased instead inverse least less log logarithm minus mistaken more most multiplied negative neither \
         never no nobody none nor not nothing opposite or over per percent plus product proportional quarter quotient rather \
         ratio reciprocal reduced reverse reversed root sine square squared sum tangent tenth than third thirds thrice times \
-        triple twice unless untrue unlikely without wrong wrongly";
+        triple twice unless unlike untrue unlikely versus vs without wrong wrongly";
     CHANGING.split(' ').any(|w| word.eq_ignore_ascii_case(w))
         || word.ends_with("n't")
         || word.ends_with("n’t")
@@ -132,6 +132,16 @@ pub(super) fn behind_words(text: &str, known: &dyn Fn(&str) -> bool) -> Option<u
     }
     let (start, last) = words.last()?;
     if words.iter().any(|(_, word)| changes(word)) {
+        return None;
+    }
+    // `a with b = 2` says of b what it is, and is asked for a.
+    let beside = words.len().checked_sub(2).map_or("", |i| words[i].1);
+    let first = words[0].1;
+    let article = is_in("a i", first) && words.get(1).is_some_and(|(_, w)| !is_in(BETWEEN, w));
+    let formula = first.len() == 1 && !article || known(first);
+    let condition =
+        is_in(BETWEEN, beside) && !leads(beside) && !is_in("all both that which", beside);
+    if words.len() > 2 && formula && condition {
         return None;
     }
     let surely = |(_, word): &(usize, &str)| word.len() > 2 && !known(word);
@@ -343,7 +353,7 @@ pub(super) fn conclusion(text: &str, held: Held) -> Option<usize> {
 
 /// Where a relation starts that a word or an arrow ties to the one before it: `½mv² = mgh so v = √(2gh)`.
 fn said_between(text: &str) -> Option<usize> {
-    const WORDS: &str = " so | hence | thus | therefore | gives | yields | and so |=>|->";
+    const WORDS: &str = " so | hence | thus | therefore | gives | yields | and so | we get | we find | we obtain |=>|->";
     if text.matches(RELATIONS).count() < 2 {
         return None;
     }
@@ -361,6 +371,68 @@ pub(super) fn conditional(text: &str) -> Option<(usize, usize)> {
     let (at, length) = WORDS.iter().find_map(place)?;
     let relates = text[..at].contains(RELATIONS) && text[at + length..].contains(RELATIONS);
     relates.then_some((at, length))
+}
+
+/// Words of prose between formulas that could be products of their letters.
+const BETWEEN: &str = "after also are as assuming at because before but by does each either else except for from given hence if \
+    is let near nor not of off on out over set since so than that the then thus unless unlike until upon using versus vs was \
+    were when whenever where which while with without all any both no yes aus auf bei bis dann durch für ist mit nach nicht \
+    oder ohne sind sonst statt und von vor weil wenn wobei zu zum avec dans donc et ou où par pas pour sans sur";
+
+/// The first word of prose that stands between two formulas inside a text.
+pub(super) fn word_inside(
+    text: &str,
+    [from, to]: [usize; 2],
+    known: &dyn Fn(&str) -> bool,
+) -> Option<(usize, usize)> {
+    let blank = |c: char| c.is_whitespace() || "$,".contains(c);
+    let mut end = from;
+    for piece in text.get(from..to)?.split_inclusive(char::is_whitespace) {
+        let at = end;
+        end += piece.len();
+        let word = piece.trim_end_matches(blank);
+        if word.chars().count() < 2 || !is_in(BETWEEN, &word.to_lowercase()) || known(word) {
+            continue;
+        }
+        let (before, behind) = (&text[from..at], &text[at + word.len()..to]);
+        let before_it = before.trim_end_matches(blank).chars().next_back();
+        let behind_it = behind.trim_start_matches(blank).chars().next();
+        let ends = |c: char| c.is_alphanumeric() || ")]}'′|°%!∞".contains(c);
+        let begins = |c: char| c.is_alphanumeric() || "([{\\|√Δ∫∞".contains(c);
+        let index = before
+            .rfind("_{")
+            .is_some_and(|open| !before[open..].contains('}'));
+        if before.ends_with(blank)
+            && before_it.is_some_and(ends)
+            && behind_it.is_some_and(begins)
+            && !index
+        {
+            return Some((at, at + word.len()));
+        }
+    }
+    None
+}
+
+/// An answer before a condition that a word begins, and the name and the value of that: `v = 3 m/s at t = 2 s`.
+pub(crate) fn before_condition(text: &str) -> Option<[&str; 3]> {
+    const WORDS: &str = " at | when | with | for | given | using | where | after | since | bei | für | wenn | mit | nach ";
+    let found = |word: &'static str| text.match_indices(word);
+    let mut places = WORDS.split('|').flat_map(found);
+    let (at, word) = places.next()?;
+    let (name, value) = text[at + word.len()..].split_once('=')?;
+    let dress = |c: char| c.is_whitespace() || "$.".contains(c);
+    let [name, value] = [name, value].map(|part| part.trim_matches(dress));
+    let plain = |c: char| c.is_alphanumeric() || "_{}'\\".contains(c);
+    let several =
+        value.contains(RELATIONS) || value.contains([',', ';', ':']) || value.contains(" and ");
+    let before = text[..at].trim_end_matches([' ', ',']);
+    let is_one = places.next().is_none() && !several && !text.contains("\\boxed");
+    (is_one && !name.is_empty() && name.chars().all(plain)).then_some([before, name, value])
+}
+
+/// The last of several statements that follow from each other.
+pub(crate) fn concluded(text: &str) -> &str {
+    &text[conclusion(text, Held::of(text)).unwrap_or(0)..]
 }
 
 /// Signs between two sides.

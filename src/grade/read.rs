@@ -42,15 +42,13 @@ pub(super) fn expected(text: &str, symbols: &Symbols) -> Result<Reading, Fault> 
             },
         }
     })?;
-    // `3 i + 4 j`: two letters i and j in every term are the directions.
+    // `3 i + 4 j`: two letters i and j in every term are the directions, and so are e_x and e_y.
+    let names = reading.symbols();
+    let axes = AXES
+        .iter()
+        .any(|axes| axes.iter().all(|axis| names.contains(*axis)));
     let reading = match along_axes(text, symbols).filter(vector) {
-        Some(other)
-            if ["i", "j"]
-                .iter()
-                .all(|axis| reading.symbols().contains(*axis)) =>
-        {
-            other
-        }
+        Some(other) if axes => other,
         _ => reading,
     };
     if let Some(fault) = english(text, &reading) {
@@ -66,6 +64,9 @@ pub(super) fn expected(text: &str, symbols: &Symbols) -> Result<Reading, Fault> 
         }
     }
 }
+
+/// Letters for two directions.
+const AXES: [[&str; 2]; 2] = [["i", "j"], ["e_x", "e_y"]];
 
 /// Refuses an English word that was read as a product of its letters: `5 m/s east`, `at least 5`.
 fn english(text: &str, reading: &Reading) -> Option<Fault> {
@@ -104,10 +105,15 @@ fn arrows_put(key: &Key, text: &str) -> Option<Reading> {
     (!arrows.is_empty()).then(|| formula::read(text, &symbols).ok())?
 }
 
-/// A text with the letters i and j, where these are the directions.
+/// A text with letters for the directions.
 fn along_axes(text: &str, symbols: &Symbols) -> Option<Reading> {
-    let axes = ['i', 'j'].iter().all(|axis| text.contains(*axis));
-    axes.then(|| formula::read(text, &symbols.clone().with_lists().with_axes()).ok())?
+    let letters = |axes: &[&str; 2]| {
+        let mut letters = axes.iter().flat_map(|axis| axis.chars());
+        letters.all(|letter| text.contains(letter))
+    };
+    AXES.iter()
+        .any(letters)
+        .then(|| formula::read(text, &symbols.clone().with_lists().with_axes()).ok())?
 }
 
 /// Whether a text is read in the same way once its names are declared: there was nothing to choose, no unit, and every
@@ -127,6 +133,45 @@ pub(super) fn is_stable(reading: &Reading) -> bool {
         })
 }
 
+/// A number with a condition behind it that says of something else what it is: `v = 3 m/s at t = 2 s`. A formula, which may
+/// be right in that case alone, is not read so.
+fn before_condition(key: &Key, text: &str) -> Option<Reading> {
+    let [before, name, value] = formula::before_condition(text)?;
+    let open = Symbols::open();
+    let name = formula::read(name, &open).ok()?;
+    let name = name.expr()?.as_symbol()?.clone();
+    let number = |content: &Content| content.expr().is_some_and(Expr::is_constant);
+    let value = formula::read(value, &Symbols::strict()).ok()?;
+    let mut reading = answer(key, before).ok()?;
+    let free = |reading: &Reading| !reading.symbols().contains(&name);
+    if !number(&value.content) || !number(reading.content.answer()) {
+        return None;
+    }
+    let end = before.len();
+    reading.notes.push(Note {
+        remark: Remark::Words,
+        start: 0,
+        middle: 0,
+        end,
+    });
+    (free(&reading) && free(&key.reading)).then_some(reading)
+}
+
+/// The fault where all sides of an equation are the same as they stand, where one is asked for: `1 = 1` for `x = 1`.
+fn says_nothing(key: &Key, text: &str) -> Option<Fault> {
+    let mut sides = text.split('=').map(|side| side.trim_matches([' ', '$']));
+    let first = sides.next().unwrap_or_default();
+    let named = match &key.reading.content {
+        Content::Relations(sides, _) => sides.first() != sides.last(),
+        other => matches!(other, Content::Joined(..)),
+    };
+    let whole = !first.is_empty() && !first.ends_with(['<', '>', '!', ':']);
+    let mut others = sides.peekable();
+    let same = named && whole && others.peek().is_some() && others.all(|side| side == first);
+    let fault = Fault::new("both sides are the same", 0, text.len());
+    same.then(|| *fault.hint("say what the name is equal to"))
+}
+
 /// Whether a letter is a name before it is a unit.
 fn is_named(key: &Key, letter: &str) -> bool {
     let name = Symbol::from(letter);
@@ -140,10 +185,10 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
     {
         return answer(key, &with_sign(value, mine == theirs));
     }
-    if let Some(fault) = direction(text) {
+    if let Some(fault) = direction(text).or_else(|| says_nothing(key, text)) {
         return Err(fault);
     }
-    if let Some(reading) = with_definitions(key, text) {
+    if let Some(reading) = with_definitions(key, text).or_else(|| before_condition(key, text)) {
         return Ok(reading);
     }
     if let Some(text) = unit_of_name(text)
@@ -317,7 +362,13 @@ fn mended(key: &Key, text: &str, fault: Fault) -> Result<Reading, Fault> {
                 || is_size(&text[..at])
                 || computes(&text[..at], &open))
         {
-            return Ok(with_middle(key, text, reading, left));
+            return match is_chain(key, text, &open) {
+                true => Ok(with_middle(key, text, reading, left)),
+                false => {
+                    let fault = Fault::new("words between two formulas", 0, text.len());
+                    Err(*fault.hint("give the formula alone"))
+                }
+            };
         }
     }
     if !split && !named_quantity && reading.symbols().iter().all(known) {
@@ -332,26 +383,42 @@ fn mended(key: &Key, text: &str, fault: Fault) -> Result<Reading, Fault> {
     named.ok_or(fault)
 }
 
+/// Whether what stands between the signs of the last statement are formulas, without a word that could deny it or begin
+/// another: `F = 5 N, not F = 2 N`.
+fn is_chain(key: &Key, text: &str, open: &Symbols) -> bool {
+    let plain = formula::concluded(text).replace("\\approx", "≈");
+    let pieces: Vec<&str> = plain.split(['=', '≈']).collect();
+    let split = |note: &Note| matches!(note.remark, Remark::Letters | Remark::Words);
+    let formula = |piece: &&str, symbols: &Symbols| {
+        formula::read(piece, symbols).is_ok_and(|reading| !reading.notes.iter().any(split))
+    };
+    let (Some(first), Some(middle)) = (pieces.first(), pieces.get(1..pieces.len() - 1)) else {
+        return true;
+    };
+    let mut words = first.split(|c: char| !c.is_alphabetic() && !"'’".contains(c));
+    let readable = |piece: &&str| formula(piece, &key.readable) || formula(piece, open);
+    !words.any(formula::changes) && middle.iter().all(readable)
+}
+
 /// The number at the end of a chain with the numbers in its middle, which it has to equal.
 fn with_middle(key: &Key, text: &str, last: Reading, name: Option<Symbol>) -> Reading {
     let asked = match &key.reading.content {
         Content::Relations(sides, _) => sides[0].name().cloned(),
         _ => None,
     };
-    let Some(name) = asked.or(name) else {
-        return last;
-    };
-    let plain = text.replace("\\approx", "≈");
+    let name = asked.or(name).map(|name| Expr::symbol(&name));
+    let plain = formula::concluded(text).replace("\\approx", "≈");
     let pieces: Vec<&str> = plain.split(['=', '≈']).collect();
     let number = |piece: &&str| {
         let reading = formula::read(piece, &key.readable).ok()?;
         let plain = matches!(reading.content, Content::Scalar(_) | Content::Quantity(_));
         (plain && reading.symbols().is_empty()).then_some(reading.content)
     };
-    let middle = pieces[1..pieces.len() - 1].iter().filter_map(number);
-    let mut sides = vec![Content::Scalar(Expr::symbol(&name))];
-    sides.extend(middle);
-    if sides.len() == 1 {
+    let middle = pieces.get(1..pieces.len() - 1).into_iter().flatten();
+    let mut sides: Vec<Content> = name.map(Content::Scalar).into_iter().collect();
+    let before = sides.len();
+    sides.extend(middle.filter_map(number));
+    if sides.len() == before {
         return last;
     }
     sides.push(last.content.clone());

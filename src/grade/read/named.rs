@@ -43,11 +43,60 @@ fn is_number(text: &str) -> bool {
         .is_ok_and(|reading| matches!(reading.content, Content::Scalar(_) | Content::Quantity(_)))
 }
 
-/// A formula with names of its own that are said behind it: `m d v/I where I = M l^2/3 + m d^2`.
+/// A formula with names of its own that are said behind it: `m d v/I where I = M l^2/3 + m d^2`; or before it,
+/// `I = M l²/3 ⇒ ω = L/I`.
 pub(super) fn with_definitions(key: &Key, text: &str) -> Option<Reading> {
-    const WORDS: [&str; 6] = [
+    let several = matches!(key.reading.content, Content::Joined(..));
+    said_behind(key, text)
+        .or_else(|| said_behind(key, &definitions_last(text).filter(|_| !several)?))
+}
+
+/// A text that begins with what names are, with the statement at its end put first: each of them is an equation for a name.
+fn definitions_last(text: &str) -> Option<String> {
+    const SIGNS: [&str; 14] = [
+        "\\Longrightarrow",
+        "\\Rightarrow",
+        "\\implies",
+        "⟹",
+        "⇒",
+        "=>",
+        ", so ",
+        ", hence ",
+        ", thus ",
+        " so ",
+        " hence ",
+        " thus ",
+        "; ",
+        " and ",
+    ];
+    let equation = text.contains('=') && text.len() <= LONGEST;
+    let plain = equation.then(|| {
+        SIGNS
+            .iter()
+            .fold(text.to_string(), |text, sign| text.replace(sign, ", "))
+    })?;
+    let pieces: Vec<&str> = plain
+        .split(", ")
+        .map(|piece| piece.trim_matches([' ', '$', ',']))
+        .collect();
+    let (last, before) = pieces.split_last()?;
+    let defines = |piece: &&str| {
+        let sides: Vec<&str> = piece.split('=').map(str::trim).collect();
+        matches!(sides[..], [name, _] if !name.contains([' ', '+', '*', '/', '(', '<', '>', '^', '²']))
+    };
+    let all = !before.is_empty() && before.iter().all(defines) && last.matches('=').count() < 2;
+    all.then(|| format!("{last}, {}", before.join(", ")))
+}
+
+/// Longest text, in bytes, in which names are looked for that are said before the formula.
+const LONGEST: usize = 2_000;
+
+fn said_behind(key: &Key, text: &str) -> Option<Reading> {
+    const WORDS: [&str; 8] = [
         " where ",
         " with ",
+        " mit ",
+        " wobei ",
         "\\text{where}",
         "\\text{ where }",
         "\\text{with}",
@@ -94,7 +143,8 @@ pub(super) fn with_definitions(key: &Key, text: &str) -> Option<Reading> {
             told.push(name);
             continue;
         }
-        if declared(key, &name) || value.contains('=') || parts.len() == MOST_DEFINITIONS {
+        let twice = parts.iter().any(|(other, _)| *other == name);
+        if declared(key, &name) || twice || value.contains('=') || parts.len() == MOST_DEFINITIONS {
             return None;
         }
         symbols.declare(&name);
