@@ -11,9 +11,10 @@ use crate::expr::{Expr, Symbol, Vector, minus};
 use crate::numeric::Unknown;
 use crate::scene::{ContactLaw, Scene, Shape};
 pub(super) use motions::in_stages;
+pub(super) use slips::other_shapes;
 use slips::{
     about_places, all_places, at, changed, each, frictionless, inertia, lengths, movable, of,
-    other_shapes, places, positions, restitution, rigid, spins, sticking, velocities,
+    places, positions, restitution, rigid, spins, sticking, velocities,
 };
 
 /// A belief.

@@ -137,7 +137,7 @@ pub(super) fn about_places(s: &Scene, b: usize, k: i64) -> Vec<(Expr, String)> {
 }
 
 /// Moments of inertia a student might look up in place of the right one.
-pub(super) fn other_shapes(s: &Scene, b: usize) -> Vec<(Expr, String)> {
+pub(in crate::grade) fn other_shapes(s: &Scene, b: usize) -> Vec<(Expr, String)> {
     let m = &s.bodies[b].mass;
     let of = |n: i64, d: i64, square: &Expr, words: &str| {
         let value = Expr::ratio(n, d) * m * square.powi(2);

@@ -1,7 +1,7 @@
 //! From which wrong line a later one follows: what each wrong line implies is kept, and tried.
 
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rustc_hash::FxHashMap;
 
@@ -9,11 +9,11 @@ use super::super::relation::{angle_in, follows, size_in, solve_for, under_root};
 use super::bind::Values;
 use super::link::Link;
 use super::{Desk, MOST_CAUSES, MOST_STATED};
-use crate::algebra::tidy;
+use crate::algebra::{Sign, sign, tidy};
 use crate::dimension::Dimension;
 use crate::domain::Domain;
 use crate::equality::{self};
-use crate::expr::{Expr, Node, Symbol, effort};
+use crate::expr::{Expr, Function, Node, Symbol, effort};
 use crate::formula::{self, Content, Reading};
 use crate::laws::{self, Geometry, Kinematics, Law, Unknown};
 use crate::scene::{Ask, EnergyWhen, Question, Scene};
@@ -31,14 +31,24 @@ impl Desk<'_> {
     /// The wrong line from which equations follow: they hold in the motion it implies, or say the same.
     pub(super) fn cause(&self, text: &str, link: &Link) -> Option<usize> {
         let differences = &link.differences;
-        // A name that was defined with a slip, had it been defined without.
-        let slipped = self.slipped.iter().rev().map(|(cause, name, value)| {
-            let meant: Vec<Expr> = differences.iter().map(|d| d.put(name, value)).collect();
-            (cause, meant)
-        });
-        let mut slipped = slipped.filter(|(_, meant)| meant != differences);
-        if let Some((cause, _)) = slipped.find(|(_, meant)| self.vanish(meant, &Values::new())) {
-            return Some(*cause);
+        // A name that was defined with a slip, had it been defined without, or all that hang on one slip.
+        let one = |(cause, name, value): &(usize, Symbol, Expr)| {
+            (*cause, Values::from([(name.clone(), value.clone())]))
+        };
+        let mut slipped: Vec<(usize, Values)> = self.slipped.iter().rev().map(one).collect();
+        let mut together: BTreeMap<usize, Values> = BTreeMap::new();
+        for (cause, values) in &slipped {
+            together.entry(*cause).or_default().extend(values.clone());
+        }
+        slipped.extend(together.into_iter().filter(|(_, values)| values.len() > 1));
+        for (cause, values) in slipped {
+            let own = differences.iter().map(|d| self.with_own_but(d, &values));
+            let own: Vec<Expr> = own.collect();
+            let uses = |d: &Expr| values.keys().any(|name| d.mentions(name));
+            let meant: Vec<Expr> = own.iter().map(|d| d.substitute(&values)).collect();
+            if own.iter().any(uses) && self.vanish(&meant, &Values::new()) {
+                return Some(cause);
+            }
         }
         // The latest first.
         let mut implied = self.believed.iter().rev();
@@ -85,11 +95,36 @@ impl Desk<'_> {
 
     /// Notes equations for later lines.
     pub(super) fn state(&mut self, cause: Option<usize>, differences: &[Expr]) {
-        let all = differences.iter().map(|d| (cause, self.with_own(d)));
+        let plain = |d: &Expr| self.without_sizes(&self.with_own(d));
+        let all = differences.iter().map(|d| (cause, plain(d)));
         let all: Vec<_> = all.collect();
         self.stated.extend(all);
         let excess = self.stated.len().saturating_sub(MOST_STATED);
         self.stated.drain(..excess);
+    }
+
+    /// An equation with what is found in the place of its size, by the sign that it has in truth: −ω for |ω|.
+    fn without_sizes(&self, e: &Expr) -> Expr {
+        let Node::Call(Function::Abs, x) = e.node() else {
+            return e.map_parts(|part| self.without_sizes(part));
+        };
+        let truth = x.as_symbol().and_then(|name| self.closed.get(name));
+        match truth.and_then(|truth| sign(truth, &self.sheet.scene.domains)) {
+            Some(Sign::Positive | Sign::NotNegative) => x.clone(),
+            Some(Sign::Negative | Sign::NotPositive) => -x,
+            _ => e.clone(),
+        }
+    }
+
+    /// Whether an equation above that holds says what a quantity is, of what is given alone.
+    pub(super) fn is_settled(&self, name: &Symbol) -> bool {
+        let parameters = &self.sheet.scene.parameters;
+        let given = |n: &Symbol| &**n == "pi" || parameters.iter().any(|p| p.name == *n);
+        let mut held = self.stated.iter().filter(|(cause, _)| cause.is_none());
+        held.any(|(_, e)| {
+            let mut others = e.symbols();
+            others.remove(name) && others.iter().all(given)
+        })
     }
 
     /// The wrong line that makes an equation follow from those above it: they are solved for one name after another, first

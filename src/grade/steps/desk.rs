@@ -375,12 +375,21 @@ impl<'a> Desk<'a> {
 
     /// An expression with own names put in, which may use one another.
     fn with_names(&self, e: &Expr) -> Expr {
+        self.with_own_but(e, &BTreeMap::new())
+    }
+
+    /// The same without some of them.
+    pub(super) fn with_own_but(&self, e: &Expr, others: &BTreeMap<Symbol, Expr>) -> Expr {
         let mut e = e.clone();
         for _ in 0..self.own.len().min(8) {
-            if !e.symbols().iter().any(|name| self.own.contains_key(name)) {
+            let mut used = e.symbols();
+            used.retain(|name| !others.contains_key(name));
+            let own = |name: Symbol| Some((name.clone(), self.own.get(&name)?.clone()));
+            let own: BTreeMap<Symbol, Expr> = used.into_iter().filter_map(own).collect();
+            if own.is_empty() {
                 break;
             }
-            e = e.substitute(&self.own);
+            e = e.substitute(&own);
         }
         e
     }

@@ -1,10 +1,11 @@
 //! Moments of inertia that a line names or writes out, of one body or of several together.
 
+use super::super::belief::other_shapes;
 use super::super::{Diagnosis, Tolerance, number};
 use super::Desk;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol, ratio};
-use crate::scene::Body;
+use crate::scene::{Body, Shape};
 
 /// Most points about which a moment of inertia is tried.
 const MOST_POINTS: usize = 8;
@@ -28,8 +29,10 @@ fn together(each: &[Expr]) -> impl Iterator<Item = Expr> {
 
 /// The finding about a moment of inertia whose name says about which point it is.
 pub(super) fn is_other_inertia(name: &Symbol) -> Diagnosis {
-    let place = name.trim_start_matches("I_");
-    let words = format!("the moment of inertia about {place} is another one");
+    let words = match name.strip_prefix("I_") {
+        Some(place) => format!("the moment of inertia about {place} is another one"),
+        None => "the moment of inertia is that of another shape".to_string(),
+    };
     let hint = "moments of inertia: I_G of the shape, plus m times the square of the distance to G";
     Diagnosis::new("INERTIA", words, hint)
 }
@@ -49,6 +52,9 @@ impl Desk<'_> {
     /// of no body and of no bodies together.
     pub(super) fn other_inertia(&self, name: &Symbol, value: &Expr) -> Option<Expr> {
         let scene = &self.sheet.scene;
+        if &**name == "I" {
+            return self.inertia_of_round(value);
+        }
         let place = name.strip_prefix("I_")?;
         let point = scene.points.iter().find(|p| p.name == place);
         if point.is_none() && place != "G" || scene.bodies.iter().any(|b| b.name == place) {
@@ -71,6 +77,26 @@ impl Desk<'_> {
             decision.equality.is_different()
         });
         others.then(|| each.into_iter().next()).flatten()
+    }
+
+    /// The moment of inertia of something round where a value is that of another round shape, and of nothing in the scene.
+    fn inertia_of_round(&self, value: &Expr) -> Option<Expr> {
+        let scene = &self.sheet.scene;
+        let round = |body: &Body| {
+            use Shape::{Disk, Ring, Sphere};
+            let shape = matches!(body.shape, Disk { .. } | Ring { .. } | Sphere { .. });
+            shape && !body.is_fixed()
+        };
+        let mine = self.with_own(value);
+        let same = |other: &Expr| equality::decide(&mine, other, &scene.domains).equality;
+        let is_other = |b: usize| {
+            let mut others = other_shapes(scene, b).into_iter();
+            others.any(|(other, _)| matches!(same(&other), Equality::Same { .. }))
+        };
+        let bodies = scene.bodies.iter().enumerate();
+        let mut bodies = bodies.filter(|(_, body)| round(body));
+        let (_, body) = bodies.find(|(b, _)| is_other(*b))?;
+        (!self.is_inertia(value)).then(|| body.inertia.clone())
     }
 
     /// Whether a value is the moment of inertia of bodies of the scene about the center of one or a point that the scene names.

@@ -154,7 +154,7 @@ impl Desk<'_> {
             let mine = self.with_own(&first) - &true_value;
             let mut earlier = self.slipped.iter();
             let cause = earlier.find(|(_, name, truth)| {
-                name.starts_with("I_") && self.is_zero(&(&off(name, truth) - &mine))
+                name.starts_with('I') && self.is_zero(&(&off(name, truth) - &mine))
             });
             let cause = cause.map(|(cause, ..)| *cause);
             self.own.insert(name.clone(), last);

@@ -145,7 +145,10 @@ impl Desk<'_> {
             let belief =
                 |d: &Diagnosis| d.code == "TWO_BELIEFS" || BELIEFS.iter().any(|b| b.code == d.code);
             // Behind a side that is right a slip of algebra follows, and no belief; what a belief explains needs no other words.
+            let settled = name.is_some_and(|name| self.is_settled(name));
             match at {
+                // So does one behind a law that holds.
+                _ if settled => found.retain(|d| !belief(d)),
                 0 if found.iter().any(belief) => found.retain(|d| {
                     !d.code.starts_with("SYMBOLS_")
                         && !["SPECIAL_CASE", "SMALL_ANGLE"].contains(&d.code)
