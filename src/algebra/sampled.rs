@@ -54,8 +54,11 @@ impl Points {
     }
 }
 
-/// Coefficients in doubles, with the variables of their monomials and the exponents.
-fn in_doubles(p: &Poly) -> Vec<(f64, SmallVec<[(usize, i32); 4]>)> {
+/// The variables of a monomial, with their exponents.
+type Powers = SmallVec<[(usize, i32); 4]>;
+
+/// Coefficients in doubles, with their monomials.
+fn in_doubles(p: &Poly) -> Vec<(f64, Powers)> {
     let coefficient = |k: &Int| to_f64(&Rational::from(k.clone()));
     let own = |mono| powers(mono).map(|(v, k)| (v, k as i32)).collect();
     p.terms()

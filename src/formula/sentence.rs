@@ -300,10 +300,10 @@ mod tests {
 
     #[test]
     fn what_a_condition_needs_is_no_half_of_an_alternative() {
-        let [u, v, w] = ["u", "v", "w"].map(|name| Expr::symbol(name));
+        let [u, v, w] = ["u", "v", "w"].map(Expr::symbol);
         let [first, second] = [(&v - &u, false), (&v - &w, true)];
         let one = sentence!("{} ≥ {} (so that it slides)", &v, &u);
-        assert_eq!(one.conditions().collect::<Vec<_>>(), [first.clone()]);
+        assert!(one.conditions().eq([first.clone()]));
         let both = sentence!("{} ≤ {} and {} > {}", &u, &v, &v, &w);
         assert_eq!(both.condition(), Some(first.clone()));
         assert_eq!(
