@@ -382,18 +382,16 @@ fn pass(course: &[[Vec<Placed<'_>>; 2]]) -> bool {
         size.max(reach).max(p.at[0].hypot(p.at[1]))
     });
     let tolerance = TOUCH * size;
-    // A body that is small beside its way is not told from where it touches; a particle is none.
+    // A body that touches when it begins and is small beside its way is not told from where that was; a particle is none.
     let reach = |k: usize| {
         let pieces = course[0][k].iter().map(|p| p.piece);
         pieces.fold(0.0f64, |most, p| {
             most.max(p.half[0].max(p.half[1]) + p.radius)
         })
     };
-    if [0, 1]
-        .map(reach)
-        .iter()
-        .any(|r| *r > 0.0 && *r < 10.0 * tolerance)
-    {
+    let is_small = |reach: &f64| *reach > 0.0 && *reach < 10.0 * tolerance;
+    let touch = ways.iter().any(|way| way[0].abs() <= tolerance);
+    if touch && [0, 1].map(reach).iter().any(is_small) {
         return false;
     }
     if ways.iter().any(|way| way[0] < -tolerance) {
