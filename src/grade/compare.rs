@@ -354,10 +354,17 @@ pub(super) fn numbers_apart(key: &Key, answer: &Content) -> Option<Grade> {
     Some(chain_apart(&ctx, [&one, &two]))
 }
 
-/// Two values that are not equal although a chain says so, and not what is rounded for the other. A number without a unit has
-/// that of the last side; names that the question does not know may be anything, and what stands on both sides of them is
-/// equal all the same.
+/// Two values that are not equal although a chain says so, whether its numbers without a unit have that of the last side or are
+/// counted in SI units.
 fn broken(ctx: &Context, sides: &[Content], signs: &[Relation]) -> Option<[Content; 2]> {
+    let [by_last, by_si] = named::in_unit_of_last(sides);
+    let pair = apart_in(ctx, &by_last, signs)?;
+    apart_in(ctx, &by_si, signs).map(|_| pair)
+}
+
+/// Two values that are not equal although a chain says so, and not what is rounded for the other. Names that the question does
+/// not know may be anything, and what stands on both sides of them is equal all the same.
+fn apart_in(ctx: &Context, measured: &[Content], signs: &[Relation]) -> Option<[Content; 2]> {
     let unit = |side: &Content| match side {
         Content::Quantity(q) => q.unit.dimension.clone(),
         _ => Dimension::none(),
@@ -367,7 +374,6 @@ fn broken(ctx: &Context, sides: &[Content], signs: &[Relation]) -> Option<[Conte
             .iter()
             .all(|name| &**name == "pi" || named::declared_symbol(ctx, name))
     };
-    let measured = named::in_unit_of_last(sides);
     let mut before: Option<(usize, &Content, &Expr)> = None;
     for (i, side) in measured.iter().enumerate() {
         let Some(two) = side.expr().filter(|e| known(e)) else {

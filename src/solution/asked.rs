@@ -16,7 +16,7 @@ use crate::answer::{Answer, Form};
 use crate::expr::{Expr, Point, Symbol};
 use crate::formula::Relation;
 use crate::formula::{Piece, Sentence};
-use crate::scene::{Ask, Scene, without_case};
+use crate::scene::{Ask, Scene};
 
 /// Largest formula, in nodes, that is worth a line on the way to an identity.
 const READABLE: usize = 120;
@@ -304,10 +304,8 @@ pub(super) fn defined(
     if let Some(step) = solution.steps.last_mut() {
         step.defines = fresh.then_some(name);
         step.near = answer.near.clone();
-        if without_case(&answer.name) != answer.name {
-            let case = answer.assumptions.iter().flat_map(Sentence::conditions);
-            step.needs = case.map(|(e, _)| e).collect();
-        }
+        let given = answer.assumptions.iter().flat_map(Sentence::conditions);
+        step.needs = given.map(|(e, _)| e).collect();
     }
     id
 }

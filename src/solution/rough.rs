@@ -63,7 +63,7 @@ impl Writer<'_> {
         let mut text = vec![say(format!("In the case worked out here {does}"))];
         let is_short = |(left, _, right): &&(Expr, _, Expr)| left.size() + right.size() <= LONG;
         if !decided.when.is_empty() && decided.when.iter().all(|c| is_short(&c)) {
-            text.push(say(", which is so where "));
+            text.push(say(", for "));
             let all = decided.when.iter().map(|(left, relation, right)| {
                 Inline::Math(words::related(left, relation.sign(), right))
             });

@@ -3,12 +3,14 @@
 
 use std::collections::BTreeSet;
 
+use num_traits::{One, Zero};
+
 use super::super::{Diagnosis, Grade, Tolerance, Verdict, number, relation};
-use super::{Context, chain, chain_apart, kind, quotient, values};
+use super::{Context, apart_in, chain, chain_apart, kind, quotient, values};
 use crate::algebra::Sign;
-use crate::dimension::{self, Dimension};
+use crate::dimension::{self, Dimension, Unit};
 use crate::domain::Sample;
-use crate::expr::{Expr, Function, Node, Symbol, ratio};
+use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
 use crate::formula::{self, Content, Quantity, Reading, Relation};
 use crate::interval::{Interval, Outcome, evaluate};
 
@@ -136,7 +138,13 @@ fn nameless(
 ) -> Option<Grade> {
     let plain = ctx.plain();
     let sides = &match expected {
-        Content::Quantity(_) => in_unit_of_last(sides),
+        Content::Quantity(_) => {
+            let [by_last, by_si] = in_unit_of_last(sides);
+            match apart_in(ctx, &by_last, signs) {
+                None => by_last,
+                Some(_) => by_si,
+            }
+        }
         _ => sides.to_vec(),
     };
     let (first, others) = sides.split_first()?;
@@ -187,19 +195,27 @@ fn nameless(
     }
 }
 
-/// The sides before a quantity at the end, with its unit behind their bare numbers.
-pub(super) fn in_unit_of_last(sides: &[Content]) -> Vec<Content> {
+/// The sides before a quantity at the end, their bare numbers counted in its unit, and counted in SI units: `x = 50 = 50 cm` and
+/// `x = 0.5 = 50 cm` are both meant so.
+pub(super) fn in_unit_of_last(sides: &[Content]) -> [Vec<Content>; 2] {
     let Some(Content::Quantity(last)) = sides.last() else {
-        return sides.to_vec();
+        return [sides.to_vec(), sides.to_vec()];
     };
-    let measured = |side: &Content| match side {
-        Content::Scalar(e) if e.is_constant() => {
-            let quantity = Quantity::of(e.clone(), last.unit.clone(), &last.unit_text);
-            Content::Quantity(Box::new(quantity))
-        }
-        other => other.clone(),
+    let si = Unit {
+        factor: Rational::one(),
+        pi: Rational::zero(),
+        ..last.unit.clone()
     };
-    sides.iter().map(measured).collect()
+    [&last.unit, &si].map(|unit| {
+        let measured = |side: &Content| match side {
+            Content::Scalar(e) if e.is_constant() => {
+                let quantity = Quantity::of(e.clone(), unit.clone(), &last.unit_text);
+                Content::Quantity(Box::new(quantity))
+            }
+            other => other.clone(),
+        };
+        sides.iter().map(measured).collect()
+    })
 }
 
 /// Whether a side behind ≈ is the expected value with its factor rounded, or cut, to the digits written.
