@@ -114,6 +114,7 @@ pub(super) fn compare(
         let mut doubles = with_angles(&doubles);
         let here = Here::default();
         for (claim, told) in claims.iter().zip(&mut told) {
+            let is_so = holds(&claim.needs, &doubles);
             if let Some(name) = &claim.defines
                 && matches!(meanings.get(name), Some(Meaning::Defined))
                 && !doubles.values.contains_key(name)
@@ -128,11 +129,12 @@ pub(super) fn compare(
                     told.held = true;
                     continue;
                 }
-                if let Some(Err(why)) = defined.held(name, &claim.right, (&doubles, &here)) {
+                if is_so && let Some(Err(why)) = defined.held(name, &claim.right, (&doubles, &here))
+                {
                     told.failed = told.failed.take().or(Some(why));
                 }
             }
-            if !holds(&claim.needs, &doubles) {
+            if !is_so {
                 continue;
             }
             match compared(claim, &point, &doubles) {

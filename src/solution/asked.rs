@@ -16,7 +16,7 @@ use crate::answer::{Answer, Form};
 use crate::expr::{Expr, Point, Symbol};
 use crate::formula::Relation;
 use crate::formula::{Piece, Sentence};
-use crate::scene::{Ask, Scene};
+use crate::scene::{Ask, Scene, without_case};
 
 /// Largest formula, in nodes, that is worth a line on the way to an identity.
 const READABLE: usize = 120;
@@ -304,7 +304,11 @@ pub(super) fn defined(
     if let Some(step) = solution.steps.last_mut() {
         step.defines = fresh.then_some(name);
         step.near = answer.near.clone();
-        let given = answer.assumptions.iter().flat_map(Sentence::conditions);
+        let is_of_a_case = without_case(&answer.name) != answer.name;
+        let given = answer.assumptions.iter();
+        let given =
+            given.filter(|a| is_of_a_case || !solution.assumptions.contains(&a.to_string()));
+        let given = given.flat_map(Sentence::conditions);
         step.needs = given.map(|(e, _)| e).collect();
     }
     id
