@@ -157,6 +157,7 @@ impl Worked {
                 None => Chapter::Motion(Course {
                     begin: story::beginning(&self.told, i),
                     kind: t.placed.kind.clone(),
+                    elsewhere: self.scene.moved_meanwhile(&t.placed.name),
                     asked: self.asked_of(&t.placed.name),
                 }),
             };

@@ -633,7 +633,9 @@ fn what_bounces_on_rough_ground_is_followed_to_the_same_end() {
                 Err(why) if why.to_string().contains("move apart") => return Ok(()),
                 Err(why) => return Err(TestCaseError::fail(format!("{why}\n{text}"))),
             };
-            if found.refusals().iter().any(|why| why.contains("separate")) {
+            // A box that lies flat may not turn into the ground.
+            let goes = |why: &String| ["separate", "pass through"].iter().any(|words| why.contains(words));
+            if found.refusals().iter().any(goes) {
                 return Ok(());
             }
             told.fetch_add(1, Ordering::Relaxed);

@@ -169,6 +169,8 @@ pub struct Course {
     pub begin: Scene,
     /// What happens.
     pub kind: StageKind,
+    /// Bodies that other stages move meanwhile, which their figures show.
+    pub elsewhere: Vec<usize>,
     /// What is asked about it.
     pub asked: Vec<Question>,
 }

@@ -72,6 +72,7 @@ fn course(stage: &crate::scene::Stage) -> Course {
     Course {
         begin,
         kind: stage.kind.clone(),
+        elsewhere: Vec::new(),
         asked: Vec::new(),
     }
 }

@@ -187,6 +187,17 @@ impl Scene {
         }
     }
 
+    /// The bodies that other stages move while the stage with this name lasts.
+    pub fn moved_meanwhile(&self, name: &str) -> Vec<usize> {
+        let first = |(j, stage): (usize, &Stage)| stage.during.as_ref().map_or(j, |d| d.stage);
+        let all = || self.stages.iter().enumerate();
+        let Some(mine) = all().find(|(_, stage)| stage.name == name).map(first) else {
+            return Vec::new();
+        };
+        let others = all().filter(|(j, stage)| stage.name != name && first((*j, stage)) == mine);
+        others.flat_map(|(_, stage)| stage.kind.moved()).collect()
+    }
+
     /// The first turn of a repeated group as a scene of its own, which begins wherever one lets it.
     pub fn turn(&self, turns: &Turns) -> Scene {
         let range = turns.turn(1);

@@ -37,7 +37,7 @@ def main():
         return 0
     carom, target = sys.argv[1], pathlib.Path(sys.argv[2])
     target.mkdir(parents=True, exist_ok=True)
-    every = (p for part in ("book", "more", "problems") for p in pathlib.Path("derivations", part).glob("*.json"))
+    every = (p for part in ("book", "friction", "more", "problems") for p in pathlib.Path("derivations", part).glob("*.json"))
     scenes = [pathlib.Path(name) for name in sys.argv[3:]] or sorted(every)
     faults = []
     for scene in scenes:

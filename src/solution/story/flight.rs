@@ -107,7 +107,8 @@ impl Page<'_> {
                 continue;
             }
             let raw = self.falls_with(told, fall, *b, time);
-            let index = match bodies.len() {
+            let meanwhile = self.scene.moved_meanwhile(&told.placed.name);
+            let index = match bodies.len() + meanwhile.len() {
                 1 => String::from("y"),
                 _ => format!("{},y", words::center(self.scene, *b)),
             };
