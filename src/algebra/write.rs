@@ -96,6 +96,9 @@ impl Field {
             let above = Parts::monomial(x.num.coeff(0).clone(), x.num.mono(0));
             return self.assemble(&above, &Parts::below(&x.den));
         }
+        if let Some(shorter) = self.divided(x) {
+            return self.written(&shorter);
+        }
         let struck = self.struck(x);
         let (num, factors) = struck
             .as_ref()
@@ -194,6 +197,40 @@ impl Field {
             Some(still + rebound * self.written(&Element::new(once, x.den.clone())))
         });
         all.min_by_key(Expr::size)
+    }
+
+    /// The quotient after a division by a factor a + b √r of the denominator that leaves nothing, if there is one: with its
+    /// conjugate above and a² − b² r below, the division shows among polynomials.
+    fn divided(&self, x: &Element) -> Option<Element> {
+        if x.num.len() > MOST_GROUPED {
+            return None;
+        }
+        let roots = self.algebraic.iter().copied();
+        let roots = roots.filter(|v| matches!(self.gens[*v].kind, Kind::Root) && x.num.has(*v));
+        for v in roots {
+            for (i, (f, k)) in x.den.factors.iter().enumerate() {
+                let Ok([a, b]) = <[Poly; 2]>::try_from(f.by_power(v)) else {
+                    continue;
+                };
+                let conjugate = a.sub(&b.mul(&Poly::var(v)).ok()?);
+                let (content, mono, norm) = self.mul_poly(f, &conjugate).ok()?.split();
+                let above = self.mul_poly(&x.num, &conjugate).ok()?;
+                let Some(num) = above.try_div(&norm).filter(|_| !norm.has(v)) else {
+                    continue;
+                };
+                let mut den = x.den.clone();
+                match k {
+                    1 => drop(den.factors.remove(i)),
+                    _ => den.factors[i].1 -= 1,
+                }
+                let divided = self.div(
+                    &Element::new(num, den),
+                    &Element::from_poly(Poly::term(&mono, content)),
+                );
+                return divided.ok();
+            }
+        }
+        None
     }
 
     /// Numerator and factors of the denominator without what they have in common, where both hold a cosine: each of them may

@@ -314,6 +314,26 @@ fn what_only_adds_to_a_root_is_left_out_of_its_sign() {
 }
 
 #[test]
+fn a_factor_with_a_root_is_divided_out() {
+    let (a, b) = (s("a"), s("b"));
+    let root = (a.powi(2) + b.powi(2)).sqrt();
+    let factor = &b + n(2) * &root;
+    for other in [&a - &root, n(3) * &a + &b * &root] {
+        for k in [1, 2] {
+            let mut field = Field::new(&Domains::default());
+            let e = (&other * factor.powi(k) * &b) / (factor.powi(k) * &a);
+            let short = &other * &b / &a;
+            field.prepare([&e, &short]);
+            let [x, y] = [&e, &short].map(|e| field.element(e).expect("within limits"));
+            // Multiplied out, what cancels is no longer seen.
+            let stored = field.stored(&x);
+            let again = field.element(&stored).expect("within limits");
+            assert_eq!(field.expr(&again), field.expr(&y), "{stored:?}");
+        }
+    }
+}
+
+#[test]
 fn the_domain_fixes_the_sign_of_a_root() {
     let phi = s("phi");
     let half = &phi * &Expr::ratio(1, 2);
