@@ -11,7 +11,7 @@ use crate::expr::arithmetic::{cross, dot};
 use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism, Mobile, Run, Stop};
 use crate::numeric::follow::{Course, Lost, Passed, State};
 use crate::numeric::given::Freedom;
-use crate::scene::{Carrier, Slide, SlideEnd};
+use crate::scene::{Carrier, Shape, Slide, SlideEnd};
 
 const PLAIN: Units = Units {
     length: 1.0,
@@ -265,6 +265,11 @@ pub(super) fn carried(
         ));
     }
     let (after, samples) = movers.ended(course, &units, &run, &before);
+    for state in [&before, &after] {
+        if overhangs(course, slide, below, state)? {
+            return Err(course.never("it slides off the body below"));
+        }
+    }
     let time = Ok(run.time * units.time);
     let driven = movers.bodies.iter().enumerate().map(|(i, body)| Driven {
         body: *body,
@@ -279,6 +284,31 @@ pub(super) fn carried(
         ..Moved::default()
     };
     Ok(course.moved([before, after], time, true, moved))
+}
+
+/// Whether the center of the upper body is past an end of the lower one, a box or a rod with a side along the line.
+fn overhangs(
+    course: &Course<'_>,
+    slide: &Slide,
+    below: &Carrier,
+    state: &State,
+) -> Result<bool, Lost> {
+    let along = course.pair(&slide.along, "direction")?;
+    let [upper, lower] = [slide.body, below.body].map(|b| &state.bodies[b]);
+    let ([Ok(x), Ok(y)], [Ok(u), Ok(v)], Ok(angle)) = (&upper.center, &lower.center, &lower.angle)
+    else {
+        return Ok(false);
+    };
+    let is_along = cross(&[angle.cos(), angle.sin()], &along).abs() < ROUNDING;
+    let is_across = dot(&[angle.cos(), angle.sin()], &along).abs() < ROUNDING;
+    let long = match &course.stage.scene.bodies[below.body].shape {
+        Shape::Rectangle { width, .. } if is_along => width,
+        Shape::Rectangle { height, .. } if is_across => height,
+        Shape::Rod { length } if is_along => length,
+        _ => return Ok(false),
+    };
+    let half = course.number(long, "length")? / 2.0;
+    Ok(dot(&[x - u, y - v], &along).abs() > half * (1.0 + ROUNDING))
 }
 
 /// Both begin to move along the line without turning, each with its company.

@@ -11,7 +11,7 @@ use super::line::proved;
 use crate::answer::calc::is_zero;
 use crate::expr::{Expr, dot};
 use crate::formula::write_plain;
-use crate::scene::{Body, Carrier, Slide, SlideEnd, Stage};
+use crate::scene::{Body, Carrier, Shape, Slide, SlideEnd, Stage};
 use crate::story::{Kept, Refused, StageTold, State, Step};
 
 /// The upper body and the lower one, each with what moves along with it; velocities and forces along the line.
@@ -77,6 +77,7 @@ pub(super) fn carried(
         works.push(gone);
     }
     pair.goes_on(&ends[1])?;
+    pair.stays_on([&before, &after])?;
     let mut spins = [Expr::zero(), Expr::zero()];
     if let Some(round) = &pair.round {
         let spin = pair.tidied(&(&round.spin + &(&round.rate * &time)))?;
@@ -411,6 +412,45 @@ impl<'a> Pair<'a> {
         let refused = self.refused(body, never, "end the stage earlier");
         let does = format!("`{}` {does}", self.name(body));
         self.supposed.not_negative(e, does, || refused)
+    }
+
+    /// The center of the upper body is over the lower one at the beginning and at the end, where that is a box or a rod along
+    /// the line.
+    fn stays_on(&mut self, ends: [&State; 2]) -> Result<(), Refused> {
+        let (upper, lower) = (self.slide.body, self.below.body);
+        let [turn, along] = [&ends[0].angle[lower], &self.slide.along[0]];
+        let axis = &(turn.cos() * along) + &(turn.sin() * &self.slide.along[1]);
+        let axis = self.tidied(&axis)?;
+        let is_along = is_zero(&(axis.powi(2) - Expr::one()), &self.stage.scene.domains);
+        let long = match &self.stage.scene.bodies[lower].shape {
+            Shape::Rectangle { width, .. } if is_along == Some(true) => width,
+            Shape::Rectangle { height, .. } if axis.is_zero() => height,
+            Shape::Rod { length } if is_along == Some(true) => length,
+            _ => return Ok(()),
+        };
+        let all = [upper, lower].into_iter().flat_map(|b| &ends[0].center[b]);
+        if ends[0].why_open(all.chain([turn])).is_some() {
+            return Ok(());
+        }
+        let below = self.name(lower);
+        let words = [
+            (
+                format!("is on `{below}`"),
+                format!("it is not on `{below}`"),
+            ),
+            (
+                format!("stays on `{below}`"),
+                format!("it slides off `{below}`"),
+            ),
+        ];
+        for (state, (stays, off)) in ends.into_iter().zip(&words) {
+            let [from, to] = [lower, upper].map(|b| dot(&state.center[b], &self.slide.along));
+            for way in [1, -1] {
+                let room = half(long) - Expr::from(way) * (&to - &from);
+                self.needs(&self.tidied(&room)?, off, stays, upper)?;
+            }
+        }
+        Ok(())
     }
 
     /// On a rough floor the lower body may stop, and stays then; from rest it only gets faster.
