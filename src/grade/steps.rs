@@ -141,7 +141,8 @@ struct Meant {
 
 /// Checks a worked solution. Where it may be meant in several ways it is read in the one in which fewest of its lines are wrong:
 /// an acceleration that it speaks of and nobody asks for is the scene's, counted either way, or, where there may be others,
-/// whatever the solution says; a velocity against an axis by its letter alone may be the speed, and a final answer that is right
+/// whatever the solution says; a velocity against an axis by its letter alone may be the speed, a spin may be counted in the
+/// sense that the page says, and a final answer that is right
 /// may be of another moment with a mark. An own name may get another meaning further down, but not to
 /// explain away why a final answer is wrong. Where a line fails by what an own name was said to be, the name has the value that
 /// the scene has for it, and what was said of it is wrong.
@@ -171,8 +172,10 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
     let mut desk = Desk::new(sheet, options);
     desk.know_bodies(&plain);
     let known = best.1.bound.clone();
-    let speeds = desk.speeds().into_iter().map(|speed| Meant {
-        value: Some(speed),
+    let turned = desk.turned_spin(&plain);
+    let speeds = desk.speeds().into_iter().chain(turned);
+    let speeds = speeds.map(|value| Meant {
+        value: Some(value),
         bound: known.clone(),
         ..Meant::default()
     });
