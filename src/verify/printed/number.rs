@@ -142,6 +142,9 @@ impl Desk<'_> {
         if off <= half {
             finding.holds = Some(true);
             finding.because = "the exact value, rounded to the printed digits".into();
+            if let Some((_, text)) = bare {
+                finding.because = format!("{} in {text}, which is not printed", finding.because);
+            }
             return Ok(());
         }
         finding.holds = Some(false);
