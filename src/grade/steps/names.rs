@@ -441,6 +441,10 @@ impl Desk<'_> {
         let ([name], false, true) = (new.as_slice(), letters, self.own.len() < MOST_NAMES) else {
             return None;
         };
+        // Gravity is no name of one's own: through an impact no equation says what it is.
+        if &**name == "g" {
+            return None;
+        }
         let [link] = &self.links(&reading)?[..] else {
             return None;
         };
