@@ -430,6 +430,40 @@ fn numbers_are_judged_where_the_answer_needs_no_other_values() {
     }
 }
 
+#[test]
+fn a_number_without_a_unit_counts_in_that_of_the_scene() {
+    let path = root().join("tests/printed/ballistic-pendulum-in-feet.json");
+    let scene = fs::read_to_string(path).expect("a scene");
+    let sheet = keys(scene::read(&scene).expect("a sound scene"));
+    for (quantity, answer, words) in [
+        (
+            "V",
+            "3.98",
+            "the number is right, and its unit ft/s is missing",
+        ),
+        (
+            "F",
+            "61.9",
+            "the number is right, and its unit lbf is missing",
+        ),
+        // In meters a second the number would be right, and no belief leads to it.
+        (
+            "V",
+            "1.21",
+            "the unit is missing, and the number is not the expected one",
+        ),
+    ] {
+        let entry = sheet.entry(quantity).expect("a question of the scene");
+        let grade = sheet.judge(&entry, answer, &Options::default());
+        let told: Vec<&str> = grade.diagnosis.iter().map(|d| &*d.message).collect();
+        assert_eq!(
+            (grade.note, told),
+            ("DIFF_UNIT_MISSING", vec![words]),
+            "{answer}"
+        );
+    }
+}
+
 /// SplitMix64.
 fn next(state: &mut u64) -> u64 {
     *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);

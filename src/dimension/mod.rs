@@ -76,6 +76,15 @@ impl System {
         }
     }
 
+    /// The unit in which a number of a dimension counts that has none, and how it is written.
+    pub fn counted_in(self, dimension: &Dimension) -> (Unit, String) {
+        let text = self.unit(dimension);
+        match (self, unit(&text)) {
+            (System::FootPound, Ok(unit)) => (unit, text),
+            _ => (Unit::coherent(dimension.clone()), dimension.si()),
+        }
+    }
+
     /// How many SI units one of its unit of a dimension is.
     pub fn scale(self, dimension: &Dimension) -> f64 {
         let unit = match self {

@@ -254,34 +254,25 @@ impl Parser<'_> {
                         .note(Remark::Argument { long }, start, end, token.end);
                     long
                 }
-                Tok::Slash if named => {
+                Tok::Slash => {
+                    let rest = &self.lexer.text[self.lexer.pos..];
+                    let tight = !token.spaced;
+                    let begins = |c: char| c.is_alphabetic() || "\\√(".contains(c);
+                    let digits = rest.starts_with(|c: char| c.is_ascii_digit());
                     // sinθ/2: half of the sine, unless somebody meant the half angle.
-                    let rest = &self.lexer.text[self.lexer.pos..];
+                    let half = named && lone_number(rest);
+                    // `arctan 3/4` and `sin π/6`: of the quotient, unless somebody meant the number above alone.
+                    let counts = (counted || is_inverse && numeric) && tight && quotient_ends(rest);
                     let quotient = is_inverse
-                        && !token.spaced
-                        && rest.starts_with(|c: char| c.is_alphabetic() || c == '\\');
-                    if (quotient || lone_number(rest)) && self.lexer.usual() == quotient {
-                        self.next()?;
-                        let below = self.factor()?;
-                        self.lexer
-                            .note(Remark::Argument { long: true }, start, end, below.end);
-                        end = below.end;
-                        factors.push((Link::Over, below));
-                    } else if quotient || lone_number(rest) {
-                        let remark = Remark::Argument { long: false };
-                        self.lexer.note(remark, start, end, token.end + 1);
-                    }
-                    false
-                }
-                // `arctan 3/4` and `sin π/6`: of the quotient, unless somebody meant the number above alone.
-                Tok::Slash if counted && !token.spaced => {
-                    let rest = &self.lexer.text[self.lexer.pos..];
-                    if quotient_ends(rest) {
-                        let long = self.lexer.usual();
-                        let mut stop = token.end + 1;
+                        && tight
+                        && (named && digits || (named || numeric) && rest.starts_with(begins));
+                    if half || counts || quotient {
+                        let long = self.lexer.usual() != half;
+                        let ends = |c: char| " +-−±=≈<>≤≥]|,;$*·".contains(c);
+                        let mut stop = token.end + rest.find(ends).unwrap_or(rest.len());
                         if long {
                             self.next()?;
-                            let below = self.factor()?;
+                            let below = self.tight_below()?;
                             stop = below.end;
                             factors.push((Link::Over, below));
                         }
@@ -314,6 +305,15 @@ impl Parser<'_> {
                 Ok(Written::new(Shape::Product(factors), start, end))
             }
             None => Err(Fault::new("an argument is missing", start, end)),
+        }
+    }
+
+    /// What stands below a slash in an argument: brackets, or a product without spaces.
+    fn tight_below(&mut self) -> Faulty<Written> {
+        let first = self.factor()?;
+        match first.shape {
+            Shape::Bracket(_) => Ok(first),
+            _ => self.group_until(Some(first), true),
         }
     }
 

@@ -52,7 +52,7 @@ use fault::Faulty;
 pub(crate) use frames::lines_apart;
 pub use note::{Note, Remark};
 use parser::{Parser, Side};
-pub(crate) use prose::{before_condition, changes, concluded};
+pub(crate) use prose::{beside_condition, changes, concluded};
 pub use quotient::Quotient;
 pub(crate) use sentence::sentence;
 pub use sentence::{Piece, Sentence, capital, either, listed, sides, trimmed};
@@ -239,11 +239,8 @@ fn word_between(
             let found = prose::conditional(text);
             let name = |(at, length): &(usize, usize)| &text[at + 1..at + length - 1];
             let found = found.filter(|found| symbols.find(name(found)).is_none());
-            let letter = |c: char| symbols.find(c.encode_utf8(&mut [0; 4])).is_some();
-            let known = |word: &str| symbols.find(word).is_some() || word.chars().all(letter);
             let inside = || {
-                let read = [reading.written.first()?.start, reading.written.last()?.end];
-                let (start, end) = prose::word_inside(text, read, &known)?;
+                let (start, end) = word_inside(text, symbols, reading)?;
                 Some((start - 1, end - start + 2))
             };
             (
@@ -254,6 +251,14 @@ fn word_between(
     };
     let (start, end) = (found.0 + 1, found.0 + found.1 - 1);
     Some(Fault::new("a word between two formulas", start, end).hint(hint))
+}
+
+/// Where a word of prose stands inside what was read.
+fn word_inside(text: &str, symbols: &Symbols, reading: &Reading) -> Option<(usize, usize)> {
+    let letter = |c: char| symbols.find(c.encode_utf8(&mut [0; 4])).is_some();
+    let known = |word: &str| symbols.find(word).is_some() || word.chars().all(letter);
+    let read = [reading.written.first()?.start, reading.written.last()?.end];
+    prose::word_inside(text, read, &known)
 }
 
 /// A text whose last word, `m/s` or `[m/s]`, is set as a unit where a fault lies in it: m may be a mass as well.

@@ -165,7 +165,7 @@ impl Parser<'_> {
     }
 
     /// Factors side by side, in a `tight` one up to the first space.
-    fn group_until(&mut self, first: Option<Written>, tight: bool) -> Faulty<Written> {
+    pub(super) fn group_until(&mut self, first: Option<Written>, tight: bool) -> Faulty<Written> {
         let first = match first {
             Some(first) => first,
             None => self.factor()?,

@@ -413,21 +413,48 @@ pub(super) fn word_inside(
     None
 }
 
-/// An answer before a condition that a word begins, and the name and the value of that: `v = 3 m/s at t = 2 s`.
-pub(crate) fn before_condition(text: &str) -> Option<[&str; 3]> {
-    const WORDS: &str = " at | when | with | for | given | using | where | after | since | bei | für | wenn | mit | nach ";
-    let found = |word: &'static str| text.match_indices(word);
-    let mut places = WORDS.split('|').flat_map(found);
-    let (at, word) = places.next()?;
-    let (name, value) = text[at + word.len()..].split_once('=')?;
+/// An answer beside a condition that a word begins, the name and the value of that, and where the answer stands: `v = 3 m/s at
+/// t = 2 s`, `v = 3 m/s (when e = 1)`, `if m = 2 kg then v = 3 m/s`.
+pub(crate) fn beside_condition(text: &str) -> Option<([&str; 3], [usize; 2])> {
+    const WORDS: &str = "after at bei for für given if mit nach since using wenn when where with";
+    let word = |at: usize| text[at..].split(' ').next().unwrap_or_default();
+    let begins =
+        |at: &usize| is_in(WORDS, word(*at)) && text[at + word(*at).len()..].starts_with(' ');
+    let behind = text.match_indices([' ', '(']).map(|(at, _)| at + 1);
+    let mut places = std::iter::once(0).chain(behind).filter(begins);
+    let (at, None) = (places.next()?, places.next()) else {
+        return None;
+    };
+    let clause = at + word(at).len();
+    let (range, clause) = match text[..at].trim().is_empty() {
+        false => {
+            let before = text[..at].trim_end_matches([' ', ',', '(']);
+            let dress: &[char] = if text[..at].ends_with('(') {
+                &[' ', '.', ')']
+            } else {
+                &[]
+            };
+            ([0, before.len()], text[clause..].trim_end_matches(dress))
+        }
+        // What follows then says by itself what it is about.
+        true => {
+            let joins = [", then ", " then ", ","].into_iter();
+            let (joint, length) = joins
+                .filter_map(|joint| Some((clause + text[clause..].find(joint)?, joint.len())))
+                .find(|(joint, length)| text[joint + length..].contains('='))?;
+            ([joint + length, text.len()], &text[clause..joint])
+        }
+    };
+    let (name, value) = clause.split_once('=')?;
     let dress = |c: char| c.is_whitespace() || "$.".contains(c);
     let [name, value] = [name, value].map(|part| part.trim_matches(dress));
     let plain = |c: char| c.is_alphanumeric() || "_{}'\\".contains(c);
     let several =
         value.contains(RELATIONS) || value.contains([',', ';', ':']) || value.contains(" and ");
-    let before = text[..at].trim_end_matches([' ', ',']);
-    let is_one = places.next().is_none() && !several && !text.contains("\\boxed");
-    (is_one && !name.is_empty() && name.chars().all(plain)).then_some([before, name, value])
+    let is_one = !several && !text.contains("\\boxed");
+    let answer = &text[range[0]..range[1]];
+    (is_one && !name.is_empty() && name.chars().all(plain))
+        .then_some(([answer, name, value], range))
 }
 
 /// The last of several statements that follow from each other.

@@ -472,7 +472,8 @@ pub(super) fn values(text: &str, symbols: &Symbols) -> Option<Result<Reading, Fa
     let last = [(stop - start, stop - start)];
     for (end, next) in gaps.iter().chain(&last).take(MOST + 1) {
         let strict = part(text, [from, start + end], symbols)?;
-        if strict.notes.iter().any(|n| n.remark == Remark::Letters) {
+        let letters = strict.notes.iter().any(|n| n.remark == Remark::Letters);
+        if letters || super::word_inside(text, symbols, &strict).is_some() {
             return None;
         }
         parts.push(strict);

@@ -244,14 +244,13 @@ pub(super) fn told(expected: &str, reading: &Reading) -> Option<String> {
 fn is_quotient(note: &Note, text: &str) -> bool {
     let above = text.get(note.start..note.middle).unwrap_or_default();
     let below = text.get(note.middle..note.end).unwrap_or_default();
-    let above = above.replace("\\pi", "π").replace("pi", "π");
     let number = |piece: &str| {
-        piece
-            .chars()
-            .all(|c| c.is_ascii_digit() || ". π".contains(c))
+        let piece = piece.replace("pi", "π").replace("sqrt", "√");
+        let mut all = piece.chars();
+        all.all(|c| c.is_ascii_digit() || ". π√\\{}()".contains(c))
     };
     matches!(note.remark, Remark::Argument { .. })
-        && number(&above)
+        && number(above)
         && below.strip_prefix('/').is_some_and(number)
 }
 

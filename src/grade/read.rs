@@ -133,25 +133,24 @@ pub(super) fn is_stable(reading: &Reading) -> bool {
         })
 }
 
-/// A number with a condition behind it that says of something else what it is: `v = 3 m/s at t = 2 s`. A formula, which may
-/// be right in that case alone, is not read so.
-fn before_condition(key: &Key, text: &str) -> Option<Reading> {
-    let [before, name, value] = formula::before_condition(text)?;
+/// A number beside a condition that says of something else what it is: `v = 3 m/s at t = 2 s`. A formula, which may be right in
+/// that case alone, is not read so.
+fn beside_condition(key: &Key, text: &str) -> Option<Reading> {
+    let ([answered, name, value], [start, end]) = formula::beside_condition(text)?;
     let open = Symbols::open();
     let name = formula::read(name, &open).ok()?;
     let name = name.expr()?.as_symbol()?.clone();
     let number = |content: &Content| content.expr().is_some_and(Expr::is_constant);
     let value = formula::read(value, &Symbols::strict()).ok()?;
-    let mut reading = answer(key, before).ok()?;
+    let mut reading = answer(key, answered).ok()?;
     let free = |reading: &Reading| !reading.symbols().contains(&name);
     if !number(&value.content) || !number(reading.content.answer()) {
         return None;
     }
-    let end = before.len();
     reading.notes.push(Note {
         remark: Remark::Words,
-        start: 0,
-        middle: 0,
+        start,
+        middle: start,
         end,
     });
     (free(&reading) && free(&key.reading)).then_some(reading)
@@ -188,7 +187,7 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
     if let Some(fault) = direction(text).or_else(|| says_nothing(key, text)) {
         return Err(fault);
     }
-    if let Some(reading) = with_definitions(key, text).or_else(|| before_condition(key, text)) {
+    if let Some(reading) = with_definitions(key, text).or_else(|| beside_condition(key, text)) {
         return Ok(reading);
     }
     if let Some(text) = unit_of_name(text)

@@ -141,18 +141,47 @@ struct Meant {
 
 /// Checks a worked solution. Where it may be meant in several ways it is read in the one in which fewest of its lines are wrong:
 /// an acceleration that it speaks of and nobody asks for is the scene's, counted either way, or, where there may be others,
-/// whatever the solution says; a velocity against an axis by its letter alone may be the speed, and a final answer that is right
+/// whatever the solution says; a velocity against an axis by its letter alone may be the speed, a spin may be counted in the
+/// sense that the page says, and a final answer that is right
 /// may be of another moment with a mark. An own name may get another meaning further down, but not to
 /// explain away why a final answer is wrong. Where a line fails by what an own name was said to be, the name has the value that
 /// the scene has for it, and what was said of it is wrong.
+/// Numbers that it gives the scene are those of the scene, but an answer in such numbers is none to what is asked.
 pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
+    let plain = pages::joined(text);
+    let Some(valued) = pages::with_numbers(sheet, &plain) else {
+        return checked(sheet, text, &plain, options);
+    };
+    let mut worked = checked(&valued, text, &plain, options);
+    let lines = &worked.lines;
+    for (name, told) in &mut worked.finals {
+        let right = told
+            .as_ref()
+            .filter(|told| told.verdict == Verdict::Equivalent);
+        if let (Some(last), Ok(entry)) = (right, sheet.entry(name)) {
+            // The last formula for it that holds.
+            let to = lines.iter().rev().filter(|line| line.number <= last.line);
+            let mut holds = to.filter(|line| line.status == Status::Holds);
+            let judged = |text: &str| sheet.judge(&entry, text, options).verdict;
+            let found = holds.find(|line| judged(&line.text) == Verdict::Equivalent);
+            *told = found.map(|line| Final {
+                line: line.number,
+                text: line.text.clone(),
+                verdict: Verdict::Equivalent,
+            });
+        }
+    }
+    worked
+}
+
+/// The same by the values of the scene.
+fn checked(sheet: &Sheet, text: &str, plain: &str, options: &Options) -> Worked {
     let worked = |meant: Meant| {
         let (worked, needed) = check_with(sheet, text, options, &meant);
         (worked, meant, needed)
     };
-    let plain = pages::joined(text);
-    let accelerations = letters::accelerations(sheet, &plain);
-    let bound = Desk::new(sheet, options).bindings(&plain);
+    let accelerations = letters::accelerations(sheet, plain);
+    let bound = Desk::new(sheet, options).bindings(plain);
     let whatever = accelerations.contains(&None).then(|| Meant {
         bound: bound[0].clone(),
         ..Meant::default()
@@ -169,14 +198,16 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
         return best.0;
     }
     let mut desk = Desk::new(sheet, options);
-    desk.know_bodies(&plain);
+    desk.know_bodies(plain);
     let known = best.1.bound.clone();
-    let speeds = desk.speeds().into_iter().map(|speed| Meant {
-        value: Some(speed),
+    let turned = desk.turned_spin(plain);
+    let speeds = desk.speeds().into_iter().chain(turned);
+    let speeds = speeds.map(|value| Meant {
+        value: Some(value),
         bound: known.clone(),
         ..Meant::default()
     });
-    let marked = Some(letters::marked(sheet, &plain)).filter(|marked| !marked.is_empty());
+    let marked = Some(letters::marked(sheet, plain)).filter(|marked| !marked.is_empty());
     let marked = marked.map(|marked| Meant {
         marked,
         ..best.1.clone()
@@ -187,7 +218,7 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
         ..meant
     });
     let symbols = desk.symbols("");
-    let own = names::definitions(&plain, &symbols);
+    let own = names::definitions(plain, &symbols);
     let measured = own
         .iter()
         .any(|(_, right)| names::in_unit(right, &symbols).is_some());

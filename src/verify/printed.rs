@@ -450,6 +450,10 @@ impl Desk<'_> {
                 Equality::Undecided { .. } => {
                     finding.because = "not decided".into();
                     holds = None;
+                    // A way that the scene goes at equal values alone says nothing against one that goes on.
+                    if within.as_ref().is_some_and(special::is_a_boundary) {
+                        finding.elsewhere = Some(None);
+                    }
                 }
             }
         }

@@ -201,8 +201,11 @@ impl Sheet {
             let found = Diagnosis::new("GRAVITY_KEPT", message, hint);
             grade.diagnosis.insert(0, found);
         }
+        let Some(unit) = self.wrongly_counted(entry, answer, &grade, options) else {
+            return grade;
+        };
         let values = match reading.content.answer() {
-            Content::Scalar(e) => vec![e.clone()],
+            Content::Scalar(e) => vec![e * &unit],
             Content::Quantity(q) => vec![q.value.clone()],
             Content::Vector([x, y, z]) if z.is_zero() => vec![x.clone(), y.clone()],
             Content::Vector([x, y, z]) if x.is_zero() && y.is_zero() => vec![z.clone()],
@@ -248,6 +251,27 @@ impl Sheet {
         all.append(&mut grade.diagnosis);
         grade.diagnosis = all;
         grade
+    }
+
+    /// What the unit is worth in which a wrong number without one counts, that of the scene; nothing where only the unit is missing.
+    fn wrongly_counted(
+        &self,
+        entry: &Entry,
+        answer: &str,
+        grade: &Grade,
+        options: &Options,
+    ) -> Option<Expr> {
+        let missing = (entry.key.question.dimension.as_ref())
+            .filter(|_| grade.note == "DIFF_UNIT_MISSING")
+            .map(|dimension| self.scene.system().counted_in(dimension));
+        let Some((unit, text)) = missing else {
+            return Some(Expr::one());
+        };
+        let measured = format!("{answer} {text}");
+        let reading = read::answer(&entry.key, &measured).ok();
+        let right = reading.and_then(|reading| self.numeric(entry, &reading, &measured, options));
+        let is_right = right.is_some_and(|(grade, _)| grade.is_equivalent());
+        (!is_right).then(|| unit.value())
     }
 
     /// A matrix whose rows stand in another order, or a relation for the bound that is asked.
@@ -370,12 +394,15 @@ impl Sheet {
         let reading = of_unit.as_ref().unwrap_or(reading);
         let dimension = entry.key.question.dimension.as_ref();
         let content = match dimension.filter(|d| !d.is_none()) {
-            Some(dimension) => Content::Quantity(Box::new(Quantity {
-                value: exact.clone(),
-                written: exact.clone(),
-                unit: dimension::unit(&dimension.si().replace('²', "^2")).ok()?,
-                unit_text: dimension.si(),
-            })),
+            Some(dimension) => {
+                let (unit, unit_text) = self.scene.system().counted_in(dimension);
+                Content::Quantity(Box::new(Quantity {
+                    value: exact.clone(),
+                    written: &exact * &unit.value().powi(-1),
+                    unit,
+                    unit_text,
+                }))
+            }
             None => Content::Scalar(exact.clone()),
         };
         let key = key_of(content, &question);

@@ -11,7 +11,7 @@ use super::impact::{Impact, impacts};
 use super::letters::{MARKS, readings};
 use super::link::{Link, names_in};
 use crate::equality::{self, Equality};
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Symbol, Vector};
 use crate::formula;
 use crate::scene::Ask;
 
@@ -23,13 +23,14 @@ const MOST_VELOCITIES: usize = 4;
 /// Names with what they stand for.
 pub(super) type Values = BTreeMap<Symbol, Expr>;
 
-/// What moves along an axis, after and before an impact: the mass of a body, and of all that move alike, by the first of them.
-fn carried(impact: &Impact, axis: usize) -> Vec<(Expr, usize, bool)> {
+/// What moves along a direction, after and before an impact: the mass of a body, and of all that move alike, by the first of them.
+fn carried(impact: &Impact, axis: &Vector) -> Vec<(Expr, usize, bool)> {
     let moving = impact.moving();
     let times = moving.iter().flat_map(|b| [(*b, true), (*b, false)]);
     let each = times.flat_map(|(b, after)| {
-        let value = impact.part(b, axis, after).filter(|value| !value.is_zero());
-        let alike = |other: &&usize| impact.part(**other, axis, after) == value;
+        let along = |b: usize| impact.along(b, axis, after);
+        let value = along(b).filter(|value| !value.is_zero());
+        let alike = |other: &&usize| along(**other) == value;
         let all: Vec<&usize> = moving.iter().filter(alike).collect();
         let mass = |b: &usize| impact.scene.bodies[*b].mass.clone();
         let first = value.is_some() && all.len() > 1 && *all[0] == b;
@@ -363,8 +364,11 @@ impl Desk<'_> {
             return Vec::new();
         }
         let mut ways = Vec::new();
-        for (impact, axis) in all.iter().flat_map(|impact| [(impact, 0), (impact, 1)]) {
-            let carried = carried(impact, axis);
+        let ways_of = all
+            .iter()
+            .flat_map(|impact| impact.axes().map(move |axis| (impact, axis)));
+        for (impact, axis) in ways_of {
+            let carried = carried(impact, &axis);
             let each = factors.iter().map(|factor| {
                 let of = |mass: &Expr| zero(factor - mass) || zero(factor + mass);
                 let fits = carried.iter().filter(|(mass, ..)| of(mass));
@@ -383,7 +387,7 @@ impl Desk<'_> {
             let after = |way: &Vec<(usize, bool)>| way.iter().any(|(_, after)| *after);
             for way in chosen.into_iter().filter(after) {
                 let values = names.iter().zip(way).filter_map(|(name, (b, after))| {
-                    Some(((*name).clone(), impact.part(b, axis, after)?.clone()))
+                    Some(((*name).clone(), impact.along(b, &axis, after)?))
                 });
                 let values: Values = values.collect();
                 if zero(gap.substitute(&values)) {

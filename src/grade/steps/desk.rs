@@ -370,22 +370,23 @@ impl<'a> Desk<'a> {
 
     /// An expression with the student's own names put in.
     pub(super) fn with_own(&self, e: &Expr) -> Expr {
-        self.with_names(&self.with_names(e).substitute(&self.parts))
-    }
-
-    /// An expression with own names put in, which may use one another.
-    fn with_names(&self, e: &Expr) -> Expr {
-        self.with_own_but(e, &BTreeMap::new())
+        self.with_own_but(e, &Values::new())
     }
 
     /// The same without some of them.
-    pub(super) fn with_own_but(&self, e: &Expr, others: &BTreeMap<Symbol, Expr>) -> Expr {
+    pub(super) fn with_own_but(&self, e: &Expr, others: &Values) -> Expr {
+        let plain = self.with_names(e, others).substitute(&self.parts);
+        self.with_names(&plain, others)
+    }
+
+    /// An expression with own names put in, which may use one another, but for some.
+    fn with_names(&self, e: &Expr, others: &Values) -> Expr {
         let mut e = e.clone();
         for _ in 0..self.own.len().min(8) {
             let mut used = e.symbols();
             used.retain(|name| !others.contains_key(name));
             let own = |name: Symbol| Some((name.clone(), self.own.get(&name)?.clone()));
-            let own: BTreeMap<Symbol, Expr> = used.into_iter().filter_map(own).collect();
+            let own: Values = used.into_iter().filter_map(own).collect();
             if own.is_empty() {
                 break;
             }
@@ -456,7 +457,8 @@ impl<'a> Desk<'a> {
             .filter(|(name, _)| formula::is_component(name));
         let vectors: BTreeMap<_, _> = vectors.map(|(n, v)| (n.clone(), v.clone())).collect();
         // Sizes of vectors first: their components are known as such before these are put in. Own names may stand for such.
-        let own = self.magnitudes(&self.with_names(e)).substitute(&vectors);
+        let own = self.magnitudes(&self.with_names(e, &Values::new()));
+        let own = own.substitute(&vectors);
         let own = self.with_own(&own);
         self.magnitudes(&own)
             .substitute(instead)

@@ -117,7 +117,9 @@ impl Desk<'_> {
         let Some(([_, end], [sign])) = reading.content.relations() else {
             return false;
         };
-        let mut granted = self.sheet.granted(name).into_iter();
+        let given = self.sheet.scene.values().remove(name);
+        let given = given.map(|value| (Relation::Equal, value));
+        let mut granted = self.sheet.granted(name).into_iter().chain(given);
         granted.any(|(said, value)| *sign == said && self.is_value(end, &value))
     }
 

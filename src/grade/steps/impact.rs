@@ -129,6 +129,22 @@ impl<'a> Impact<'a> {
         Some(&center[part])
     }
 
+    /// The same along a direction.
+    pub fn along(&self, b: usize, axis: &Vector, after: bool) -> Option<Expr> {
+        let [x, y] = [0, 1].map(|part| self.part(b, part, after));
+        Some(x? * &axis[0] + y? * &axis[1])
+    }
+
+    /// The directions along which momenta are balanced: the axes, and the normal and tangent of a contact that has other ones.
+    pub fn axes(&self) -> impl Iterator<Item = Vector> {
+        let slanted = |n: &&Vector| n.iter().all(|part| !part.is_zero());
+        let contacts = self.scene.contacts.iter();
+        let normal = contacts.filter_map(|c| c.normal.as_ref()).find(slanted);
+        let own = normal.map(|[x, y]| [[x.clone(), y.clone()], [-y, x.clone()]]);
+        let plain = [[1, 0], [0, 1]].map(|axis| axis.map(Expr::from));
+        plain.into_iter().chain(own.into_iter().flatten())
+    }
+
     /// What a form in the unknowns comes to; nothing where one of them has no value.
     fn put_in(&self, form: &Affine<Expr>) -> Option<Expr> {
         let term = |(unknown, factor): &(Unknown, Expr)| {

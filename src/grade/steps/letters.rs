@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::sheet::Sheet;
 use super::Desk;
+use crate::algebra::{Sign, sign};
 use crate::dimension::{self, Dimension};
 use crate::expr::{Expr, Symbol, dot};
 use crate::formula::{self, Content, Reading, Symbols};
@@ -131,30 +132,65 @@ pub(super) fn turning<'s>(sheet: &'s Sheet, text: &str) -> Option<&'s str> {
 }
 
 impl Desk<'_> {
-    /// Velocities that are asked for along the one normal of the scene, as in v_{1n}, unless the solution says itself what such
-    /// a name is.
+    /// Velocities that are asked for along the one normal of the scene and its tangent, as in v_{1n} and v_{1t}, unless the solution
+    /// says itself what such a name is.
     pub(super) fn along_normal(&mut self, text: &str) {
         let text = text.replace(['_', '{', '}'], "");
         let scene = &self.sheet.scene;
         let mut normals = scene.contacts.iter().filter_map(|c| c.normal.as_ref());
-        let (Some(normal), None) = (normals.next(), normals.next()) else {
+        let (Some([x, y]), None) = (normals.next(), normals.next()) else {
             return;
         };
-        for q in &scene.questions {
-            let name = Symbol::from(format!("{}_n", q.name));
+        let has_time = scene.parameter("t").is_some() || scene.question("t").is_some();
+        let tangent = (!has_time).then(|| self.tangent(&text, [-y, x.clone()]));
+        let axes = [("n", Some([x.clone(), y.clone()])), ("t", tangent)];
+        let both = |q| axes.each_ref().map(|axis| (q, axis));
+        for (q, (axis, along)) in scene.questions.iter().flat_map(both) {
+            let name = Symbol::from(format!("{}_{axis}", q.name));
             // `v1_n` and `v_{1n}` are one name, the student's own where it comes first with what it is.
             let joined = name.replace('_', "");
             let first = text.split_once(&*joined);
-            let said = first.is_some_and(|(_, behind)| behind.trim_start().starts_with('='));
+            let in_sum = |before: &str| before.trim_end().ends_with(['+', '-', '−', '*', '·']);
+            let said = first.is_some_and(|(before, behind)| {
+                *axis == "n" && behind.trim_start().starts_with('=') && !in_sum(before)
+            });
+            let used = *axis == "n" || first.is_some();
             if let Ask::Velocity { along: None, .. } = q.ask
                 && !said
+                && used
+                && let Some(along) = along
                 && let Some([x, y, _]) = self.components(&q.name)
             {
-                let along = dot(&[x, y], normal);
+                let along = dot(&[x, y], along);
                 self.linked.push(Expr::symbol(&name) - &along);
                 let along = along.substitute(&self.closed);
                 self.closed.insert(name, along);
             }
+        }
+    }
+
+    /// The tangent on the side that a line `v_{1t} = …` counts by; else that to which something moves along it at first.
+    fn tangent(&self, text: &str, [x, y]: [Expr; 2]) -> [Expr; 2] {
+        let scene = &self.sheet.scene;
+        let symbols = self.symbols("");
+        let along = |v: [&Expr; 2], axis: &[Expr; 2]| v[0] * &axis[0] + v[1] * &axis[1];
+        let axis = [x, y];
+        let said = scene.questions.iter().find_map(|q| {
+            let [x, y, _] = self.components(&q.name)?;
+            let (_, behind) = text.split_once(&format!("{}t", q.name.replace('_', "")))?;
+            let value = behind.trim_start().strip_prefix('=')?.lines().next()?;
+            let value = formula::read(value, &symbols).ok()?.expr()?.clone();
+            let truth = self.truth(&along([&x, &y], &axis));
+            (!truth.is_zero()).then(|| self.is_zero(&(value + truth)))
+        });
+        let mut before = scene
+            .bodies
+            .iter()
+            .map(|b| along(b.velocity.each_ref(), &axis));
+        let negative = |e: Expr| sign(&e, &scene.domains) == Some(Sign::Negative);
+        match said.unwrap_or_else(|| before.any(negative)) {
+            true => axis.map(|part| -part),
+            false => axis,
         }
     }
 

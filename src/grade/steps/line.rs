@@ -119,6 +119,17 @@ impl Desk<'_> {
         {
             found.0 = Status::Defines;
         }
+        // Other lines hold with another value of a name that nothing else explains.
+        if let (Status::Wrong, Some((name, _)), true) =
+            (&found.0, names::named(text), found.1.is_empty())
+            && self.bound.contains(&name)
+            && let Some(value) = self.closed.get(&name)
+        {
+            let value = formula::write_plain(value);
+            let words = format!("the lines that use {name} hold with {name} = {value}");
+            let hint = "what belongs to it, and about which point is it taken?";
+            found.1.push(Diagnosis::new("OWN_VALUE", words, hint));
+        }
         if found
             .1
             .iter()

@@ -18,6 +18,9 @@ use crate::expr::{Expr, Function, Symbol, effort};
 use crate::formula::{self, Content, Reading, Relation};
 use crate::scene::{Ask, Question};
 
+/// Most words between a sense of rotation and the word that it is positive.
+const MOST_APART: usize = 4;
+
 /// One equality of a line.
 pub(super) struct Link {
     /// Its two sides.
@@ -118,6 +121,26 @@ impl Desk<'_> {
             against.then(|| (name, -value))
         });
         along.collect()
+    }
+
+    /// The one spin that is asked for, counted in the sense that a page says is positive where the question counts the other one.
+    pub(super) fn turned_spin(&self, page: &str) -> Option<(Symbol, Expr)> {
+        let says = |line: &str| {
+            let line = line.to_lowercase();
+            let words = line.split(|c: char| !c.is_alphabetic());
+            let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+            let at = |found: &dyn Fn(&str) -> bool| words.iter().position(|word| found(word));
+            let sense = at(&|word| word.ends_with("clockwise"))?;
+            let beside = at(&|word| word == "positive")?.abs_diff(sense) <= MOST_APART;
+            beside.then(|| words[sense] == "clockwise")
+        };
+        let clockwise = page.lines().find_map(says)?;
+        let mut spins = self.spins.values();
+        let (Some((spin, counted)), None) = (spins.next(), spins.next()) else {
+            return None;
+        };
+        let value = self.closed.get(spin)?;
+        (*counted != clockwise).then(|| (spin.clone(), -value))
     }
 
     /// The components of a side; of names that are asked for only where a vector with an arrow stands `beside`.

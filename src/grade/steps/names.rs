@@ -441,10 +441,18 @@ impl Desk<'_> {
         let ([name], false, true) = (new.as_slice(), letters, self.own.len() < MOST_NAMES) else {
             return None;
         };
+        // Gravity is no name of one's own: through an impact no equation says what it is.
+        if &**name == "g" {
+            return None;
+        }
         let [link] = &self.links(&reading)?[..] else {
             return None;
         };
-        let (one, domains) = (self.with_own(link.gap()?), &self.sheet.scene.domains);
+        // A name with a slip stays, so that what hangs on it can be told.
+        let slipped = self.slipped.iter();
+        let slipped = slipped.map(|(_, name, value)| (name.clone(), value.clone()));
+        let one = self.with_own_but(link.gap()?, &slipped.collect());
+        let domains = &self.sheet.scene.domains;
         let value = solve_for(&one, name, domains)
             .or_else(|| size_in(&one, name, domains))
             .or_else(|| angle_in(&one, name, domains))

@@ -1,12 +1,63 @@
 //! A solution as a page of lines: its headings, the items of its lists, and lines that go on with the one before.
 
+use std::collections::BTreeMap;
+
+use super::super::sheet::Sheet;
 use super::MAX_LINES;
 use super::text::{BETWEEN, equations, relates};
 use crate::dimension;
+use crate::formula::{self, Content, Symbols};
+use crate::scene;
 
 /// The equations of a page, one by one.
 pub(super) fn all_equations(page: &str) -> impl Iterator<Item = &str> {
     page.lines().take(MAX_LINES).flat_map(equations)
+}
+
+/// The scene with the numbers that a page gives several of its quantities, where it has none itself: lines such as `m = 2 kg,
+/// l = 1.5 m`, each of numbers alone.
+pub(super) fn with_numbers(sheet: &Sheet, page: &str) -> Option<Sheet> {
+    let scene = &sheet.scene;
+    let mut symbols = Symbols::strict();
+    scene.declare_parameters(&mut symbols);
+    let number = |equation: &str| {
+        let (left, right) = equation.split_once('=')?;
+        let name = formula::read_name(left.trim(), &symbols)?;
+        let given = scene.parameter(&name).filter(|p| p.value.is_none())?;
+        let value = formula::read(right, &Symbols::strict()).ok()?.content;
+        let measured = match &value {
+            Content::Quantity(q) => q.unit.dimension == given.dimension,
+            _ => true,
+        };
+        let plain = dimension::unit(&given.unit).is_ok_and(|unit| unit.value().is_one());
+        let value = value
+            .expr()
+            .filter(|e| measured && plain && e.is_constant())?
+            .clone();
+        Some((name, value))
+    };
+    let of_line = |line: &str| {
+        equations(line)
+            .into_iter()
+            .map(number)
+            .collect::<Option<Vec<_>>>()
+    };
+    let said = page.lines().take(MAX_LINES).filter_map(of_line).flatten();
+    let mut values = BTreeMap::new();
+    for (name, value) in said {
+        // What is said twice is no number for all of the page.
+        if values
+            .insert(name.clone(), value.clone())
+            .is_some_and(|before| before != value)
+        {
+            return None;
+        }
+    }
+    let mut sheet = (values.len() > 1).then(|| sheet.clone())?;
+    for (name, value) in values {
+        scene::set(&mut sheet.scene, &name, &formula::write_plain(&value)).ok()?;
+    }
+    Some(sheet)
 }
 
 /// Whether a line is the heading of a part: `## 2. Bounce`, `Second bounce:`, `(b) After the impact`.

@@ -8,6 +8,7 @@ use super::bind::Values;
 use super::link::Link;
 use crate::algebra::quotient;
 use crate::dimension;
+use crate::equality;
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Node, Point, Rational, Symbol, ratio};
 
@@ -73,7 +74,9 @@ impl Desk<'_> {
             }
             let (a, b) = (exact(a), exact(b));
             let constant = a.symbols().is_empty() && b.symbols().is_empty();
-            constant && number::within(&b, &a, &room) == Some(true)
+            // What is no rounded number may be the exact one.
+            let same = || equality::vanishes(&(&a - &b), &self.sheet.scene.domains);
+            constant && (number::within(&b, &a, &room) == Some(true) || same())
         })
     }
 

@@ -194,8 +194,12 @@ impl Desk<'_> {
             Some((scene, named?))
         });
         if let Some((scene, named)) = asked.next().filter(|(_, named)| !named.is_empty()) {
+            // Where one sign is all that is wrong, moments were taken about the point that the line says.
+            let is_sign = found.iter().any(|d| d.code == "TERM_SIGN");
+            let beliefs = behind(scene, [&left, &right], &named).into_iter();
+            let mut beliefs = beliefs.filter(|d| !(is_sign && d.code == "WRONG_MOMENT_POINT"));
             // Several beliefs that make one slip alike are evidence of one at most.
-            found.extend(behind(scene, [&left, &right], &named).into_iter().take(1));
+            found.extend(beliefs.next());
         }
         if found.is_empty() {
             let kept = self.kept_energy(&(left - right), &names);

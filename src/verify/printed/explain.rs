@@ -85,8 +85,13 @@ impl Desk<'_> {
         same.then(|| "it holds with the sign of one side turned".to_string())
     }
 
-    /// Sides, or a value and the printed one, that agree up to one number.
+    /// Sides, or a value and the printed one, that agree up to one number, or turned upside down.
     pub(super) fn factor(&self, pairs: &[(Expr, Expr)]) -> Option<String> {
+        if let [(closed, value)] = pairs
+            && self.is_same(&(closed * value), &Expr::one())
+        {
+            return Some("it stands upside down".into());
+        }
         let mut found: Option<Rational> = None;
         for (closed, value) in pairs.iter().filter(|(a, b)| !(a.is_zero() && b.is_zero())) {
             let k = self.factor_of(closed, value)?;

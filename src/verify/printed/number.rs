@@ -69,6 +69,13 @@ impl Figure {
     }
 }
 
+impl Figure {
+    /// Whether nothing behind it says what it counts.
+    fn is_bare(&self) -> bool {
+        self.quantity.is_none() && !self.is_marked && !self.is_percent && self.unit.is_one()
+    }
+}
+
 impl Desk<'_> {
     pub(super) fn number(
         &self,
@@ -93,7 +100,11 @@ impl Desk<'_> {
         value: &Expr,
         finding: &mut Finding,
     ) -> Result<(), String> {
-        let (place, unit) = (figure.place, &figure.unit);
+        // A number without a unit counts in that of the scene's data.
+        let bare = (self.dimension(value)).filter(|d| figure.is_bare() && !d.is_none());
+        let bare = bare.map(|dimension| self.scene.system().counted_in(&dimension));
+        let own = bare.as_ref().map(|(unit, _)| unit.value());
+        let (place, unit) = (figure.place, own.as_ref().unwrap_or(&figure.unit));
         let half = ten_to(place) * ratio(1, 2);
         if let Some(q) = &figure.quantity
             && let Some(is) = self.other_dimension(value, q)
@@ -121,12 +132,19 @@ impl Desk<'_> {
         let off = (&written - &low).abs().max((&written - &high).abs());
         let digits = (magnitude_or_zero(&low) - place + 2).max(3) as u32;
         finding.carom = crate::interval::enclosure::decimal(&low, digits);
-        if figure.is_percent {
-            finding.carom.push_str(" %");
+        match &bare {
+            _ if figure.is_percent => finding.carom.push_str(" %"),
+            Some((unit, text)) if !unit.value().is_one() => {
+                finding.carom.push_str(&format!(" {text}"));
+            }
+            _ => {}
         }
         if off <= half {
             finding.holds = Some(true);
             finding.because = "the exact value, rounded to the printed digits".into();
+            if let Some((_, text)) = bare {
+                finding.because = format!("{} in {text}, which is not printed", finding.because);
+            }
             return Ok(());
         }
         finding.holds = Some(false);
@@ -137,7 +155,14 @@ impl Desk<'_> {
         finding.caught_by = Some("putting the numbers into the printed formula".into());
         let unit = unit.evaluate(&Point::<f64>::default());
         let unit = unit.ok_or("the unit has no size")?;
-        finding.explained = slip_of_digits(&written, &low, place).or_else(|| {
+        let in_si = bare.as_ref().filter(|(counted, _)| {
+            let off = fraction(&counted.value()).map(|worth| (&low * worth - &written).abs());
+            off.is_some_and(|off| off <= half)
+        });
+        let in_si =
+            in_si.map(|(unit, _)| format!("the number is right for {}", unit.dimension.si()));
+        let explained = in_si.or_else(|| slip_of_digits(&written, &low, place));
+        finding.explained = explained.or_else(|| {
             let [wanted, room] = [&written, &half].map(|v| to_f64(v) * unit);
             self.slips(printed, value, wanted, room * 1.000_001)
                 .or_else(|| remainder::digits(&written, &low, place))

@@ -173,7 +173,12 @@ impl Desk<'_> {
             let figure = Figure::read(side).ok()?;
             let is_plain = figure.is_literal && figure.quantity.is_none() && side.contains('.');
             let is_number = || self.dimension(of).is_some_and(|d| d.is_none());
-            (is_plain && (of.is_constant() || is_number())).then_some(figure)
+            // Where the scene gives its values, one without its unit is such a number as well.
+            let has_value = || {
+                let value = self.put_in(of, printed).ok();
+                value.is_some_and(|value| self.value(&value).is_ok())
+            };
+            (is_plain && (of.is_constant() || is_number() || has_value())).then_some(figure)
         };
         let places = sides(text, true);
         let mut each = places.into_iter().map(|place| text[place].trim());

@@ -6,6 +6,7 @@ use super::desk::{Desk, for_the_coefficient};
 use crate::answer::Answer;
 use crate::answer::calc::sign;
 use crate::domain::{Domains, Origin, Relation};
+use crate::equality;
 use crate::expr::{Expr, Symbol};
 use crate::formula::Sentence;
 use crate::scene::{Print, Printed};
@@ -107,4 +108,15 @@ impl Desk<'_> {
         }
         domains
     }
+}
+
+/// Whether two relations leave nothing between them: a ≥ b and b ≥ a.
+pub(super) fn is_a_boundary(domains: &Domains) -> bool {
+    let mut free = domains.clone();
+    let all = std::mem::take(&mut free.relations);
+    let mut pairs = (1..all.len()).flat_map(|i| (0..i).map(move |j| [i, j]));
+    pairs.any(|pair| {
+        let [a, b] = pair.map(|i| &all[i].excess);
+        equality::vanishes(&(a + b), &free)
+    })
 }
