@@ -306,7 +306,7 @@ fn leading(
     leading.collect()
 }
 
-/// Lets an answer about formulas tell what the motions before need where they lead over a highest place.
+/// Lets an answer about formulas tell what the motions before need where they lead over a highest place, and what must grip.
 pub(super) fn on_the_way(
     scene: &Scene,
     stages: &[StageTold],
@@ -321,7 +321,10 @@ pub(super) fn on_the_way(
         }
         let leading = leading(stages, world, q, earlier).into_iter();
         let all = leading.flat_map(|i| &stages[i].assumptions);
-        besides(answer, all.filter(|words| words.is_partial()));
+        besides(
+            answer,
+            all.filter(|words| words.is_partial() || words.is_of_a_grip()),
+        );
     }
 }
 
@@ -335,7 +338,7 @@ pub(super) fn led_to(stages: &[StageTold], answer: &mut Answer) {
             Some(case) => happens_where(case).collect::<Vec<_>>(),
             None => {
                 let mut all = told.assumptions.clone();
-                all.retain(|words| words.is_condition());
+                all.retain(|words| words.is_condition() || words.is_of_a_grip());
                 all
             }
         }
