@@ -80,17 +80,6 @@ impl Sentence {
         })
     }
 
-    /// Whether it says that a contact grips, always or unless a condition holds.
-    pub fn is_of_a_grip(&self) -> bool {
-        let says = |words: &str| {
-            [" grips: ", " grips, unless "]
-                .iter()
-                .any(|s| words.contains(s))
-        };
-        let mut pieces = self.0.iter();
-        pieces.any(|piece| matches!(piece, Piece::Words(words) if says(words)))
-    }
-
     /// Whether it tells a condition at all, needed or partial.
     pub fn is_condition(&self) -> bool {
         self.is_partial() || self.stated().next().is_some()

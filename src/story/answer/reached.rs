@@ -5,6 +5,7 @@
 
 use std::collections::BTreeSet;
 
+use super::super::grips::Grip;
 use super::super::worlds::World;
 use super::super::{Case, StageTold, line};
 use super::{happens_where, supposed};
@@ -306,7 +307,7 @@ fn leading(
     leading.collect()
 }
 
-/// Lets an answer about formulas tell what the motions before need where they lead over a highest place, and what must grip.
+/// Lets an answer about formulas tell what the motions before need where they lead over a highest place.
 pub(super) fn on_the_way(
     scene: &Scene,
     stages: &[StageTold],
@@ -321,11 +322,52 @@ pub(super) fn on_the_way(
         }
         let leading = leading(stages, world, q, earlier).into_iter();
         let all = leading.flat_map(|i| &stages[i].assumptions);
-        besides(
-            answer,
-            all.filter(|words| words.is_partial() || words.is_of_a_grip()),
-        );
+        besides(answer, all.filter(|words| words.is_partial()));
     }
+}
+
+/// Lets an answer about formulas tell which contacts have to grip, with the values for which it asks.
+pub(super) fn gripped(
+    scene: &Scene,
+    stages: &[StageTold],
+    world: &World,
+    question: &Question,
+    earlier: &[Answer],
+    answer: &mut Answer,
+) {
+    let mut with = fixed(question, &world.known);
+    // A bound holds for all values beyond it.
+    let is_value = match &question.ask {
+        Ask::Condition { relation, .. } => *relation == formula::Relation::Equal,
+        _ => matches!(question.ask, Ask::Maximum { .. }),
+    };
+    let found = answer.range.iter().filter(|_| is_value);
+    with.extend(found.filter_map(|(of, _, value)| Some((of.as_symbol()?.clone(), value.clone()))));
+    let all = grips(scene, stages, world, question, earlier).into_iter();
+    let all = all.map(|grip| grip.put(&with, &scene.domains));
+    let words: Vec<Sentence> = all.filter_map(|grip| grip.told(&scene.domains)).collect();
+    besides(answer, words.iter());
+}
+
+/// The contacts that have to grip in the stages that lead to the answers that a question is about.
+fn grips(
+    scene: &Scene,
+    stages: &[StageTold],
+    world: &World,
+    question: &Question,
+    earlier: &[Answer],
+) -> Vec<Grip> {
+    let all = used(&scene.questions, question).into_iter().flat_map(|q| {
+        if q.ask.formulas().is_empty() {
+            let leading = leading(stages, world, q, earlier).into_iter();
+            return leading.flat_map(|i| stages[i].grips.clone()).collect();
+        }
+        let with = fixed(q, &world.known);
+        let all = grips(scene, stages, world, q, earlier).into_iter();
+        let all = all.map(|grip| grip.put(&with, &scene.domains));
+        all.collect::<Vec<Grip>>()
+    });
+    all.collect()
 }
 
 /// Lets an answer about a stage tell what the motions suppose that lead there, and what the impacts need.
@@ -338,7 +380,9 @@ pub(super) fn led_to(stages: &[StageTold], answer: &mut Answer) {
             Some(case) => happens_where(case).collect::<Vec<_>>(),
             None => {
                 let mut all = told.assumptions.clone();
-                all.retain(|words| words.is_condition() || words.is_of_a_grip());
+                all.retain(Sentence::is_condition);
+                let domains = &told.placed.scene.domains;
+                all.extend(told.grips.iter().filter_map(|grip| grip.told(domains)));
                 all
             }
         }
