@@ -744,7 +744,7 @@ fn an_answer_tells_what_it_rests_on() {
         let told = told(&scene);
         let is_it = |a: &&Answer| a.name.split("_case").next() == Some(answer);
         let mine: Vec<&Answer> = told.answers.iter().filter(is_it).collect();
-        let given = carom::answer::given_alike(&mine).into_iter();
+        let given = carom::answer::given_alike(&mine, &scene.domains).into_iter();
         let given = given.map(|words| words.written(|e| render::unicode(&scene, e)));
         let given: Vec<String> = given.collect();
         let is_told = |words: &str| given.iter().any(|g| g.contains(words));

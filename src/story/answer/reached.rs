@@ -414,7 +414,9 @@ pub(super) fn one_of_the_cases(
         let is_it = |a: &&Answer| without_case(&a.name) == &*name || a.question == *name;
         let mine: Vec<&Answer> = earlier.iter().filter(is_it).collect();
         let is_new = |words: &Sentence| mine.iter().all(|a| !a.assumptions.contains(words));
-        let either = given_alike(&mine).into_iter().filter(is_new);
+        let either = given_alike(&mine, &scene.domains)
+            .into_iter()
+            .filter(is_new);
         let there = |e: &Expr| {
             let put = e.substitute(&found);
             tidy(&put, &scene.domains).unwrap_or(put)
