@@ -159,23 +159,13 @@ impl Field {
                 continue;
             }
             below.factors.retain(|(f, k)| {
-                let Some(parts) = self.positive_parts(f).filter(|_| *k == 1) else {
-                    return true;
-                };
-                let place = |inside: &Parts, f: &Poly| {
-                    let is_it = |(g, k): &(Poly, u32)| *k == 1 && (g == f || *g == f.neg());
-                    inside.factors.iter().position(is_it)
-                };
-                let all = || parts.factors.iter();
-                if !all().all(|(f, k)| *k == 1 && place(&inside, f).is_some()) {
-                    return true;
-                }
-                for (f, _) in all() {
-                    let taken = place(&inside, f).map(|at| inside.factors.remove(at));
-                    under.factors.extend(taken);
-                }
-                under.content *= parts.content.pow(2);
-                false
+                let is_it = |(g, k): &(Poly, u32)| *k == 1 && (g == f || *g == f.neg());
+                let place = inside.factors.iter().position(is_it);
+                let place = place.filter(|_| *k == 1 && self.sign_poly(f) == Some(Sign::Positive));
+                under
+                    .factors
+                    .extend(place.map(|at| inside.factors.remove(at)));
+                place.is_none()
             });
             if !under.factors.is_empty() {
                 inside.join_conjugates();
@@ -184,21 +174,6 @@ impl Field {
             }
         }
         out
-    }
-
-    /// Factors of what is known to be positive where it is not zero.
-    fn positive_parts(&self, f: &Poly) -> Option<Parts> {
-        if let ([v], 1) = (f.variables().as_slice(), f.len())
-            && let Kind::Abs(p) = &self.gens[*v].kind
-        {
-            return Some(self.taken_apart(p));
-        }
-        let is_positive = self.sign_poly(f) == Some(Sign::Positive);
-        let alone = Parts {
-            factors: vec![(f.clone(), 1)],
-            ..Parts::one()
-        };
-        is_positive.then_some(alone)
     }
 
     /// The product of a number and factors in their order: √a·√b/√c is written √(ab/c) where each of them is known to be real; if
