@@ -641,6 +641,27 @@ fn the_numbers_of_every_stage_are_printed() {
 }
 
 #[test]
+fn numbers_tell_where_what_a_body_turns_about_has_to_pull_it() {
+    // It need not as long as v² (3 R − 2 h)² ≤ 9 g R² (R − h): up to v = 3.2636.
+    for (speed, pulls) in [("3.263", false), ("3.264", true)] {
+        let mut scene = scene("disk-climbs-over-a-step");
+        for (name, value) in [
+            ("m", "2"),
+            ("R", "1"),
+            ("h", "1/5"),
+            ("g", "10"),
+            ("v", speed),
+        ] {
+            carom::scene::set(&mut scene, name, value).expect("a value");
+        }
+        let out = command::solve(&scene, Numbers::Doubles, Format::Text);
+        let text = out.expect("numbers").text;
+        let words = "taken for granted: P grips: it pulls at the beginning";
+        assert_eq!(text.contains(words), pulls, "{text}");
+    }
+}
+
+#[test]
 fn numbers_tell_formulas_of_answers_and_directions_in_degrees() {
     let solved = |name: &str, values: &[(&str, &str)]| {
         let mut scene = scene(name);
@@ -723,7 +744,7 @@ fn an_answer_tells_what_it_rests_on() {
         let told = told(&scene);
         let is_it = |a: &&Answer| a.name.split("_case").next() == Some(answer);
         let mine: Vec<&Answer> = told.answers.iter().filter(is_it).collect();
-        let given = carom::answer::given_alike(&mine).into_iter();
+        let given = carom::answer::given_alike(&mine, &scene.domains).into_iter();
         let given = given.map(|words| words.written(|e| render::unicode(&scene, e)));
         let given: Vec<String> = given.collect();
         let is_told = |words: &str| given.iter().any(|g| g.contains(words));

@@ -3,8 +3,9 @@
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
+use super::Sign;
 use super::element::Element;
-use super::field::Field;
+use super::field::{Field, Kind};
 use super::parts::{Parts, conjugates};
 use super::poly::Poly;
 use crate::expr::{Expr, Int, Node, Rational, ratio};
@@ -71,17 +72,23 @@ impl Rank {
 impl Field {
     /// A quotient from the factors above and below its line, in the order in which a person writes them.
     pub(super) fn assemble(&self, above: &Parts, below: &Parts) -> Expr {
+        let mut below = below.clone();
+        let sunk = self.sunk(above, &mut below);
         let mut number = Rational::new(above.content.clone(), below.content.clone());
         let mut factors: Vec<Factor> = Vec::new();
         // Sums of mixed signs may be turned round to carry a minus sign; 1 − e² reads better as it is, and what is known to
         // be positive shows it.
         let mut turnable: Vec<(bool, &Poly, Expr)> = Vec::new();
-        for (parts, sign) in [(above, 1i64), (below, -1)] {
+        for (parts, sign) in [(above, 1i64), (&below, -1)] {
             for (f, k) in &parts.factors {
                 let mut power = ratio(i64::from(*k) * sign, 1);
                 let (expr, rank, root) = if f.len() == 1 {
                     let v = f.variables()[0];
-                    let (expr, own) = self.generator(v);
+                    let known = sunk.iter().find(|(root, _)| *root == v);
+                    let (expr, own) = match known {
+                        Some((_, under)) => (under.clone(), ratio(1, 2)),
+                        None => self.generator(v),
+                    };
                     let root = (!own.is_one()).then_some(v);
                     power *= own;
                     let rank = Rank::of(&expr);
@@ -131,6 +138,42 @@ impl Field {
         factors.retain(|f| !f.power.is_zero());
         factors.sort_by(|a, b| (a.rank, &a.base).cmp(&(b.rank, &b.base)));
         self.with_one_root(number, factors)
+    }
+
+    /// The radicands of roots above the line that have what stands below it: √(a b)/b is √(a/b) where b > 0.
+    fn sunk(&self, above: &Parts, below: &mut Parts) -> Vec<(usize, Expr)> {
+        let mut out = Vec::new();
+        for (f, _) in above
+            .factors
+            .iter()
+            .filter(|(f, k)| *k == 1 && f.len() == 1)
+        {
+            let root = f.variables()[0];
+            let (Kind::Root, Some((2, value))) = (&self.gens[root].kind, &self.gens[root].relation)
+            else {
+                continue;
+            };
+            let mut inside = self.taken_apart(value);
+            let mut under = Parts::one();
+            if inside.factors.len() < 2 {
+                continue;
+            }
+            below.factors.retain(|(f, k)| {
+                let is_it = |(g, k): &(Poly, u32)| *k == 1 && (g == f || *g == f.neg());
+                let place = inside.factors.iter().position(is_it);
+                let place = place.filter(|_| *k == 1 && self.sign_poly(f) == Some(Sign::Positive));
+                under
+                    .factors
+                    .extend(place.map(|at| inside.factors.remove(at)));
+                place.is_none()
+            });
+            if !under.factors.is_empty() {
+                inside.join_conjugates();
+                under.join_conjugates();
+                out.push((root, self.assemble(&inside, &under)));
+            }
+        }
+        out
     }
 
     /// The product of a number and factors in their order: √a·√b/√c is written √(ab/c) where each of them is known to be real; if

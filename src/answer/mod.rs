@@ -31,7 +31,7 @@ use crate::dimension::{Dimension, System};
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, Vector};
 use crate::formula::{Relation, Sentence, latex_name, sentence, with_subscript, write_plain};
-use crate::scene::{Ask, Parameter, Question, Scene};
+use crate::scene::{Ask, Mode, Parameter, Question, Scene};
 
 /// The symbol whose square stands for a parameter under a root.
 const ROOT: &str = "\u{1}root";
@@ -211,19 +211,63 @@ pub fn along(direction: Option<&Vector>) -> String {
 }
 
 /// What answers that say the same rest on: what all of them do, and where each does besides, one or another of that.
-pub fn given_alike(all: &[&Answer]) -> Vec<Sentence> {
+pub fn given_alike(all: &[&Answer], domains: &Domains) -> Vec<Sentence> {
     let is_common = |s: &&Sentence| all.iter().all(|a| a.assumptions.contains(s));
     let first = all.first().into_iter().flat_map(|a| &a.assumptions);
     let mut out: Vec<Sentence> = first.filter(is_common).cloned().collect();
     let own = |a: &&Answer| {
-        let own = a.assumptions.iter().filter(|s| !is_common(s)).cloned();
-        Sentence::join(own, " and ")
+        let own = a.assumptions.iter().filter(|s| !is_common(s));
+        own.cloned().collect::<Vec<_>>()
     };
-    let each: Vec<Sentence> = all.iter().map(own).collect();
-    if all.len() > 1 && each.iter().all(|own| !own.0.is_empty()) {
-        out.push(Sentence::join(each, ", or that "));
+    let each: Vec<Vec<Sentence>> = all.iter().map(own).collect();
+    if all.len() < 2 || each.iter().any(Vec::is_empty) {
+        return out;
     }
+    let joined = match each.as_slice() {
+        [a, b] => as_one(a, b, domains).or_else(|| as_one(b, a, domains)),
+        _ => None,
+    };
+    out.extend(joined.unwrap_or_else(|| {
+        let each = each.into_iter().map(|own| Sentence::join(own, " and "));
+        vec![Sentence::join(each, ", or that ")]
+    }));
     out
+}
+
+/// Either that x ≥ 0, or that x ≤ 0 and z ≥ 0, as z ≥ 0, where this holds wherever x ≥ 0; for the same reason: a contact sticks,
+/// whether it begins to in compression or in restitution.
+fn as_one(a: &[Sentence], b: &[Sentence], domains: &Domains) -> Option<Vec<Sentence>> {
+    let plain = |all: &[Sentence]| -> Vec<Sentence> {
+        let plain = all.iter().map(|s| s.worded(&Mode::without_phase));
+        plain.collect()
+    };
+    let (a, b) = (plain(a), plain(b));
+    let (mut out, a): (Vec<Sentence>, Vec<Sentence>) = a.into_iter().partition(|s| b.contains(s));
+    let b: Vec<&Sentence> = b.iter().filter(|s| !out.contains(s)).collect();
+    let a = a.first().filter(|_| a.len() == 1)?;
+    let excess = |s: &Sentence| {
+        let mut all = s.conditions();
+        let first = all.next().filter(|(_, is_open)| !is_open);
+        first.filter(|_| all.next().is_none()).map(|(e, _)| e)
+    };
+    let x = excess(a)?;
+    let is_opposite =
+        |b: &Sentence| excess(b).is_some_and(|y| calc::is_zero(&(&x + &y), domains) == Some(true));
+    let (b, c) = match b.as_slice() {
+        // One of both holds always.
+        [b] => return is_opposite(b).then_some(out),
+        [b, c] => (b, c),
+        _ => return None,
+    };
+    let is_not_negative =
+        |e: &Expr| matches!(calc::sign(e, domains), calc::Seen::Proved(s) if s.is_not_negative());
+    let rest = [(b, c), (c, b)].into_iter().find(|(not, rest)| {
+        let alike = [a, *not].iter().all(|s| s.0.last() == rest.0.last());
+        let follows = excess(rest).is_some_and(|z| is_not_negative(&(z - &x)));
+        alike && is_opposite(not) && follows
+    });
+    out.push((*rest?.1).clone());
+    Some(out)
 }
 
 impl Answer {

@@ -58,6 +58,15 @@ impl Sentence {
         Sentence(self.0.iter().map(put).collect())
     }
 
+    /// The sentence with its words changed.
+    pub fn worded(&self, change: &dyn Fn(&str) -> String) -> Sentence {
+        let put = |piece: &Piece| match piece {
+            Piece::Words(words) => Piece::Words(change(words)),
+            Piece::Formula(e) => Piece::Formula(e.clone()),
+        };
+        Sentence(self.0.iter().map(put).collect())
+    }
+
     /// Where it begins with a condition that is needed, what that says is positive, or not negative, and whether it is the former.
     pub fn condition(&self) -> Option<(Expr, bool)> {
         self.conditions().next()

@@ -129,6 +129,12 @@ fn stage_text(followed: &Followed, passed: &Passed) -> String {
                     "  force of the fixed point: ({a}, {b}) N at the beginning, ({c}, {d}) N at the end"
                 );
             }
+            for (name, when) in pulls(moved) {
+                let _ = writeln!(
+                    out,
+                    "  taken for granted: {name} grips: it pulls at the {when}"
+                );
+            }
         }
     }
     for pair in &passed.passing {
@@ -187,6 +193,12 @@ fn acting(impact: &Impact) -> String {
 fn impulses(impact: &Impact) -> impl Iterator<Item = &Impulse> {
     let all = impact.contacts.iter().chain(&impact.hinges);
     all.chain(&impact.blows)
+}
+
+/// The contacts that have to pull what turns about them, and when.
+fn pulls(moved: &Moved) -> impl Iterator<Item = (&String, &'static str)> {
+    let ends = moved.pulls.iter().zip(["beginning", "end"]);
+    ends.filter_map(|(name, when)| Some((name.as_ref()?, when)))
 }
 
 fn breach_words(breach: &Breach) -> String {
@@ -324,6 +336,11 @@ fn motion_json(followed: &Followed, moved: &Moved, out: &mut Map<String, Value>)
         let pair = |c: &[Component; 2]| json!([component(&c[0]), component(&c[1])]);
         let reaction = json!({"before": pair(begin), "after": pair(end)});
         out.insert("reaction".into(), reaction);
+    }
+    let pulling = pulls(moved).map(|(name, when)| json!({"name": name, "at": when}));
+    let pulling: Vec<Value> = pulling.collect();
+    if !pulling.is_empty() {
+        out.insert("pulls".into(), json!(pulling));
     }
     if let Some(clockwise) = moved.clockwise {
         out.insert("clockwise".into(), json!(clockwise));

@@ -150,7 +150,7 @@ pub fn answers(scene: &Scene, of: Option<&Told>, answers: &[Answer]) -> String {
                 .map(|words| format!("discarded: {}", written(words))),
         );
         let told: Vec<&Answer> = [a].into_iter().chain(alike).collect();
-        let given = given_alike(&told).into_iter();
+        let given = given_alike(&told, &scene.domains).into_iter();
         lines.extend(given.map(|words| format!("given that {}", written(&words))));
         for line in lines {
             let _ = writeln!(out, "      {line}");

@@ -108,7 +108,13 @@ impl Body {
         if name.to_lowercase().starts_with("the ") {
             return name.to_string();
         }
-        if name.chars().count() == 1 || ["one", "two", "three", "four"].contains(&name) {
+        // Two small letters, such as those of the ends of a rod, are no noun.
+        let is_letters = match name.chars().count() {
+            1 => true,
+            2 => name.chars().all(|c| c.is_lowercase()),
+            _ => false,
+        };
+        if is_letters || ["one", "two", "three", "four"].contains(&name) {
             return format!("body {name}");
         }
         let digits = name.chars().rev().take_while(char::is_ascii_digit).count();

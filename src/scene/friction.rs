@@ -140,6 +140,15 @@ impl Mode {
         }
     }
 
+    /// Words that say when a contact begins to stick, as words that say that it sticks.
+    pub fn without_phase(words: &str) -> String {
+        let whens = [Mode::SticksInCompression, Mode::SticksInRestitution];
+        let whens = whens.into_iter();
+        whens.fold(words.to_string(), |words, mode| {
+            words.replace(mode.words(), Mode::Sticks.words())
+        })
+    }
+
     /// Whether the contact does not slip just after.
     pub fn sticks(self) -> bool {
         matches!(

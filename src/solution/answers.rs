@@ -1,7 +1,7 @@
 //! Quantities that follow from what the blocks determine: velocities of points, components, energies, equations asked for.
 
 use super::words::{self, say, vector};
-use super::{Claim, Detail, Line, Math, Part, Writer, full_sentence};
+use super::{Claim, Detail, Inline, Line, Math, Part, Writer, full_sentence};
 use crate::answer::{Answer, Form};
 use crate::expr::{Expr, Symbol, Vector, dot, minus};
 use crate::laws::{self, Place};
@@ -199,15 +199,39 @@ impl Writer<'_> {
         let forms = laws::impulse_at(self.scene, &self.g, place);
         let v = [0, 1].map(|axis| &sign * &self.form(&forms[axis]));
         let v = self.tidy_vector(&v);
-        let whole = vector("P", &words::point(self.scene, place), "");
+        let index = words::point(self.scene, place);
+        // The number that a contact along its normal has bears the name of the vector.
+        let number = format!("P_{index}");
+        let is_taken = v.iter().any(|e| e.mentions(&number));
+        let whole = match is_taken {
+            true => vector(
+                "P",
+                &format!("{index},{}", words::center(self.scene, on)),
+                "",
+            ),
+            false => vector("P", &index, ""),
+        };
+        let whom = is_taken.then(|| {
+            let body = words::body(self.scene, on);
+            [
+                Inline::Math(vec![whole.clone()]),
+                say(format!(" for the impulse on {body},")),
+            ]
+        });
         if let Some(d) = along {
             let raw = self.tidy(&dot(&v, d));
+            if let Some(whom) = whom.filter(|_| raw.size() > NAMED) {
+                self.text([vec![say("With ")], whom.into()].concat());
+            }
             return self.component(d, whole, raw, answers);
         }
         let claims = fresh(answers, &v);
         if !claims.is_empty() {
             let id = self.step(Vec::new(), claims, "components of the impulse");
-            self.say("In components,");
+            match whom {
+                Some(whom) => self.text([vec![say("In components, with ")], whom.into()].concat()),
+                None => self.say("In components,"),
+            }
             self.show(words::set("{} = {}", [whole, v.clone().into()]), Some(id));
         }
         self.values(&v, answers, None);

@@ -37,6 +37,10 @@ fn needed(scene: &Scene, mut all: Vec<Sentence>) -> Vec<Sentence> {
         let others: Vec<(Expr, bool)> = others.collect();
         let follows = |(e, is_open): (Expr, bool)| {
             others.iter().any(|(given, open)| {
+                // Long products are not taken apart for their signs.
+                if *given == e {
+                    return *open || !is_open;
+                }
                 let domains = scene.domains.given(given, !open);
                 match sign(&e, &domains) {
                     Some(Sign::Positive) => true,

@@ -53,28 +53,34 @@ pub(super) fn on_the_way(scene: &Scene, stated: &Related, range: &Related) -> Ve
         .collect()
 }
 
-/// Both sides squared where the left one is a root, or their cosines where it is an arc cosine.
+/// Both sides squared where the left one is a root, or their cosines or sines where it is an arc.
 fn undone(scene: &Scene, (left, relation, right): &Related) -> Option<Related> {
-    if let Node::Call(Function::Acos, x) = left.node() {
-        // The cosine falls all the way from 0 to π.
-        let beyond = Expr::symbol("pi") - right.clone();
-        let falls = [right, &beyond]
-            .into_iter()
-            .all(|e| never_below_zero(scene, e));
-        let holds = *relation == Relation::Equal || falls;
-        return holds.then(|| (x.clone(), relation.turned(), tidied(scene, &right.cos())));
-    }
+    let half = Expr::symbol("pi") / Expr::from(2);
+    let (x, middle, there, turned) = match left.node() {
+        // The cosine falls all the way from 0 to π, the sine rises from −π/2 to π/2.
+        Node::Call(Function::Acos, x) => (x, half.clone(), right.cos(), relation.turned()),
+        Node::Call(Function::Asin, x) => (x, Expr::zero(), right.sin(), *relation),
+        _ => return undone_root(scene, left, *relation, right),
+    };
+    let beyond = [right - &middle + &half, &middle + &half - right];
+    let is_within = beyond.iter().all(|e| never_below_zero(scene, e));
+    let holds = *relation == Relation::Equal || is_within;
+    holds.then(|| (x.clone(), turned, tidied(scene, &there)))
+}
+
+/// Both sides squared where the left one is a root.
+fn undone_root(scene: &Scene, left: &Expr, relation: Relation, right: &Expr) -> Option<Related> {
     // Beside zero what the root is multiplied by has no part.
     if let (Node::Product(factors), true) = (left.node(), right.is_zero()) {
         let (roots, others): (Vec<_>, Vec<_>) = factors.iter().cloned().partition(is_square_root);
         if let [root] = roots.as_slice()
             && sign(&Expr::product(others), &scene.domains) == Some(Sign::Positive)
         {
-            return undone(scene, &(root.clone(), *relation, right.clone()));
+            return undone_root(scene, root, relation, right);
         }
     }
     (is_root(left) && never_below_zero(scene, left) && never_below_zero(scene, right))
-        .then(|| (square(scene, left), *relation, square(scene, right)))
+        .then(|| (square(scene, left), relation, square(scene, right)))
 }
 
 /// The square of a parameter whose value is a root, or the cosine, sine or tangent of one whose value is an arc.

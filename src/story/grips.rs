@@ -6,13 +6,68 @@ use super::answer::bearing;
 use super::motion::{arms, sense};
 use super::{StageTold, line};
 use crate::algebra::Sign;
+use crate::answer::Known;
 use crate::answer::calc::{Seen, essential, is_zero, sign, tidy};
+use crate::domain::Domains;
 use crate::expr::{Expr, Vector, minus};
 use crate::formula::{Sentence, sentence};
 use crate::scene::{Stage, StageKind, Turn};
 
+/// A contact that grips what turns about it, unless it only has to push.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grip {
+    name: String,
+    /// Has the sign of its push.
+    push: Expr,
+    /// At which end of the motion.
+    when: &'static str,
+    motion: String,
+}
+
+impl Grip {
+    /// The same with values put in.
+    pub(super) fn put(&self, with: &Known, domains: &Domains) -> Grip {
+        let push = match with.keys().any(|name| self.push.mentions(name)) {
+            true => essential(&self.push.substitute(with), domains),
+            false => self.push.clone(),
+        };
+        Grip {
+            push,
+            ..self.clone()
+        }
+    }
+
+    /// What is said of it; `None` where it is proved to push.
+    pub(super) fn told(&self, domains: &Domains) -> Option<Sentence> {
+        let Grip {
+            name,
+            push,
+            when,
+            motion,
+        } = self;
+        match sign(push, domains) {
+            Seen::Proved(s) if s.is_not_negative() => None,
+            seen if seen.is_negative() || seen == Seen::Proved(Sign::NotPositive) => {
+                Some(sentence!(
+                    "`{}` grips: it pulls at the {} of `{}`",
+                    name,
+                    *when,
+                    motion
+                ))
+            }
+            _ => Some(sentence!(
+                "`{}` grips, unless {}, so that it only pushes at the {} of `{}`",
+                name,
+                Sentence::not_negative(push),
+                *when,
+                motion
+            )),
+        }
+    }
+}
+
 /// A contact at the fixed point of a rotation.
-struct Grip {
+struct Pivot {
     name: String,
     /// The direction in which it pushes the body, where the scene gives it.
     pushes: Option<Vector>,
@@ -30,7 +85,8 @@ pub(super) fn pulls(
         return told;
     };
     let spin = &told.before.spin[turn.body];
-    let (Some(grip), Ok((way, _))) = (grip(stage, stages, branch, turn), sense(stage, spin, turn))
+    let (Some(pivot), Ok((way, _))) =
+        (pivot(stage, stages, branch, turn), sense(stage, spin, turn))
     else {
         return told;
     };
@@ -38,7 +94,7 @@ pub(super) fn pulls(
         return told;
     }
     let [first, last] = arms(stage, turn, spin);
-    let mut ends = match &grip.pushes {
+    let mut ends = match &pivot.pushes {
         // Where the body turns, the surface that it touches is another one.
         Some(normal) => vec![(normal, false, "beginning")],
         None => vec![(&first, false, "beginning"), (&last, true, "end")],
@@ -56,7 +112,6 @@ pub(super) fn pulls(
             Ok(push) => essential(&push, &domains),
             Err(_) => continue,
         };
-        let (name, motion) = (&grip.name, &stage.name);
         // Where it pushes by more than at the beginning, that says it all.
         let more = before
             .as_ref()
@@ -64,19 +119,17 @@ pub(super) fn pulls(
         if matches!(more, Some(Seen::Proved(s)) if s.is_not_negative()) {
             continue;
         }
-        told.assumptions.push(match sign(&need, &domains) {
-            Seen::Proved(s) if s.is_not_negative() => continue,
-            seen if seen.is_negative() || seen == Seen::Proved(Sign::NotPositive) => {
-                sentence!("`{}` grips: it pulls at the {} of `{}`", name, when, motion)
-            }
-            _ => sentence!(
-                "`{}` grips, unless {}, so that it only pushes at the {} of `{}`",
-                name,
-                Sentence::not_negative(&need),
-                when,
-                motion
-            ),
-        });
+        let grip = Grip {
+            name: pivot.name.clone(),
+            push: need.clone(),
+            when,
+            motion: stage.name.clone(),
+        };
+        let Some(words) = grip.told(&domains) else {
+            continue;
+        };
+        told.assumptions.push(words);
+        told.grips.push(grip);
         domains = domains.given(&need, true);
         before = Some(need);
     }
@@ -84,12 +137,12 @@ pub(super) fn pulls(
 }
 
 /// The contact that holds the fixed point of a rotation since the last impact there; `None` where a hinge or a string does.
-fn grip(
+fn pivot(
     stage: &Stage,
     stages: &[StageTold],
     branch: Option<(usize, usize)>,
     turn: &Turn,
-) -> Option<Grip> {
+) -> Option<Pivot> {
     let domains = &stage.scene.domains;
     let is_pivot = |at: &Vector| {
         let mut gap = minus(at, &turn.about).into_iter();
@@ -109,7 +162,7 @@ fn grip(
         if let Some(contact) = contacts.find(|c| holds(&c.bodies, &c.at)) {
             let into = contact.bodies[1] == turn.body;
             let normal = contact.normal.clone();
-            return (!contact.is_string).then(|| Grip {
+            return (!contact.is_string).then(|| Pivot {
                 name: contact.name.clone(),
                 pushes: match into {
                     true => normal,

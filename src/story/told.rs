@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::iter::successors;
 
+use super::grips::Grip;
 use super::{granted, second};
 use crate::answer::{Answer, Check, Refused};
 use crate::derive::Derivation;
@@ -300,6 +301,8 @@ pub struct StageTold {
     pub words: Vec<Sentence>,
     /// What the stage takes for granted.
     pub assumptions: Vec<Sentence>,
+    /// Where it stands in them that what holds its fixed point grips: more than pushing may be needed.
+    pub grips: Vec<Grip>,
     /// What was checked.
     pub checks: Vec<Check>,
 }
@@ -308,6 +311,13 @@ impl StageTold {
     /// The cluster in which a body flies, if it does.
     pub fn cluster_of(&self, body: usize) -> Option<&Cluster> {
         self.clusters.iter().find(|c| c.bodies.contains(&body))
+    }
+
+    /// Whether words stand in what it takes for granted, and tell what has to grip.
+    pub fn says_of_grips(&self, words: &Sentence) -> bool {
+        let mut grips = self.grips.iter();
+        self.assumptions.contains(words)
+            && grips.any(|grip| grip.told(&self.placed.scene.domains).as_ref() == Some(words))
     }
 
     /// A stage of which no more is told yet than how it begins and ends.

@@ -30,6 +30,7 @@
 //! - after winding on a thin pole the axes are turned so that the rope lies along x, as the file's places have it.
 
 mod answer;
+mod grips;
 mod impact;
 mod lost;
 mod mechanism;
@@ -202,6 +203,10 @@ fn through(scene: &Scene, solids: Vec<Solid>, start: &State, values: &Point<f64>
             passed.passing = passage::passing(scene, solids, &values, (stage, passed), &at_once);
             let back = passage::back_through(&course, &followed, (stage, passed), &values);
             passed.passing.extend(back);
+            let pulls = grips::pulls(scene, (&course, &followed), (stage, passed), &values);
+            if let What::Motion(moved) = &mut passed.what {
+                moved.pulls = pulls;
+            }
             for (i, pair) in passage::beside(scene, (&course, &followed), passed, &values) {
                 passed.passing.push(pair);
                 if let Ok(other) = &mut followed.stages[i] {

@@ -65,6 +65,15 @@ pub(super) fn take(
         for name in other {
             let message = format!("`{name}` is no answer to a stage before this one");
             let hint = "a stage may use what is asked of the motions and impacts before it, and a `value` made of that";
+            let is_about_answers = scene.answering(&name).is_some_and(|q| {
+                !q.ask.formulas().is_empty() && !matches!(q.ask, Ask::Value { .. })
+            });
+            let hint = match is_about_answers {
+                true => format!(
+                    "{hint}; of what is found from answers it takes the formula, as `derive` tells it without this stage"
+                ),
+                false => hint.to_string(),
+            };
             base.report(file.name.span, message, hint);
         }
         // Answers that it does not use are nothing to it.

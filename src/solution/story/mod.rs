@@ -43,6 +43,11 @@ pub(super) fn tell(scene: &Scene, told: &Told, detail: Detail) -> Solution {
     };
     page.opening();
     let mut answers = told.answers.clone();
+    // What has to grip in a motion is said there.
+    let is_said = |words: &Sentence| told.stages.iter().any(|stage| stage.says_of_grips(words));
+    for answer in &mut answers {
+        answer.assumptions.retain(|words| !is_said(words));
+    }
     for (i, stage) in told.stages.iter().enumerate() {
         // A value that a stage takes stands before it.
         let takes = |a: &Answer| stage.earlier.contains_key(a.name.as_str()) && a.told.is_none();

@@ -69,32 +69,40 @@ impl Page<'_> {
             let is_zero = |e: &Expr| is_zero(e, &self.scene.domains) == Some(true);
             is_zero(&arm[1]) && is_zero(&(counted(angle) - &length))
         };
-        let began = angle.and_then(|angle| match from_level(&angle) {
-            true => Some((angle, ["level with", "above"])),
-            false => from_below.then_some((angle, ["straight below", "below"])),
-        });
-        if let Some((angle, [first, last])) = began {
-            let name = Symbol::from(angle.name.as_str());
-            let (turned, cosine) = (Expr::symbol(&name), Expr::symbol(&name).cos());
-            let (place, swung) = match last {
-                "above" => (&length * turned.sin(), &length * turned.sin()),
-                _ => (&length * cosine.clone(), &length * (Expr::one() - cosine)),
-            };
+        let Some(angle) = angle.filter(|a| a.formula().is_some()) else {
+            return;
+        };
+        let name = Symbol::from(angle.name.as_str());
+        let turned = Expr::symbol(&name);
+        let (sine, cosine) = (turned.sin(), turned.cos());
+        let lifted = |first: &str, place: &Expr, last: &str| {
             let about = say(&turn.about_name);
-            let [length, place] = [&length, &place].map(words::formula);
-            self.solution.text(fill(
-                "It began {} {}, a distance {} away, and ends {} {} it:",
-                [say(first), about, length, place, say(last)],
-            ));
-            let claim = Claim::new(h.clone(), swung.clone());
-            let step = self
-                .solution
-                .step(Vec::new(), vec![claim], "where the rotation leads");
-            let math = words::related(&h, "=", &swung);
-            let step = Some(step);
-            self.solution.display(vec![Line { math, step }]);
-            let meaning = Meaning::Answer(angle.question.clone(), None);
-            self.solution.meanings.insert(name, meaning);
-        }
+            let [length, place] = [&length, place].map(words::formula);
+            let [first, last] = [first, last].map(say);
+            let words = "It began {} {}, a distance {} away, and ends {} {} it:";
+            fill(words, [first, about, length, place, last])
+        };
+        let (words, swung) = if from_level(&angle) {
+            let place = &length * sine;
+            (lifted("level with", &place, "above"), place)
+        } else if from_below {
+            let place = &length * &cosine;
+            let swung = &length * (Expr::one() - &cosine);
+            (lifted("straight below", &place, "below"), swung)
+        } else {
+            let swung = counted(&angle) * sine - &arm[1] * (Expr::one() - cosine);
+            let words = "A turn through {} lifts it by";
+            let swung = tidied(self.scene, &swung);
+            (fill(words, [words::formula(&turned)]), swung)
+        };
+        self.solution.text(words);
+        let claim = Claim::new(h.clone(), swung.clone());
+        let reason = "where the rotation leads";
+        let step = self.solution.step(Vec::new(), vec![claim], reason);
+        let math = words::related(&h, "=", &swung);
+        let step = Some(step);
+        self.solution.display(vec![Line { math, step }]);
+        let meaning = Meaning::Answer(angle.question.clone(), None);
+        self.solution.meanings.insert(name, meaning);
     }
 }

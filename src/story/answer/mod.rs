@@ -60,6 +60,7 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
                 for a in &mut new {
                     reached::tell(whole, &question.ask, &needs, a);
                     reached::on_the_way(scene, &stages, world, question, &answers, a);
+                    reached::gripped(whole, &stages, world, question, &answers, a);
                     if is_same {
                         reached::one_of_the_cases(scene, question, &answers, a);
                     }

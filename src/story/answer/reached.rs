@@ -5,6 +5,7 @@
 
 use std::collections::BTreeSet;
 
+use super::super::grips::Grip;
 use super::super::worlds::World;
 use super::super::{Case, StageTold, line};
 use super::{happens_where, supposed};
@@ -325,6 +326,50 @@ pub(super) fn on_the_way(
     }
 }
 
+/// Lets an answer about formulas tell which contacts have to grip, with the values for which it asks.
+pub(super) fn gripped(
+    scene: &Scene,
+    stages: &[StageTold],
+    world: &World,
+    question: &Question,
+    earlier: &[Answer],
+    answer: &mut Answer,
+) {
+    let mut with = fixed(question, &world.known);
+    // A bound holds for all values beyond it.
+    let is_value = match &question.ask {
+        Ask::Condition { relation, .. } => *relation == formula::Relation::Equal,
+        _ => matches!(question.ask, Ask::Maximum { .. }),
+    };
+    let found = answer.range.iter().filter(|_| is_value);
+    with.extend(found.filter_map(|(of, _, value)| Some((of.as_symbol()?.clone(), value.clone()))));
+    let all = grips(scene, stages, world, question, earlier).into_iter();
+    let all = all.map(|grip| grip.put(&with, &scene.domains));
+    let words: Vec<Sentence> = all.filter_map(|grip| grip.told(&scene.domains)).collect();
+    besides(answer, words.iter());
+}
+
+/// The contacts that have to grip in the stages that lead to the answers that a question is about.
+fn grips(
+    scene: &Scene,
+    stages: &[StageTold],
+    world: &World,
+    question: &Question,
+    earlier: &[Answer],
+) -> Vec<Grip> {
+    let all = used(&scene.questions, question).into_iter().flat_map(|q| {
+        if q.ask.formulas().is_empty() {
+            let leading = leading(stages, world, q, earlier).into_iter();
+            return leading.flat_map(|i| stages[i].grips.clone()).collect();
+        }
+        let with = fixed(q, &world.known);
+        let all = grips(scene, stages, world, q, earlier).into_iter();
+        let all = all.map(|grip| grip.put(&with, &scene.domains));
+        all.collect::<Vec<Grip>>()
+    });
+    all.collect()
+}
+
 /// Lets an answer about a stage tell what the motions suppose that lead there, and what the impacts need.
 pub(super) fn led_to(stages: &[StageTold], answer: &mut Answer) {
     let Some(at) = answer.told else { return };
@@ -335,7 +380,9 @@ pub(super) fn led_to(stages: &[StageTold], answer: &mut Answer) {
             Some(case) => happens_where(case).collect::<Vec<_>>(),
             None => {
                 let mut all = told.assumptions.clone();
-                all.retain(|words| words.is_condition());
+                all.retain(Sentence::is_condition);
+                let domains = &told.placed.scene.domains;
+                all.extend(told.grips.iter().filter_map(|grip| grip.told(domains)));
                 all
             }
         }
@@ -367,7 +414,9 @@ pub(super) fn one_of_the_cases(
         let is_it = |a: &&Answer| without_case(&a.name) == &*name || a.question == *name;
         let mine: Vec<&Answer> = earlier.iter().filter(is_it).collect();
         let is_new = |words: &Sentence| mine.iter().all(|a| !a.assumptions.contains(words));
-        let either = given_alike(&mine).into_iter().filter(is_new);
+        let either = given_alike(&mine, &scene.domains)
+            .into_iter()
+            .filter(is_new);
         let there = |e: &Expr| {
             let put = e.substitute(&found);
             tidy(&put, &scene.domains).unwrap_or(put)

@@ -43,6 +43,8 @@ pub struct Moved {
     pub turned: Option<f64>,
     /// Force of the fixed point of a rotation on the bodies, at the beginning and at the end \[N\].
     pub reaction: Option<[[Component; 2]; 2]>,
+    /// Name of the contact that holds the fixed point where it has to pull, at the beginning and at the end.
+    pub pulls: [Option<String>; 2],
     /// Index of each body of a rotation or a linkage, with its acceleration along x and y [m/s²] and its angular one [rad/s²], at the
     /// beginning and at the end.
     pub accelerations: Vec<(usize, [[f64; 3]; 2])>,

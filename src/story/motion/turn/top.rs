@@ -48,8 +48,14 @@ pub(super) fn swung(stage: &Stage, turn: &Turn, spin: &Expr, r: &Vector) -> Opti
     let length = dot(r, r).sqrt();
     // The cosine less what it loses on the way up reads better than one fraction.
     let [from, rise] = [&r[1] / &length, (&y - &r[1]) / &length].map(|e| tidy(&e, domains));
-    let ends = Expr::call(Function::Acos, -(from.ok()?) - rise.ok()?);
-    Some(Expr::from(way) * (ends - tidy(&begins, domains).ok()?))
+    let (from, rise, begins) = (from.ok()?, rise.ok()?, tidy(&begins, domains).ok()?);
+    let level = tidy(&(half(&half_turn) - &begins), domains).ok()?;
+    // Counted from the level of the fixed point where the beginning is.
+    let swings = match level.mentions("pi") {
+        false => level + Expr::call(Function::Asin, from + rise),
+        true => Expr::call(Function::Acos, -from - rise) - begins,
+    };
+    Some(Expr::from(way) * swings)
 }
 
 /// What must hold so that a body comes to rest: for weight, that it does not get over the highest place; for a moment, that it
