@@ -1140,7 +1140,7 @@ fn no_phrase_that_an_editor_would_strike() {
         "given is a component",
         "before = after",
         "nothing else acts.",
-        "a = 0 ",
+        " a = 0 ",
     ];
     for case in all_cases() {
         for detail in [Detail::Brief, Detail::Normal, Detail::Full] {
@@ -1149,7 +1149,7 @@ fn no_phrase_that_an_editor_would_strike() {
             let struck = STRUCK.iter().filter(|_| detail != Detail::Full);
             // A parameter of this name is no acceleration.
             let named =
-                |phrase: &&&str| **phrase == "a = 0 " && case.scene.parameter("a").is_some();
+                |phrase: &&&str| **phrase == " a = 0 " && case.scene.parameter("a").is_some();
             for phrase in struck.chain(&NEVER).filter(|phrase| !named(phrase)) {
                 assert!(!text.contains(phrase), "{}: {phrase}", case.path.display());
             }

@@ -34,7 +34,11 @@ impl Field {
             if k % 2 == 1 {
                 radicand = self.mul_poly(&radicand, &f)?;
             }
-            let half = self.abs_power(&f, k.div_ceil(2))?;
+            let half = match k.div_ceil(2) {
+                // As it comes out where it is written out.
+                1 => self.abs_of(factor(&f, &self.fuel))?,
+                half => self.abs_power(&f, half)?,
+            };
             outside = self.mul(&outside, &half)?;
         }
         let root = self.sqrt_poly(&radicand)?;

@@ -132,8 +132,19 @@ fn words(scene: &Scene, uses: &[Use<'_>], name: &Symbol) -> Option<String> {
 
 /// What a sentence calls a body of the scene, or a part of one.
 fn called(scene: &Scene, body: &str) -> String {
-    let found = scene.bodies.iter().find(|b| b.name == body);
-    found.map_or_else(|| format!("the {}", body.replace('_', " ")), Body::called)
+    let is_it = |b: &&Body| b.name == body;
+    if let Some(found) = scene.bodies.iter().find(is_it) {
+        return found.called();
+    }
+    let mut parts = scene.bodies.iter().flat_map(|b| match &b.shape {
+        Shape::Composite { parts } => parts.as_slice(),
+        _ => Default::default(),
+    });
+    let part = parts.find(is_it).map(Body::called).unwrap_or_default();
+    match part.strip_prefix("body ") {
+        Some(letter) => format!("part {letter}"),
+        None => part,
+    }
 }
 
 /// Every number that the scene names alone.
