@@ -72,14 +72,16 @@ impl Rank {
 impl Field {
     /// A quotient from the factors above and below its line, in the order in which a person writes them.
     pub(super) fn assemble(&self, above: &Parts, below: &Parts) -> Expr {
-        let mut below = below.clone();
-        let sunk = self.sunk(above, &mut below);
+        let (mut above, mut below) = (above.clone(), below.clone());
+        let sunk = self.sunk(&mut above, &mut below);
+        above.join_conjugates();
+        below.join_conjugates();
         let mut number = Rational::new(above.content.clone(), below.content.clone());
         let mut factors: Vec<Factor> = Vec::new();
         // Sums of mixed signs may be turned round to carry a minus sign; 1 − e² reads better as it is, and what is known to
         // be positive shows it.
         let mut turnable: Vec<(bool, &Poly, Expr)> = Vec::new();
-        for (parts, sign) in [(above, 1i64), (&below, -1)] {
+        for (parts, sign) in [(&above, 1i64), (&below, -1)] {
             for (f, k) in &parts.factors {
                 let mut power = ratio(i64::from(*k) * sign, 1);
                 let (expr, rank, root) = if f.len() == 1 {
@@ -140,36 +142,51 @@ impl Field {
         self.with_one_root(number, factors)
     }
 
-    /// The radicands of roots above the line that have what stands below it: √(a b)/b is √(a/b) where b > 0.
-    fn sunk(&self, above: &Parts, below: &mut Parts) -> Vec<(usize, Expr)> {
+    /// The radicands of roots above the line that have what stands below it: √(a b)/b is √(a/b) where b > 0. A root of no more
+    /// than that goes below: √b/b is 1/√b.
+    fn sunk(&self, above: &mut Parts, below: &mut Parts) -> Vec<(usize, Expr)> {
         let mut out = Vec::new();
-        for (f, _) in above
+        let once = above
             .factors
             .iter()
-            .filter(|(f, k)| *k == 1 && f.len() == 1)
-        {
-            let root = f.variables()[0];
+            .filter(|(f, k)| *k == 1 && f.len() == 1);
+        let roots: Vec<usize> = once.map(|(f, _)| f.variables()[0]).collect();
+        for root in roots {
             let (Kind::Root, Some((2, value))) = (&self.gens[root].kind, &self.gens[root].relation)
             else {
                 continue;
             };
-            let mut inside = self.taken_apart(value);
-            let mut under = Parts::one();
-            if inside.factors.len() < 2 {
+            let whole = self.taken_apart(value);
+            let shared = |is_known: &dyn Fn(&Poly) -> bool| {
+                let (mut inside, mut under) = (whole.clone(), Parts::one());
+                for (f, _) in below.factors.iter().filter(|(f, k)| *k == 1 && is_known(f)) {
+                    let is_it = |(g, k): &(Poly, u32)| *k == 1 && (g == f || *g == f.neg());
+                    if let Some(at) = inside.factors.iter().position(is_it) {
+                        if inside.factors.remove(at).0 != *f {
+                            inside.content = -inside.content;
+                        }
+                        under.note(f.clone(), 1);
+                    }
+                }
+                (inside, under)
+            };
+            let (rest, all) = shared(&|_| true);
+            let is_whole = rest.factors.is_empty() && rest.content.is_positive();
+            let (inside, under) = match is_whole {
+                true => (rest, all),
+                false => shared(&|f| self.sign_poly(f) == Some(Sign::Positive)),
+            };
+            if under.factors.is_empty() {
                 continue;
             }
-            below.factors.retain(|(f, k)| {
-                let is_it = |(g, k): &(Poly, u32)| *k == 1 && (g == f || *g == f.neg());
-                let place = inside.factors.iter().position(is_it);
-                let place = place.filter(|_| *k == 1 && self.sign_poly(f) == Some(Sign::Positive));
-                under
-                    .factors
-                    .extend(place.map(|at| inside.factors.remove(at)));
-                place.is_none()
-            });
-            if !under.factors.is_empty() {
-                inside.join_conjugates();
-                under.join_conjugates();
+            below
+                .factors
+                .retain(|factor| !under.factors.contains(factor));
+            if is_whole {
+                below.note(Poly::var(root), 1);
+                above.content *= inside.content;
+                above.factors.retain(|(f, _)| *f != Poly::var(root));
+            } else {
                 out.push((root, self.assemble(&inside, &under)));
             }
         }

@@ -110,8 +110,6 @@ impl Field {
         }
         strike(&mut above, &mut below, &self.fuel);
         self.take_roots(&mut above, &mut below);
-        above.join_conjugates();
-        below.join_conjugates();
         let quotient = self.assemble(&above, &below);
         let others = [self.parted(x), self.with_rebound(x, quotient.size())];
         let all = std::iter::once(quotient).chain(others.into_iter().flatten());
