@@ -49,9 +49,9 @@ pub enum System {
 impl System {
     /// The system of units as people wrote them: feet and pounds where such stand, and no metres and kilograms.
     pub fn of<'a>(written: impl Iterator<Item = &'a str>) -> System {
-        const FEET: [&str; 14] = [
+        const FEET: [&str; 13] = [
             "ft", "foot", "feet", "in", "inch", "inches", "lb", "lbs", "lbf", "slug", "slugs",
-            "oz", "mph", "fps",
+            "oz", "mph",
         ];
         const NEITHER: [&str; 10] = [
             "s", "ms", "min", "h", "rad", "deg", "rev", "rpm", "Hz", "mi",

@@ -459,9 +459,7 @@ day days; 0 0 1; 86400
 week weeks; 0 0 1; 604800
 year years yr yrs; 0 0 1; 31557600
 knot knots; 0 1 -1; 1852 / 3600
-mps; 0 1 -1; 1
-fps; 0 1 -1; 0.3048
-kph kmph kmh; 0 1 -1; 1 / 3.6
+kph; 0 1 -1; 1 / 3.6
 mph; 0 1 -1; 0.44704
 A ampere amperes; 0 0 0 1; 1
 C coulomb coulombs; 0 0 1 1; 1
