@@ -358,6 +358,35 @@ fn a_fall_through_a_height_ends_on_the_way_down() {
 }
 
 #[test]
+fn a_block_slides_off_the_end_of_a_cart() {
+    // It would come to rest on the cart after v²/(2 μ g (1 + m/M)) = 2 m.
+    let slide = |width: &str, along: &str, from: &str| {
+        let text = format!(
+            r#"{{"title": "t", "parameters": {{"v": {{"unit": "m/s"}}}},
+            "bodies": {{"cart": {{"shape": "rectangle", "mass": "1", "width": "{width}", "height": "1", "center": ["0", "0"]}},
+                "block": {{"shape": "particle", "mass": "1", "center": ["{from}", "1/2"], "velocity": ["{along}4", "0"]}}}},
+            "stages": [{{"name": "slip", "slide": {{"body": "block", "along": "{along}x", "on": {{"body": "cart"}}, "friction": "1/5",
+                "gravity": "10", "until": "together"}}}}],
+            "questions": {{"u": {{"at": "slip", "velocity": "block"}}}}}}"#
+        );
+        let mut followed = follow(&read(&text), &point(&[("v", 1.0)])).expect("numbers");
+        followed.stages.remove(0)
+    };
+    for along in ["", "-"] {
+        slide("4.01", along, "0").expect("it stays");
+        for (width, from) in [("3.99", "0"), ("2", format!("{along}3/2").as_str())] {
+            assert!(matches!(
+                slide(width, along, from),
+                Err(Lost {
+                    why: Loss::NeverEnds(_),
+                    ..
+                })
+            ));
+        }
+    }
+}
+
+#[test]
 fn a_slide_gains_force_times_distance() {
     let slide = |force: &str, v: f64| {
         let text = format!(
