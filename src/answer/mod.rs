@@ -10,6 +10,7 @@ mod formulas;
 mod graph;
 mod inequality;
 mod intervals;
+mod isolate;
 pub mod limit;
 mod optimum;
 mod powers;

@@ -140,7 +140,8 @@ fn called(scene: &Scene, body: &str) -> String {
         Shape::Composite { parts } => parts.as_slice(),
         _ => Default::default(),
     });
-    let part = parts.find(is_it).map(Body::called).unwrap_or_default();
+    let part = parts.find(is_it).map(Body::called);
+    let part = part.unwrap_or_else(|| format!("the {}", body.replace('_', " ")));
     match part.strip_prefix("body ") {
         Some(letter) => format!("part {letter}"),
         None => part,

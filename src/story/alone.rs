@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 
+use super::answer::Led;
 use super::worlds::World;
 use super::{Case, StageTold, State, Told, second};
 use crate::answer::{self, Answer, Refused};
@@ -115,7 +116,10 @@ fn about_answers(scene: &Scene, case: &Case) -> Result<Vec<Answer>, Refused> {
             known: known.clone(),
             ..World::default()
         };
-        needs.extend(super::answer::needs(scene, &[], &world, question, &out));
+        needs.extend(super::answer::needs(
+            Led::by((scene, &[]), &world, &out),
+            question,
+        ));
         let part = super::answer::part(scene, &needs);
         let mut answers = answer::formulas(&part, question, &known)?.unwrap_or_default();
         answer::remember(scene, &answers, &mut known);

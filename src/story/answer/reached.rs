@@ -197,26 +197,45 @@ pub(in crate::story) fn is_of_outcomes(questions: &[Question], question: &Questi
     })
 }
 
-/// What must hold so that the scene gets to the answers that a question is about, in one of the ways it can go.
-pub(in crate::story) fn needs(
-    scene: &Scene,
-    stages: &[StageTold],
-    world: &World,
-    question: &Question,
-    earlier: &[Answer],
-) -> Vec<Need> {
-    let all = used(&scene.questions, question).into_iter().flat_map(|q| {
-        let own = of_value(q, &world.known, earlier);
-        if q.ask.formulas().is_empty() {
-            let led = of_stages(scene, stages, world, q, earlier).into_iter();
-            return led.chain(own).collect::<Vec<Need>>();
+/// What leads to answers: a scene, its stages as they are told, one of the ways it can go, and the answers that are known.
+#[derive(Clone, Copy)]
+pub(in crate::story) struct Led<'a> {
+    scene: &'a Scene,
+    stages: &'a [StageTold],
+    world: &'a World,
+    earlier: &'a [Answer],
+}
+
+impl<'a> Led<'a> {
+    pub fn by(
+        (scene, stages): (&'a Scene, &'a [StageTold]),
+        world: &'a World,
+        earlier: &'a [Answer],
+    ) -> Led<'a> {
+        Led {
+            scene,
+            stages,
+            world,
+            earlier,
         }
-        let fixed = fixed(q, &world.known);
-        let all = needs(scene, stages, world, q, earlier).into_iter();
-        let all = all.map(|need| need.put(&fixed, &scene.domains));
-        all.chain(own).collect()
-    });
-    open(all, &scene.domains)
+    }
+}
+
+/// What must hold so that the scene gets to the answers that a question is about, in one of the ways it can go.
+pub(in crate::story) fn needs(led: Led<'_>, question: &Question) -> Vec<Need> {
+    let all = used(&led.scene.questions, question)
+        .into_iter()
+        .flat_map(|q| {
+            let own = of_value(q, &led.world.known, led.earlier);
+            if q.ask.formulas().is_empty() {
+                return of_stages(led, q).into_iter().chain(own).collect();
+            }
+            let fixed = fixed(q, &led.world.known);
+            let all = needs(led, q).into_iter();
+            let all = all.map(|need| need.put(&fixed, &led.scene.domains));
+            all.chain(own).collect::<Vec<Need>>()
+        });
+    open(all, &led.scene.domains)
 }
 
 /// What the value of an answer needs, to be one of those that were asked for.
@@ -258,28 +277,22 @@ fn fixed(question: &Question, known: &Known) -> Known {
 }
 
 /// What the stages need that lead to the answers to a question about one.
-fn of_stages(
-    scene: &Scene,
-    stages: &[StageTold],
-    world: &World,
-    question: &Question,
-    earlier: &[Answer],
-) -> Vec<Need> {
-    let leading = leading(stages, world, question, earlier).into_iter();
+fn of_stages(led: Led<'_>, question: &Question) -> Vec<Need> {
+    let leading = leading(led, question).into_iter();
     let all = leading.flat_map(|i| {
-        let told = &stages[i];
+        let told = &led.stages[i];
         let ends = told.needs.iter().map(|need| {
             let so_that = format!("`{}` comes to its end", told.name);
-            let need = essential(need, &scene.domains);
+            let need = essential(need, &led.scene.domains);
             // Whether it may be zero stands in what the motion takes for granted.
-            let strict = above_zero(&need, &scene.domains).condition();
+            let strict = above_zero(&need, &led.scene.domains).condition();
             let mut granted = told.assumptions.iter().map(Sentence::condition);
             let closed = !granted.any(|condition| condition.is_some() && condition == strict);
-            let least = beyond_zero(&need, &scene.domains, !closed);
+            let least = beyond_zero(&need, &led.scene.domains, !closed);
             let words = sentence!("{}, so that {}", least, &so_that);
             Need::new(&need, closed, Origin::Ending(so_that), words)
         });
-        let case = world.outcome.get(&i).and_then(|k| told.cases.get(*k));
+        let case = led.world.outcome.get(&i).and_then(|k| told.cases.get(*k));
         let conditions = case.into_iter().flat_map(|case| &case.conditions);
         let conditions = conditions.map(|condition @ (why, e)| {
             Need::new(e, true, Origin::Outcome(why.clone()), supposed(condition))
@@ -292,50 +305,31 @@ fn of_stages(
 }
 
 /// The stages that lead to the answers to a question about one.
-fn leading(
-    stages: &[StageTold],
-    world: &World,
-    question: &Question,
-    earlier: &[Answer],
-) -> BTreeSet<usize> {
-    let happens = |at: &(usize, usize)| world.outcome.get(&at.0) == Some(&at.1);
-    let told = earlier.iter().filter(|a| a.question == question.name);
+fn leading(led: Led<'_>, question: &Question) -> BTreeSet<usize> {
+    let happens = |at: &(usize, usize)| led.world.outcome.get(&at.0) == Some(&at.1);
+    let told = led.earlier.iter().filter(|a| a.question == question.name);
     let leading = told.filter_map(|a| a.told.filter(happens)).flat_map(|at| {
-        let whole = line(stages, at).map(|(stage, _)| stage);
+        let whole = line(led.stages, at).map(|(stage, _)| stage);
         whole.skip(usize::from(!question.ask.is_at_end()))
     });
     leading.collect()
 }
 
 /// Lets an answer about formulas tell what the motions before need where they lead over a highest place.
-pub(super) fn on_the_way(
-    scene: &Scene,
-    stages: &[StageTold],
-    world: &World,
-    question: &Question,
-    earlier: &[Answer],
-    answer: &mut Answer,
-) {
-    for q in used(&scene.questions, question) {
+pub(super) fn on_the_way(led: Led<'_>, question: &Question, answer: &mut Answer) {
+    for q in used(&led.scene.questions, question) {
         if !q.ask.formulas().is_empty() {
-            on_the_way(scene, stages, world, q, earlier, answer);
+            on_the_way(led, q, answer);
         }
-        let leading = leading(stages, world, q, earlier).into_iter();
-        let all = leading.flat_map(|i| &stages[i].assumptions);
+        let leading = leading(led, q).into_iter();
+        let all = leading.flat_map(|i| &led.stages[i].assumptions);
         besides(answer, all.filter(|words| words.is_partial()));
     }
 }
 
 /// Lets an answer about formulas tell which contacts have to grip, with the values for which it asks.
-pub(super) fn gripped(
-    scene: &Scene,
-    stages: &[StageTold],
-    world: &World,
-    question: &Question,
-    earlier: &[Answer],
-    answer: &mut Answer,
-) {
-    let mut with = fixed(question, &world.known);
+pub(super) fn gripped(led: Led<'_>, question: &Question, answer: &mut Answer) {
+    let mut with = fixed(question, &led.world.known);
     // A bound holds for all values beyond it.
     let is_value = match &question.ask {
         Ask::Condition { relation, .. } => *relation == formula::Relation::Equal,
@@ -343,30 +337,28 @@ pub(super) fn gripped(
     };
     let found = answer.range.iter().filter(|_| is_value);
     with.extend(found.filter_map(|(of, _, value)| Some((of.as_symbol()?.clone(), value.clone()))));
-    let all = grips(scene, stages, world, question, earlier).into_iter();
-    let all = all.map(|grip| grip.put(&with, &scene.domains));
-    let words: Vec<Sentence> = all.filter_map(|grip| grip.told(&scene.domains)).collect();
+    let all = grips(led, question).into_iter();
+    let all = all.map(|grip| grip.put(&with, &led.scene.domains));
+    let words: Vec<Sentence> = all
+        .filter_map(|grip| grip.told(&led.scene.domains))
+        .collect();
     besides(answer, words.iter());
 }
 
 /// The contacts that have to grip in the stages that lead to the answers that a question is about.
-fn grips(
-    scene: &Scene,
-    stages: &[StageTold],
-    world: &World,
-    question: &Question,
-    earlier: &[Answer],
-) -> Vec<Grip> {
-    let all = used(&scene.questions, question).into_iter().flat_map(|q| {
-        if q.ask.formulas().is_empty() {
-            let leading = leading(stages, world, q, earlier).into_iter();
-            return leading.flat_map(|i| stages[i].grips.clone()).collect();
-        }
-        let with = fixed(q, &world.known);
-        let all = grips(scene, stages, world, q, earlier).into_iter();
-        let all = all.map(|grip| grip.put(&with, &scene.domains));
-        all.collect::<Vec<Grip>>()
-    });
+fn grips(led: Led<'_>, question: &Question) -> Vec<Grip> {
+    let all = used(&led.scene.questions, question)
+        .into_iter()
+        .flat_map(|q| {
+            if q.ask.formulas().is_empty() {
+                let leading = leading(led, q).into_iter();
+                return leading.flat_map(|i| led.stages[i].grips.clone()).collect();
+            }
+            let with = fixed(q, &led.world.known);
+            let all = grips(led, q).into_iter();
+            let all = all.map(|grip| grip.put(&with, &led.scene.domains));
+            all.collect::<Vec<Grip>>()
+        });
     all.collect()
 }
 
