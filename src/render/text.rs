@@ -258,8 +258,8 @@ fn shared_words<'a>(a: &'a Answer, alike: &[&Answer]) -> &'a str {
 fn equations(out: &mut String, scene: &Scene, d: &Derivation) {
     counting(out, d);
     for (unknown, value) in &d.given {
-        let name = d.names.plain(*unknown);
-        let _ = writeln!(out, "\ngiven: {name} = {}", unicode(scene, value));
+        let symbol = unicode(scene, &Expr::symbol(d.names.plain(*unknown)));
+        let _ = writeln!(out, "\ngiven: {symbol} = {}", unicode(scene, value));
     }
     for block in &d.blocks {
         let n = block.equations.len();
@@ -278,7 +278,8 @@ fn equations(out: &mut String, scene: &Scene, d: &Derivation) {
         for (unknown, value) in block.unknowns.iter().zip(d.solution(block)) {
             let value = unicode(scene, &value);
             if value.chars().count() <= 120 {
-                let _ = writeln!(out, "  ⇒   {} = {value}", d.names.plain(*unknown));
+                let symbol = unicode(scene, &Expr::symbol(d.names.plain(*unknown)));
+                let _ = writeln!(out, "  ⇒   {symbol} = {value}");
             }
         }
     }
