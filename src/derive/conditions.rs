@@ -108,22 +108,21 @@ impl Work<'_> {
             };
             all.push(format!("all contacts act at the same instant{own}; acting one after another they could leave a different motion").into());
         }
-        for contact in &self.scene.contacts {
-            if let ContactLaw::Decided(decided) = &contact.law {
-                let holds = decided.when.iter().map(|(left, relation, right)| {
-                    sentence!("{} {} {}", left, relation.sign(), right)
-                });
-                // Nobody reads a condition of many lines; the table of cases has it.
-                let holds: Vec<Sentence> = holds.collect();
-                let is_short = |h: &Sentence| h.to_string().chars().count() <= READABLE;
-                match holds.iter().all(is_short) {
-                    true => all.extend(holds),
-                    false => all.push(Sentence::words(format!(
-                        "{} {} (the case the values pick)",
-                        contact.name,
-                        decided.mode.words()
-                    ))),
-                }
+        for (at, decided) in self.scene.decided() {
+            let holds = decided
+                .when
+                .iter()
+                .map(|(left, relation, right)| sentence!("{} {} {}", left, relation.sign(), right));
+            // Nobody reads a condition of many lines; the table of cases has it.
+            let holds: Vec<Sentence> = holds.collect();
+            let is_short = |h: &Sentence| h.to_string().chars().count() <= READABLE;
+            match holds.iter().all(is_short) {
+                true => all.extend(holds),
+                false => all.push(Sentence::words(format!(
+                    "{} {} (the case the values pick)",
+                    self.scene.contacts[at].name,
+                    decided.mode.words()
+                ))),
             }
         }
         for divisor in self.blocks.iter().flat_map(|b| &b.divided_by) {

@@ -163,14 +163,9 @@ fn impulses(scene: &Scene) -> Vec<(String, Vec<Unknown>)> {
 /// The symbols in the formulas of the impact, in the conditions of a mode of friction and in unit vectors.
 fn symbols(scene: &Scene) -> BTreeSet<Symbol> {
     let mut all = super::work::formulas(scene);
-    for contact in &scene.contacts {
-        if let ContactLaw::Decided(decided) = &contact.law {
-            let sides = decided
-                .when
-                .iter()
-                .flat_map(|(left, _, right)| [left, right]);
-            all.extend(sides.cloned());
-        }
+    for (_, decided) in scene.decided() {
+        let sides = decided.when.iter();
+        all.extend(sides.flat_map(|(left, _, right)| [left.clone(), right.clone()]));
     }
     let units = scene.domains.unit_vectors.iter().flatten().cloned();
     all.iter().flat_map(Expr::symbols).chain(units).collect()

@@ -1,6 +1,6 @@
 //! What is asked of a scene: of an impact, of a motion, of the answers; and the curves to be drawn. Types only.
 
-use super::{FrictionEvent, Turns};
+use super::{EnergyWhen, FrictionEvent, Turns};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Point, Symbol, Vector};
 use crate::formula::Relation;
@@ -419,17 +419,6 @@ pub enum ImpulseAt {
     Hinge(usize),
     /// Index of a blow.
     Blow(usize),
-}
-
-/// When an energy is asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EnergyWhen {
-    /// Just before.
-    Before,
-    /// Just after.
-    After,
-    /// Before minus after.
-    Lost,
 }
 
 /// A picture that is asked for: a quantity against a parameter.

@@ -7,7 +7,7 @@ use super::record::{Formula, Map, Pair, Read, choice, record, unexpected};
 
 choice! {
     /// What a body looks like.
-    ShapeName {
+    pub(super) ShapeName {
         /// Ground, wall or peg; a `velocity` makes it a wall that moves steadily.
         Fixed = "fixed",
         /// A point mass.

@@ -16,7 +16,7 @@ record! {
 
 choice! {
     /// What is assumed of a collision beyond momentum balance.
-    LawName {
+    pub(super) LawName {
         /// The touching points have the same velocity after.
         Sticking = "sticking",
         /// The impulse is along the normal; the normal relative velocity after is -e times that before.
@@ -29,7 +29,7 @@ choice! {
 
 choice! {
     /// What the coefficient of restitution e means where there is friction.
-    HypothesisName {
+    pub(super) HypothesisName {
         /// Kinematic: the normal relative velocity after is -e times that before. Energy may grow.
         Newton = "newton",
         /// Kinetic: the normal impulse of restitution is e times that of compression.
@@ -45,7 +45,7 @@ choice! {
 
 choice! {
     /// What a contact with friction is supposed to do; carom tells when that is so.
-    SupposedName {
+    pub(super) SupposedName {
         /// It slips in one direction throughout.
         Slides = "slides",
         /// It does not slip just after.

@@ -3,7 +3,7 @@
 //! In: the field `figure` of a scene file. Out: [`Drawn`], with names resolved and lengths read.
 
 use super::fault::Fault;
-use super::file::{LooksName, OutlineFile, SupportName};
+use super::file::{LooksName, OutlineFile, Support};
 use super::formulas::Quantity;
 use super::parameters;
 use super::record::Text;
@@ -38,25 +38,6 @@ pub enum Outline {
     Bat(Expr),
     /// A box of this width and height \[m\].
     Box([Expr; 2]),
-}
-
-/// What stands at a point.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Support {
-    /// A level floor.
-    Floor,
-    /// A wall across the normal.
-    Wall,
-    /// A low stop on the ground.
-    Stop,
-    /// The edge of a table.
-    Edge,
-    /// A post with a point.
-    Post,
-    /// A wheel on the ground.
-    Wheel,
-    /// A round bar or peg, seen from its end.
-    Bar,
 }
 
 impl Drawn {
@@ -130,7 +111,7 @@ pub(super) fn hints(r: &mut Resolver<'_>, domains: &Domains) -> Drawn {
     let places = places(r);
     for (name, support) in entries(file.supports.as_ref()) {
         if known(r, name, &places) {
-            out.supports.push((name.text.clone(), as_said(*support)));
+            out.supports.push((name.text.clone(), *support));
         }
     }
     for (name, at) in entries(file.strings.as_ref()) {
@@ -178,18 +159,6 @@ fn outline(r: &mut Resolver<'_>, name: &Text, looks: &OutlineFile) -> Option<Out
                 .push(fault.hint("a person and a bat need `length`, a box `width` and `height`"));
             None
         }
-    }
-}
-
-fn as_said(name: SupportName) -> Support {
-    match name {
-        SupportName::Floor => Support::Floor,
-        SupportName::Wall => Support::Wall,
-        SupportName::Stop => Support::Stop,
-        SupportName::Edge => Support::Edge,
-        SupportName::Post => Support::Post,
-        SupportName::Wheel => Support::Wheel,
-        SupportName::Bar => Support::Bar,
     }
 }
 

@@ -101,7 +101,7 @@ record! {
         /// What bodies look like, by name.
         bodies: Option<Map<OutlineFile>>,
         /// What stands at a contact, support, hinge or point, by its name.
-        supports: Option<Map<SupportName>>,
+        supports: Option<Map<Support>>,
         /// Where strings are fastened: by the name of a string, or of a body that hangs on one.
         strings: Option<Map<PositionFile>>,
         /// Where springs stand under a body, by the name of the force that they exert: the points above them.
@@ -127,7 +127,7 @@ record! {
 
 choice! {
     /// What a body looks like.
-    LooksName {
+    pub(super) LooksName {
         /// A person stretched out along the body's angle, the hands first.
         Person = "person",
         /// A bat along the body's angle, the handle first.
@@ -139,7 +139,7 @@ choice! {
 
 choice! {
     /// What stands at a point.
-    SupportName {
+    pub Support {
         /// A level floor.
         Floor = "floor",
         /// A wall across the normal.
@@ -235,7 +235,7 @@ impl Read for DomainFile {
 
 choice! {
     /// A known set of numbers.
-    DomainName {
+    pub(super) DomainName {
         /// Greater than 0.
         Positive = "positive",
         /// 0 or greater.

@@ -227,6 +227,42 @@ pub struct Decided {
     pub conditions: [Condition; 2],
 }
 
+impl Decided {
+    /// What must be ≥ 0, or > 0, for it; and whether zero will do.
+    pub fn excesses(&self) -> impl Iterator<Item = (Expr, bool)> {
+        self.when.iter().map(|(left, relation, right)| {
+            let excess = match relation.is_below() {
+                true => right - left,
+                false => left - right,
+            };
+            let closed = matches!(relation, Relation::LessEqual | Relation::GreaterEqual);
+            (excess, closed)
+        })
+    }
+}
+
+impl ContactLaw {
+    /// Its law of friction, where it has one.
+    pub fn friction(&self) -> Option<&Friction> {
+        match self {
+            ContactLaw::Friction(law) => Some(law),
+            ContactLaw::Decided(decided) => Some(&decided.law),
+            _ => None,
+        }
+    }
+}
+
+impl Scene {
+    /// What friction is decided to do, at the contacts of these indices.
+    pub fn decided(&self) -> impl Iterator<Item = (usize, &Decided)> {
+        let contacts = self.contacts.iter().enumerate();
+        contacts.filter_map(|(c, contact)| match &contact.law {
+            ContactLaw::Decided(decided) => Some((c, &**decided)),
+            _ => None,
+        })
+    }
+}
+
 /// What a contact feels of its bodies, in tangential and normal components: u⁺ = u⁻ + W P with W = [[a, b], [b, c]].
 /// The tangent is the normal turned clockwise by 90°.
 #[derive(Clone, Debug, PartialEq)]

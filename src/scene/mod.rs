@@ -49,13 +49,14 @@ use crate::expr::{Expr, Point, Scalar, Symbol, Vector, minus};
 use crate::formula::Symbols;
 use crate::formula::near::nearest;
 
-pub use ask::{Ask, EnergyWhen, ImpulseAt, PlotAsk, Question};
-pub use drawing::{Drawn, Outline, Support};
+pub use ask::{Ask, ImpulseAt, PlotAsk, Question};
+pub use drawing::{Drawn, Outline};
 pub use elements::{
     Blow, BlowImpulse, Body, Contact, ContactLaw, Force, Hinge, Known, KnownQuantity, NamedPoint,
     Parameter, Shape, with_noun,
 };
 pub use fault::{Fault, Faults, Span};
+pub use file::Support;
 pub use friction::{
     ALONE, Condition, ContactSpace, Decided, Friction, FrictionEvent, Hypothesis, Mode,
     beside_friction,
@@ -66,6 +67,7 @@ pub use motion::{
     Carrier, Fall, FallEnd, Linkage, Lump, Slide, SlideEnd, Spring, Strung, Turn, Until, Wind,
 };
 pub use printed::{Print, Printed};
+pub use question_file::EnergyWhen;
 pub use questions::INSTANTANEOUS_CENTER;
 pub use stage::{OneSided, Stage, StageKind, Turns};
 pub use stages::without_case;
@@ -407,21 +409,6 @@ impl Scene {
     pub fn asked_of_answers(&self) -> impl Iterator<Item = &Question> {
         let answers = |q: &&Question| q.stage.is_none() && !q.ask.is_motion();
         self.questions.iter().filter(answers)
-    }
-
-    /// What must be ≥ 0 for what its friction is decided to do, which tells one way of slipping from the other.
-    pub fn decided_where(&self) -> Vec<Expr> {
-        let laws = self.contacts.iter().filter_map(|c| match &c.law {
-            ContactLaw::Decided(decided) => Some(&decided.when),
-            _ => None,
-        });
-        let all = laws
-            .flatten()
-            .map(|(left, relation, right)| match relation.is_below() {
-                true => right - left,
-                false => left - right,
-            });
-        all.collect()
     }
 
     /// The contact with friction, by index, and its law.

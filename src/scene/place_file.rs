@@ -77,7 +77,7 @@ impl Read for DirectionFile {
 
 choice! {
     /// One of the four directions of the axes.
-    AxisName {
+    pub(super) AxisName {
         /// To the right.
         Right = "x",
         /// To the left.

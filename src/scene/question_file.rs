@@ -6,7 +6,7 @@ use super::stage_file::{EndName, ShareFile};
 
 choice! {
     /// Which kinetic energy.
-    EnergyName {
+    pub EnergyWhen {
         /// Just before.
         Before = "before",
         /// Just after.
@@ -18,7 +18,7 @@ choice! {
 
 choice! {
     /// Which balance.
-    BalanceName {
+    pub(super) BalanceName {
         /// Linear momentum.
         Momentum = "momentum",
     }
@@ -46,7 +46,7 @@ record! {
         /// The body on which the impulse acts. Missing: the second body; the first, if the second is fixed.
         on: Option<Text>,
         /// Kinetic energy.
-        energy: Option<EnergyName>,
+        energy: Option<EnergyWhen>,
         /// An equation: a quantity before equals that after, along `along`, for the bodies in `system`.
         balance: Option<BalanceName>,
         /// Bodies of a balance.

@@ -426,10 +426,10 @@ macro_rules! key {
 
 /// Declares a choice among words.
 macro_rules! choice {
-    ($(#[doc = $doc:literal])+ $name:ident { $($(#[doc = $word_doc:literal])+ $variant:ident = $word:literal,)+ }) => {
+    ($(#[doc = $doc:literal])+ $vis:vis $name:ident { $($(#[doc = $word_doc:literal])+ $variant:ident = $word:literal,)+ }) => {
         $(#[doc = $doc])+
         #[derive(Clone, Copy, Debug, PartialEq, Eq, schemars::JsonSchema)]
-        pub(super) enum $name {
+        $vis enum $name {
             $($(#[doc = $word_doc])+ #[schemars(rename = $word)] $variant,)+
         }
 

@@ -79,7 +79,7 @@ record! {
 
 choice! {
     /// Where a rotation ends.
-    UntilName {
+    pub(super) UntilName {
         /// The center of mass straight above the point.
         Above = "above",
         /// The center of mass straight below the point.
@@ -115,7 +115,7 @@ record! {
 
 choice! {
     /// Where a motion along a line ends.
-    SlideEndName {
+    pub(super) SlideEndName {
         /// The body comes to rest.
         Stops = "stops",
         /// The point of contact of a round body no longer slips.
@@ -208,7 +208,7 @@ record! {
 
 choice! {
     /// Where a flight ends.
-    FlightEndName {
+    pub(super) FlightEndName {
         /// At its highest point.
         Top = "top",
     }
@@ -280,7 +280,7 @@ record! {
 
 choice! {
     /// Beginning or end of a stage.
-    EndName {
+    pub(super) EndName {
         /// At the beginning.
         Start = "start",
         /// At the end.

@@ -40,7 +40,7 @@ use writer::Writer;
 
 use crate::answer::Near;
 use crate::expr::{Expr, Symbol, Vector};
-use crate::scene::{ContactLaw, Mode, Scene};
+use crate::scene::{Mode, Scene};
 use crate::story::{Case, Told};
 
 /// How much is shown.
@@ -355,7 +355,8 @@ pub fn write(scene: &Scene, told: &Told, detail: Detail) -> Solution {
 /// The solution of a scene that is one impact and nothing else.
 fn lone(scene: &Scene, told: &Told, impact: &Case, detail: Detail) -> Solution {
     let mut writer = Writer::new(scene, &impact.derivation, &impact.proof, detail);
-    writer.solution.needs = scene.decided_where();
+    let decided = scene.decided().flat_map(|(_, d)| d.excesses());
+    writer.solution.needs = decided.map(|(excess, _)| excess).collect();
     writer.opening();
     writer.blocks();
     writer.results();
@@ -383,8 +384,5 @@ fn source(scene: &Scene) -> String {
 
 /// What the contact with friction does, in a scene whose case is decided.
 fn decided(scene: &Scene) -> Option<Mode> {
-    scene.contacts.iter().find_map(|c| match &c.law {
-        ContactLaw::Decided(decided) => Some(decided.mode),
-        _ => None,
-    })
+    scene.decided().map(|(_, decided)| decided.mode).next()
 }

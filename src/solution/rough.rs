@@ -12,10 +12,8 @@ const LONG: usize = 60;
 
 /// The contact whose friction is decided.
 fn decided(scene: &Scene) -> Option<(&Contact, &Decided)> {
-    scene.contacts.iter().find_map(|c| match &c.law {
-        ContactLaw::Decided(decided) => Some((c, &**decided)),
-        _ => None,
-    })
+    let (at, decided) = scene.decided().next()?;
+    Some((&scene.contacts[at], decided))
 }
 
 /// The law of the rough contact of a scene.

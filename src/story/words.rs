@@ -101,11 +101,8 @@ impl Case {
 
     /// `e ≥ 0` as a bound on the coefficient of friction, where it is one on the whole domain.
     fn bound(&self, e: &Expr) -> Option<Bound> {
-        let mut contacts = self.scene.contacts.iter();
-        let of = contacts.find_map(|c| match &c.law {
-            ContactLaw::Decided(decided) => decided.law.mu.as_symbol().cloned(),
-            _ => None,
-        })?;
+        let mut laws = self.scene.decided().map(|(_, decided)| &decided.law);
+        let of = laws.find_map(|law| law.mu.as_symbol().cloned())?;
         let slope = tidy(&e.derivative(&of), &self.scene.domains).ok()?;
         let is_least = match sign(&slope, &self.scene.domains) {
             Seen::Proved(Sign::Positive) => true,

@@ -7,14 +7,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::Check;
-use crate::algebra::{Field, Sign};
+use crate::algebra::Sign;
 use crate::answer::calc::{Seen, sign};
 use crate::derive::friction::{Bound, Case, Direction, Table};
 use crate::domain::Domains;
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Point, Rational, Symbol, effort};
 use crate::formula::Relation;
-use crate::interval::{Interval, evaluate};
 use crate::laws::friction::{Side, When};
 use crate::numeric::friction::Followed;
 use crate::numeric::path::{NoPath, Path};
@@ -214,16 +213,7 @@ pub fn settled(scene: &Scene) -> Result<Scene, String> {
 
 /// Two cases in which a contact sticks and feels the same, whenever its slip ended: one, where either happens.
 fn joined(one: &Scene, other: &Scene) -> Option<Scene> {
-    let decided = |scene: &Scene| {
-        let mut laws = scene.contacts.iter().enumerate();
-        laws.find_map(|(i, contact)| match &contact.law {
-            ContactLaw::Decided(decided) => Some((i, decided.clone())),
-            _ => None,
-        })
-    };
-    let (Some((at, a)), Some((_, b))) = (decided(one), decided(other)) else {
-        return None;
-    };
+    let ((at, a), (_, b)) = (one.decided().next()?, other.decided().next()?);
     if !(a.mode.sticks() && b.mode.sticks() && a.conditions == b.conditions) {
         return None;
     }
@@ -236,7 +226,7 @@ fn joined(one: &Scene, other: &Scene) -> Option<Scene> {
     both.mode = Mode::Sticks;
     both.when.retain(|w| !a.when.iter().any(|v| meet(v, w)));
     let mut scene = other.clone();
-    scene.contacts[at].law = ContactLaw::Decided(both);
+    scene.contacts[at].law = ContactLaw::Decided(Box::new(both));
     (a.when.len() + b.when.len() > 1).then_some(scene)
 }
 
@@ -270,30 +260,12 @@ impl Signs<'_> {
         if let Some(value) = self.exact.as_ref().and_then(|p| e.evaluate(p)) {
             return Some(value.cmp(&Number::zero()));
         }
-        let e = e.substitute(&self.values);
-        if e.symbols().iter().any(|s| &**s != "pi") {
-            // What has no value may play no part in the sign, such as a mass.
-            return match sign(&e, self.domains) {
-                Seen::Proved(Sign::Positive) => Some(std::cmp::Ordering::Greater),
-                Seen::Proved(Sign::Zero) => Some(std::cmp::Ordering::Equal),
-                Seen::Proved(Sign::Negative) => Some(std::cmp::Ordering::Less),
-                _ => None,
-            };
-        }
-        if let Some(value) = evaluate::<Interval>(&e, &Point::default()).value() {
-            if value.low > 0.0 {
-                return Some(std::cmp::Ordering::Greater);
-            }
-            if value.high < 0.0 {
-                return Some(std::cmp::Ordering::Less);
-            }
-        }
-        let (field, element) = Field::of(&Domains::default(), &e).ok()?;
-        match field.sign(&element)? {
-            Sign::Positive => Some(std::cmp::Ordering::Greater),
-            Sign::Zero => Some(std::cmp::Ordering::Equal),
-            Sign::Negative => Some(std::cmp::Ordering::Less),
-            Sign::NotPositive | Sign::NotNegative => None,
+        // What has no value may play no part in the sign, such as a mass.
+        match sign(&e.substitute(&self.values), self.domains) {
+            Seen::Proved(Sign::Positive) => Some(std::cmp::Ordering::Greater),
+            Seen::Proved(Sign::Zero) => Some(std::cmp::Ordering::Equal),
+            Seen::Proved(Sign::Negative) => Some(std::cmp::Ordering::Less),
+            _ => None,
         }
     }
 

@@ -1,10 +1,10 @@
 //! Questions about one impact: velocities and spins just after, impulses, energies, balances, matrices.
 
 use crate::scene::fault::Fault;
-use crate::scene::question_file::{EnergyName, QuestionFile};
+use crate::scene::question_file::QuestionFile;
 use crate::scene::record::Text;
 use crate::scene::resolve::{Resolver, keys};
-use crate::scene::{Ask, EnergyWhen, ImpulseAt, Known, Scene};
+use crate::scene::{Ask, ImpulseAt, Known, Scene};
 
 /// Reads a question about the motion just after an impact, its impulses and equations.
 pub(super) fn ask(
@@ -46,12 +46,7 @@ pub(super) fn ask(
             along: component()?,
         });
     }
-    if let Some(energy) = question.energy {
-        let when = match energy {
-            EnergyName::Before => EnergyWhen::Before,
-            EnergyName::After => EnergyWhen::After,
-            EnergyName::Lost => EnergyWhen::Lost,
-        };
+    if let Some(when) = question.energy {
         let of = match &question.of {
             Some(body) => Some(resolver.moving(body)?),
             None => None,

@@ -229,11 +229,7 @@ fn results(case: &Case) -> Vec<(String, Expr)> {
 }
 
 fn decided(case: &Case) -> Option<&Decided> {
-    let mut contacts = case.scene.contacts.iter();
-    contacts.find_map(|c| match &c.law {
-        ContactLaw::Decided(decided) => Some(&**decided),
-        _ => None,
-    })
+    case.scene.decided().map(|(_, decided)| decided).next()
 }
 
 /// Equations that a case tells, with the sentence that leads to them.

@@ -14,7 +14,7 @@ use crate::answer::{Answer, Form, Known, given_alike, limit};
 use crate::domain::{Domain, Domains, Origin, Relation};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Sentence, sentence};
-use crate::scene::{Ask, ContactLaw, Question, Scene, StageKind, without_case};
+use crate::scene::{Ask, Question, Scene, StageKind, without_case};
 use crate::verify::possible::{Condition, Rule};
 
 /// A step away from a value.
@@ -128,20 +128,11 @@ pub(in crate::story) fn as_decided(scene: &Scene) -> Domains {
 
 /// What must hold so that friction does what is told.
 fn decided(scene: &Scene) -> impl Iterator<Item = Need> {
-    let decided = scene.contacts.iter().filter_map(|c| match &c.law {
-        ContactLaw::Decided(decided) => Some((&c.name, decided)),
-        _ => None,
-    });
-    decided.flat_map(|(name, decided)| {
-        decided.when.iter().map(move |(left, relation, right)| {
-            let excess = match relation.is_below() {
-                true => right - left,
-                false => left - right,
-            };
+    scene.decided().flat_map(move |(at, decided)| {
+        let excesses = decided.excesses().zip(&decided.when);
+        excesses.map(move |((excess, closed), (left, relation, right))| {
             let told = sentence!("{} {} {}", left, relation.sign(), right);
-            use formula::Relation::{GreaterEqual, LessEqual};
-            let closed = matches!(relation, LessEqual | GreaterEqual);
-            let origin = Origin::Outcome(decided.mode.of(name));
+            let origin = Origin::Outcome(decided.mode.of(&scene.contacts[at].name));
             Need::new(&excess, closed, origin, told)
         })
     })
@@ -181,11 +172,8 @@ pub(in crate::story) fn leave_to_cases<'a>(
 
 /// The conditions of what friction does in an impact; none where that is supposed.
 pub(in crate::story) fn picked(impact: &Scene) -> impl Iterator<Item = &Expr> {
-    let laws = impact.contacts.iter().filter_map(|c| match &c.law {
-        ContactLaw::Decided(decided) if decided.law.supposing.is_none() => Some(decided),
-        _ => None,
-    });
-    laws.flat_map(|law| law.when.iter().flat_map(|(left, _, right)| [left, right]))
+    let picked = impact.decided().filter(|(_, d)| d.law.supposing.is_none());
+    picked.flat_map(|(_, d)| d.when.iter().flat_map(|(left, _, right)| [left, right]))
 }
 
 /// Whether a question is about what an outcome gives; a coefficient at which friction does something else is given by none.

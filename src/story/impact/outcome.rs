@@ -10,9 +10,7 @@ use crate::domain::{Domains, roles, samples_until};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Sentence;
 use crate::laws::Unknown;
-use crate::scene::{
-    Ask, ContactLaw, EnergyWhen, Hypothesis, ImpulseAt, OneSided, Question, Scene, Stage,
-};
+use crate::scene::{Ask, ContactLaw, EnergyWhen, ImpulseAt, OneSided, Question, Scene, Stage};
 use crate::story::{Case, Part, Refused, State};
 use crate::verify::possible::Rule;
 use crate::verify::{self, friction};
@@ -350,11 +348,8 @@ pub(super) fn put_to_act(
 
 /// What is to be said of the energy under a law of friction that may gain some.
 pub(super) fn gain(scene: &Scene, case: &Case) -> Option<Sentence> {
-    let mut laws = case.scene.contacts.iter().filter_map(|c| match &c.law {
-        ContactLaw::Decided(decided) => Some(&decided.law.hypothesis),
-        _ => None,
-    });
-    let law = laws.find(|h| matches!(h, Hypothesis::Newton | Hypothesis::Brach { .. }))?;
+    let mut laws = case.scene.decided().map(|(_, d)| &d.law.hypothesis);
+    let law = laws.find(|hypothesis| hypothesis.may_gain())?;
     let at_values = case.value(ENERGY)?.substitute(&scene.values());
     let name = law.name();
     match sign(&at_values, &scene.domains) {

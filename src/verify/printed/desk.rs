@@ -13,7 +13,7 @@ use crate::expr::{Expr, Symbol, dot, minus};
 use crate::formula::{
     self, Content, Reading, Relation, Sentence, Symbols, sentence, write_unicode,
 };
-use crate::scene::{Ask, ContactLaw, FrictionEvent, Printed, Scene};
+use crate::scene::{Ask, FrictionEvent, Printed, Scene};
 
 /// What formulas are read and evaluated with.
 pub(super) struct Desk<'a> {
@@ -328,11 +328,7 @@ pub(crate) fn friction_bound(scene: &Scene, name: &str) -> Option<(Symbol, Relat
         None => scene,
         Some(stage) => &scene.stages.get(stage)?.scene,
     };
-    let law = match &impact.contacts.get(*contact)?.law {
-        ContactLaw::Friction(law) => law,
-        ContactLaw::Decided(decided) => &decided.law,
-        _ => return None,
-    };
+    let law = impact.contacts.get(*contact)?.law.friction()?;
     let relation = match event {
         FrictionEvent::Slides => Relation::LessEqual,
         FrictionEvent::Sticks | FrictionEvent::Jams => Relation::GreaterEqual,
@@ -347,11 +343,7 @@ pub(super) fn for_the_coefficient(scene: &Scene, words: &Sentence) -> Sentence {
     };
     let stages = scene.stages.iter().flat_map(|stage| &stage.scene.contacts);
     let all = scene.contacts.iter().chain(stages);
-    let mut all = all.filter_map(|contact| match &contact.law {
-        ContactLaw::Friction(law) => law.mu.as_symbol(),
-        ContactLaw::Decided(decided) => decided.law.mu.as_symbol(),
-        _ => None,
-    });
+    let mut all = all.filter_map(|contact| contact.law.friction()?.mu.as_symbol());
     let solved = all.find_map(|mu| {
         let slope = excess.derivative(mu);
         if slope.mentions(mu) {
