@@ -5,7 +5,7 @@ use num_traits::{One, Zero};
 
 use super::Stop;
 use super::element::Element;
-use super::field::{AngleOf, Base, Field, Kind};
+use super::field::{AngleOf, Base, Field, Kind, handy};
 use super::mono::mono_variables;
 use super::poly::Poly;
 use crate::expr::angle::angle;
@@ -136,7 +136,7 @@ impl Field {
                 if *factor.denom() >= Int::from(1_000_000) {
                     return Err(Stop::TooLarge("angle fraction"));
                 }
-                self.add_base(of, factor)
+                self.add_base(of, &handy(factor))
             }
         };
         let turns = factor / &self.bases[base].part;

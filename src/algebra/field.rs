@@ -189,6 +189,7 @@ impl Field {
         let (nested, plain): (Vec<Expr>, Vec<Expr>) = found.others.into_iter().partition(has_call);
         let mut terms = Vec::new();
         self.note_terms(&plain, &mut found.angles, &mut terms);
+        let plain = terms.len();
         for (name, part) in std::mem::take(&mut found.angles) {
             if self.base_of(&name).is_none() {
                 self.add_base(AngleOf::Symbol(name), &part);
@@ -196,7 +197,9 @@ impl Field {
         }
         self.note_terms(&nested, &mut found.angles, &mut terms);
         self.add_exponentials(&found.exponents);
-        for (term, part) in terms {
+        for (i, (term, part)) in terms.into_iter().enumerate() {
+            // Arguments with functions inside are multiplied out: what else comes of them is not among the terms.
+            let part = if i < plain { part } else { handy(&part) };
             let same = |b: &Base| matches!(&b.of, AngleOf::Term(t) if self.equal(t, &term));
             if let (false, Some(_)) = (self.bases.iter().any(same), part.denom().to_u32()) {
                 self.add_base(AngleOf::Term(term), &part);
@@ -344,7 +347,7 @@ impl Field {
         self.relate(sin, 2, Poly::rest_of_square(cos));
         self.bases.push(Base {
             of,
-            part: handy(part),
+            part: part.abs(),
             cos,
             sin,
         });
@@ -601,7 +604,7 @@ fn common(a: &Rational, b: &Rational) -> Rational {
 
 /// A part that what is read later is likely a multiple of too: one over its denominator, unless that would make high multiples
 /// of all there is.
-fn handy(part: &Rational) -> Rational {
+pub(super) fn handy(part: &Rational) -> Rational {
     match part.numer().abs() > Int::from(MOST_WRITTEN_OUT) {
         true => part.abs(),
         false => Rational::new(Int::one(), part.denom().clone()),

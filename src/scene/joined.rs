@@ -4,6 +4,7 @@
 //! where they slide.
 
 use super::{Contact, ContactLaw, Scene, Stage, StageKind};
+use crate::expr::Vector;
 
 /// What holds a hinge.
 pub const HINGED: &str = "is hinged to";
@@ -19,6 +20,8 @@ pub struct Joint<'a> {
     pub how: &'static str,
     /// Name of the contact or hinge.
     pub name: &'a str,
+    /// Where it is as the stage begins that joins them; of what turns with another there is no one place.
+    pub at: Option<&'a Vector>,
     /// Name of the stage.
     pub since: &'a str,
 }
@@ -34,21 +37,22 @@ pub fn joints<'a>(stages: &'a [Stage], stage: &Stage) -> Vec<Joint<'a>> {
         let contacts = before.scene.contacts.iter();
         let sticking = contacts.filter(|c| matches!(c.law, ContactLaw::Sticking));
         let hinges = before.scene.hinges.iter();
-        let joined = sticking.map(|c| (c.bodies, "sticks to", c.name.as_str()));
-        let joined = joined.chain(hinges.map(|h| (h.bodies, HINGED, h.name.as_str())));
+        let joined = sticking.map(|c| (c.bodies, "sticks to", c.name.as_str(), &c.at));
+        let joined = joined.chain(hinges.map(|h| (h.bodies, HINGED, h.name.as_str(), &h.at)));
         let is_fixed = |b: &usize| before.scene.bodies[*b].is_fixed();
         let holds = |bodies: &[usize; 2], how: &str| match bodies.iter().any(is_fixed) {
             true => how == HINGED && !bodies.iter().any(|b| freed.contains(b)),
             false => true,
         };
-        let joined = joined.filter(|(bodies, how, _)| holds(bodies, how));
+        let joined = joined.filter(|(bodies, how, ..)| holds(bodies, how));
         let is_open = |bodies: &[usize; 2]| !later.iter().flatten().any(|b| bodies.contains(b));
         let joined = joined.filter(|(bodies, ..)| is_open(bodies));
         let since = before.name.as_str();
-        out.extend(joined.map(|(bodies, how, name)| Joint {
+        out.extend(joined.map(|(bodies, how, name, at)| Joint {
             bodies,
             how,
             name,
+            at: Some(at),
             since,
         }));
         // What turned as one in the last motion of both is one in an impact, as far as no impact since has acted on it.
@@ -60,6 +64,7 @@ pub fn joints<'a>(stages: &'a [Stage], stage: &Stage) -> Vec<Joint<'a>> {
                 bodies,
                 how: FIXED[0],
                 name: FIXED[1],
+                at: None,
                 since,
             }));
         }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::{Refused, State};
 use crate::answer::calc::is_zero;
 use crate::expr::{Expr, minus};
-use crate::scene::{HINGED, Scene, Stage, StageKind, joints, left_behind, unsaid};
+use crate::scene::{HINGED, Joint, Scene, Stage, StageKind, joints, left_behind, unsaid};
 
 /// What is joined to a body moves along with it.
 pub(super) fn all_move(scene: &Scene, stage: &Stage) -> Result<(), Refused> {
@@ -32,8 +32,8 @@ pub(super) fn all_move(scene: &Scene, stage: &Stage) -> Result<(), Refused> {
     Ok(())
 }
 
-/// The bodies in flight that are stuck together and turn, each cluster with the one that is no particle in front: they turn about
-/// their common center of mass, and all others fly each as by itself.
+/// The bodies in flight that are stuck together and turn, each cluster with one that is no particle in front: they turn about
+/// their common center of mass, and all others fly each as by itself. A particle is held at one place, a larger body at two.
 pub(super) fn turning(
     scene: &Scene,
     stage: &Stage,
@@ -70,20 +70,39 @@ pub(super) fn turning(
             k += 1;
         }
         cluster.sort_by_key(|b| bodies[*b].is_particle());
-        let (lead, rest) = (cluster[0], &cluster[1..]);
+        let lead = cluster[0];
         let w = &before.spin[lead];
         let carried = |b: &usize| {
             let [x, y] = minus(&before.center[*b], &before.center[lead]);
             let gap = minus(&before.velocity[*b], &before.velocity[lead]);
-            bodies[*b].is_particle() && minus(&gap, &[-(w * y), w * x]).iter().all(is_none)
+            let turns = bodies[*b].is_particle() || is_none(&(&before.spin[*b] - w));
+            turns && minus(&gap, &[-(w * y), w * x]).iter().all(is_none)
         };
-        if bodies[lead].is_particle() || !rest.iter().all(carried) {
+        let mut held = vec![lead];
+        let is_held = |held: &[usize], b: usize| {
+            let to = joints.iter().filter(|j| j.bodies.contains(&b));
+            let mut to = to.filter(|j| j.bodies.iter().any(|a| held.contains(a)));
+            let first = to.next().and_then(|j| j.at);
+            let is_apart = |j: &Joint| {
+                let gap = first.zip(j.at).map(|(one, other)| minus(one, other));
+                gap.is_some_and(|gap| !gap.iter().all(is_none))
+            };
+            first.is_some() && (bodies[b].is_particle() || to.any(|j| is_apart(j)))
+        };
+        while let Some(next) = cluster
+            .iter()
+            .find(|b| !held.contains(b) && is_held(&held, **b))
+        {
+            held.push(*next);
+        }
+        if bodies[lead].is_particle() || held.len() < cluster.len() || !cluster.iter().all(carried)
+        {
             let [a, b] = joint.bodies.map(|b| &bodies[b].name);
             let why = format!(
                 "`{b}` {} `{a}` since `{}`, and where they turn neither flies as by itself",
                 joint.how, joint.since
             );
-            let hint = "particles that stick to a body turn with it; several bodies that stay together fly on as a `composite` with this velocity and spin, in a scene of its own";
+            let hint = "particles that stick to a body turn with it, and larger bodies that stick to it at two points; others have to be one `composite` from the start";
             return Err(Refused::new(&stage.name, why, hint));
         }
         clusters.push(cluster);

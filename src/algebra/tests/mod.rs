@@ -397,6 +397,15 @@ fn results_are_written_as_a_person_would() {
             "(+ m1 (* m2 (^ (cos theta) 2)))",
         ),
         (&v - &(&v * &e), "(* v (+ 1 (* -1 e)))"),
+        // Of an angle that is met three times over only, nothing else is written.
+        (
+            &l - &(&l * &(n(3) * &t).cos()),
+            "(* l (+ 1 (* -1 (cos (* 3 theta)))))",
+        ),
+        (
+            &l * &(n(3) * &v * &e / n(4)).sin(),
+            "(* l (sin (* 3/4 e v)))",
+        ),
         (&e - &n(1), "(+ e -1)"),
         (t.sin() / (n(1) - t.cos().powi(2)), "(^ (sin theta) -1)"),
         (

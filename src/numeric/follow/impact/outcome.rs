@@ -39,14 +39,24 @@ impl Table<'_> {
         }
         let contacts = course.stage.scene.contacts.iter();
         let sticking = contacts.filter(|c| c.law == crate::scene::ContactLaw::Sticking);
-        let joined = sticking.map(|c| c.bodies);
-        let joined = joined.chain(course.stage.scene.hinges.iter().map(|h| h.bodies));
+        let joints = sticking.map(|c| (c.bodies, &c.at));
+        let hinges = course.stage.scene.hinges.iter();
+        let joints = joints.chain(hinges.map(|h| (h.bodies, &h.at)));
         let is_free = |b: &usize| course.solids[*b].freedom != Freedom::Fixed;
         // What the impact does not touch stays joined.
         let untouched = |pair: &[usize; 2]| pair.iter().all(|b| !self.touched[*b]);
         after.joined.retain(untouched);
-        let joined = joined.filter(|pair| pair.iter().all(is_free));
-        after.joined.extend(joined);
+        // Two joints at one place are one.
+        let mut joined = Vec::new();
+        for (bodies, at) in joints.filter(|(bodies, _)| bodies.iter().all(is_free)) {
+            let joint = (bodies, course.pair(at, "position").ok());
+            if !joined.contains(&joint) {
+                joined.push(joint);
+            }
+        }
+        after
+            .joined
+            .extend(joined.iter().map(|(bodies, _)| *bodies));
         after
     }
 

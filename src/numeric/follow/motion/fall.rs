@@ -120,31 +120,34 @@ fn turning(course: &Course<'_>, before: &State, bodies: &[usize]) -> Result<Vec<
         let turns = |body: &BodyState| matches!(body.spin, Ok(w) if w.abs() > ROUNDING);
         moves_off || pair.iter().all(|b| is_rigid(*b)) && (turns(one) || turns(two))
     };
+    // What is joined to a body at so many places or more, and to what is by then, one after the other.
+    let grown = |start: usize, places: &dyn Fn(usize) -> usize| {
+        let mut cluster = vec![start];
+        let joints = |cluster: &[usize], b: usize| {
+            let to = |p: &&&[usize; 2]| p.contains(&b) && p.iter().any(|a| cluster.contains(a));
+            joined.iter().filter(to).count()
+        };
+        let is_next = |cluster: &[usize], b: &&usize| {
+            !cluster.contains(b) && joints(cluster, **b) >= places(**b)
+        };
+        while let Some(next) = bodies.iter().find(|b| is_next(&cluster, b)) {
+            cluster.push(*next);
+        }
+        cluster
+    };
     let mut out: Vec<Vec<usize>> = Vec::new();
     for start in bodies.iter().filter(|b| is_rigid(**b)) {
-        let mut cluster = vec![*start];
-        let mut k = 0;
-        while let Some(b) = cluster.get(k) {
-            let with: Vec<usize> = joined
-                .iter()
-                .filter(|p| p.contains(b))
-                .flat_map(|p| **p)
-                .collect();
-            for b in with {
-                if !cluster.contains(&b) {
-                    cluster.push(b);
-                }
-            }
-            k += 1;
+        if out.iter().any(|cluster| cluster.contains(start)) {
+            continue;
         }
+        let cluster = grown(*start, &|_| 1);
         let mut within = joined.iter().filter(|p| cluster.contains(&p[0]));
         if !within.any(|pair| apart(pair)) {
             continue;
         }
-        if cluster[1..].iter().any(|b| is_rigid(*b)) {
-            return Err(
-                course.out_of_reach("several bodies that turn and are joined to each other")
-            );
+        // A body that is held at one place alone turns there by itself.
+        if grown(*start, &|b| 1 + usize::from(is_rigid(b))).len() < cluster.len() {
+            return Err(course.out_of_reach("bodies that turn and are joined at one place alone"));
         }
         out.push(cluster);
     }
