@@ -220,9 +220,13 @@ fn takes_back(
 fn at_values(scene: &Scene, told: &StageTold) -> Option<Check> {
     let given = scene.values();
     let fails = |e: &&Expr| constant(&e.substitute(&given)) == Some(Sign::Negative);
-    let words = match told.needs.iter().find(fails) {
-        Some(broken) => {
-            let need = at_least_zero(broken, &scene.domains).written(write_plain);
+    let needed = told.needs.iter().find(fails);
+    let needed = needed.map(|broken| at_least_zero(broken, &scene.domains));
+    let besides = told.besides.iter().find(fails);
+    let in_words = besides.and_then(|_| told.assumptions.iter().find(|words| words.is_partial()));
+    let words = match needed.as_ref().or(in_words) {
+        Some(need) => {
+            let need = need.written(write_plain);
             format!("it goes on as told only where {need}, and that is not so at the given values")
         }
         None => {
@@ -313,8 +317,12 @@ fn one(
                 .questions
                 .iter()
                 .filter(|q| q.stage.is_some_and(|i| scene.stages[i].name == stage.name));
-            let by_newton =
-                |ask: &Ask| matches!(ask, Ask::Acceleration { .. } | Ask::Tension { .. });
+            let by_newton = |ask: &Ask| {
+                matches!(
+                    ask,
+                    Ask::Acceleration { .. } | Ask::Tension { .. } | Ask::Reaction { .. }
+                )
+            };
             let is_driven = mine.into_iter().any(|q| by_newton(&q.ask));
             motion::slide(stage, before, slide, is_driven)
         }

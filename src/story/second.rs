@@ -159,7 +159,7 @@ fn promises(way: &Way, stages: &[StageTold], point: &Point<f64>) -> bool {
     way.iter().all(|(i, k)| {
         let told = &stages[*i];
         let conditions = told.cases.get(*k).into_iter().flat_map(|c| &c.conditions);
-        told.needs.iter().all(holds) && conditions.map(|(_, e)| e).all(holds)
+        told.rests_on().all(holds) && conditions.map(|(_, e)| e).all(holds)
     })
 }
 
@@ -174,7 +174,7 @@ fn way_of(scene: &Scene, stages: &[StageTold], followed: &Followed, point: &Poin
             .branch
             .is_none_or(|(parent, case)| way.get(&parent) == Some(&case));
         let passed = passed(scene, followed, told);
-        let Some(passed) = passed.filter(|_| follows && !told.needs.iter().any(fails)) else {
+        let Some(passed) = passed.filter(|_| follows && !told.rests_on().any(fails)) else {
             continue;
         };
         let acts = |case: &Case| match &passed.what {

@@ -62,7 +62,7 @@ pub fn beginning(told: &Told, stage: usize) -> Scene {
         }
     }
     for (i, _) in line(stages, (stage, 0)) {
-        for need in &stages[i].needs {
+        for need in stages[i].rests_on() {
             out.domains = out.domains.given(need, false);
         }
     }

@@ -267,6 +267,8 @@ pub struct StageTold {
     pub given: Vec<(String, Expr)>,
     /// What must be ≥ 0 for a motion to go as told, beyond the domains.
     pub needs: Vec<Expr>,
+    /// The same of what is told in words alone: that of two inequalities one holds.
+    pub besides: Vec<Expr>,
     /// How long it lasts \[s\]; `None` for an impact, and where that has no closed form.
     pub time: Option<Expr>,
     /// Motion at the beginning.
@@ -311,6 +313,11 @@ impl StageTold {
     /// The cluster in which a body flies, if it does.
     pub fn cluster_of(&self, body: usize) -> Option<&Cluster> {
         self.clusters.iter().find(|c| c.bodies.contains(&body))
+    }
+
+    /// All that must be ≥ 0 for it.
+    pub fn rests_on(&self) -> impl Iterator<Item = &Expr> {
+        self.needs.iter().chain(&self.besides)
     }
 
     /// Whether words stand in what it takes for granted, and tell what has to grip.

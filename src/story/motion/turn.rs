@@ -57,10 +57,14 @@ pub(in crate::story) fn turn(
     let turned = through.as_ref().map(|by| Expr::from(way) * by).or(turned);
     let parts = work(stage, turn, &lump, arms, through.as_ref())?;
     let (work, end, reaches) = balance(stage, turn.body, &start, &parts)?;
-    let (mut needs, mut assumptions) = (Vec::new(), Vec::new());
+    let (mut needs, mut besides, mut assumptions) = (Vec::new(), Vec::new(), Vec::new());
     let hurdle = hurdle(stage, turn, &r, &start, way)?;
     for (need, words) in hurdle.into_iter().chain(kept_below) {
-        needs.extend(need);
+        let all = match words.is_partial() {
+            true => &mut besides,
+            false => &mut needs,
+        };
+        all.extend(need);
         assumptions.push(words);
     }
     let assumed = assumed.map(|(need, words)| {
@@ -114,6 +118,7 @@ pub(in crate::story) fn turn(
         needs.push(end);
     }
     out.needs = needs;
+    out.besides = besides;
     out.assumptions = assumptions;
     Ok(out)
 }

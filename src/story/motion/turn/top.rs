@@ -193,14 +193,24 @@ pub(super) fn hurdle(
                 let words = sentence!("{}, so that `{}` gets over the top", least, &body.name);
                 return Ok(Some((Some(left), words)));
             }
-            // Whether it passes there at all depends on values: then nothing is needed that can be told by one relation.
+            // Whether it passes there at all depends on values. On its way down to below it does where it begins on the side on
+            // which it rises; the larger of two is not negative where one of them is not.
+            let need = match &turn.until {
+                Until::Below => {
+                    let falling = -(&r[0] * &Expr::from(way));
+                    let above = &left / &(&mass * g);
+                    let gap = Expr::call(Function::Abs, &falling - &above);
+                    Some(tidied(stage, &(&(&falling + &above) + &gap))?)
+                }
+                _ => None,
+            };
             let words = sentence!(
                 "the way through `{}` does not lead over its highest place, or {}, so that `{}` gets over it",
                 &stage.name,
                 least,
                 &body.name
             );
-            Ok(Some((None, words)))
+            Ok(Some((need, words)))
         }
     }
 }
