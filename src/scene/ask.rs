@@ -83,7 +83,7 @@ pub enum Ask {
         /// Names of component questions, in order of columns.
         unknowns: Vec<String>,
     },
-    /// Force of the fixed point on a turning body, along a direction.
+    /// Force of the fixed point on a turning body, or of the surface on what slides or rolls, along a direction.
     Reaction {
         /// Direction.
         along: Vector,

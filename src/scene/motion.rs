@@ -118,6 +118,14 @@ impl Slide {
         [&[self.body], self.with.as_slice()].concat()
     }
 
+    /// What keeps the body on its line.
+    pub fn support(&self) -> &'static str {
+        match self.rolling || self.friction.is_some() {
+            true => "surface",
+            false => "guide",
+        }
+    }
+
     /// Whether the surface is told to be smooth, so that a round body keeps its spin on it.
     pub fn is_smooth(&self) -> bool {
         self.friction.as_ref().is_some_and(Expr::is_zero)

@@ -72,7 +72,8 @@ record! {
         inertia: Option<Text>,
         /// The point of this body, or beside it, that is at rest just after: its coordinates, by `_x` and `_y`.
         instantaneous_center: Option<Text>,
-        /// Force of the fixed point on the body that turns in this stage, along `along`.
+        /// Force of the fixed point on the body that turns in this stage, or of the surface on what slides or rolls in it, along
+        /// `along`.
         reaction: Option<Text>,
         /// Name of a stage: how long does it last?
         time: Option<Text>,

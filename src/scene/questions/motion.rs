@@ -7,7 +7,7 @@ use crate::scene::place_file::PositionFile;
 use crate::scene::question_file::QuestionFile;
 use crate::scene::record::Text;
 use crate::scene::resolve::Resolver;
-use crate::scene::stage_file::{EndName, StageFile, TurnFile};
+use crate::scene::stage_file::{EndName, SlideFile, StageFile, TurnFile};
 use crate::scene::stages::{STIFFNESS, TIME, home, stage_named};
 use crate::scene::{Ask, Scene};
 
@@ -122,9 +122,13 @@ impl Asked<'_, '_> {
     }
 
     fn reaction(&mut self) -> Option<Ask> {
-        if self.stage.turn.is_none() {
-            let message = "a reaction is asked of a stage in which a body turns about a point";
-            return Fault::new(self.subject.span, message).add_to(&mut self.base.faults);
+        let by_itself = |slide: &SlideFile| {
+            slide.on.is_none() && slide.strings.is_none() && slide.spring.is_none()
+        };
+        if self.stage.turn.is_none() && !self.stage.slide.as_ref().is_some_and(by_itself) {
+            let message = "no reaction can be asked of this stage";
+            let hint = "it is the force of the point about which a body turns, or of the surface on what slides or rolls by itself, without a spring, strings or a body below";
+            return self.unfit(message, hint);
         }
         let Some(along) = &self.q.along else {
             return self.lacks("a reaction needs the direction `along` which it is asked");

@@ -3,7 +3,7 @@
 use super::Page;
 use crate::answer::Answer;
 use crate::expr::{Expr, Node, Symbol, Vector, dot, minus};
-use crate::scene::{Ask, StageKind, Turn};
+use crate::scene::{Ask, Slide, StageKind, Turn};
 use crate::solution::known::number;
 use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::opening::NUMBERS;
@@ -30,9 +30,6 @@ impl Page<'_> {
     /// The forces of the fixed point that are asked for in a stage, each under its heading.
     pub(super) fn pivot(&mut self, i: usize) {
         let told = &self.told.stages[i];
-        let StageKind::Turn(turn) = &told.placed.kind else {
-            return;
-        };
         for question in &self.scene.questions {
             let Ask::Reaction { along, at_end } = &question.ask else {
                 continue;
@@ -44,17 +41,67 @@ impl Page<'_> {
                 continue;
             };
             let when = if *at_end { "end" } else { "beginning" };
-            let at = &turn.about_name;
             let stage = words::stage(&told.name);
             let along_it = Inline::Math(vec![along.clone().into()]);
-            let parts = [say(at), say(when), say(stage), along_it];
-            let heading = fill("Force at {} at the {} of {} along {}", parts);
-            self.solution.section(1, heading);
-            let raw = match &turn.torque {
-                None => self.on_a_circle(told, turn, along, *at_end),
-                Some(_) => None,
+            let raw = match &told.placed.kind {
+                StageKind::Turn(turn) => {
+                    let parts = [say(&turn.about_name), say(when), say(stage), along_it];
+                    let heading = fill("Force at {} at the {} of {} along {}", parts);
+                    self.solution.section(1, heading);
+                    match &turn.torque {
+                        None => self.on_a_circle(told, turn, along, *at_end),
+                        Some(_) => None,
+                    }
+                }
+                StageKind::Slide(slide) => {
+                    let parts = [say(slide.support()), say(stage), along_it];
+                    self.solution
+                        .section(1, fill("Force of the {} in {} along {}", parts));
+                    self.on_a_line(told, slide);
+                    None
+                }
+                _ => continue,
             };
             self.force(answer, raw);
+        }
+    }
+
+    /// Tells where the force of a surface comes from, once.
+    fn on_a_line(&mut self, told: &StageTold, slide: &Slide) {
+        let who = words::bodies(self.scene, &slide.company());
+        let others = match (&slide.gravity, slide.level, &slide.force) {
+            (Some(_), false, None) => " and the weight together give",
+            (Some(_), false, Some(_)) => ", the weight and the applied force together give",
+            (_, _, Some(_)) => " and the applied force together give",
+            _ => " alone gives",
+        };
+        let its = if slide.with.is_empty() {
+            "its"
+        } else {
+            "their"
+        };
+        let company = slide.company().into_iter();
+        let mass = Expr::sum(company.map(|b| told.placed.scene.bodies[b].mass.clone()));
+        let weight = slide.gravity.as_ref().filter(|_| !slide.level);
+        let [x, y] = &slide.along;
+        let push = slide.force.as_ref().map(|f| [-(f * x), -(f * y)]);
+        let factor = Math::Factor(tidied(self.scene, &mass));
+        let mut law = set(
+            "{} = {} {}",
+            [vector("F", "", ""), factor, vector("a", "", "")],
+        );
+        for part in [weight.map(|g| [Expr::zero(), &mass * g]), push]
+            .into_iter()
+            .flatten()
+        {
+            law.extend(set("+ {}", [part.into()]));
+        }
+        if !self.solution.shows(&law) {
+            self.solution.say(&format!(
+                "The force of the {}{others} {who} {its} acceleration (Newton’s second law):",
+                slide.support()
+            ));
+            self.solution.display(vec![Line::plain(law)]);
         }
     }
 

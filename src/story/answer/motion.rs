@@ -38,7 +38,7 @@ fn tidied(question: &Question, told: &StageTold, value: &Expr) -> Result<Expr, R
         .map_err(|stop| Refused::uncalculated(&question.name, stop))
 }
 
-/// The force of the fixed point on a turning body, as asked.
+/// The force of the fixed point on a turning body, or of the surface on what moves along it, as asked.
 pub(super) fn reaction(
     question: &Question,
     told: &StageTold,
@@ -46,14 +46,22 @@ pub(super) fn reaction(
     at_end: bool,
 ) -> Result<Answer, Refused> {
     let (state, when, granted) = end(told, at_end);
-    let words = format!(
-        "force of the fixed point at the {when} of `{}`",
-        told.placed.name
-    );
-    let out = blank(question, words);
-    let StageKind::Turn(turn) = &told.placed.kind else {
-        return Ok(out);
+    let stage = &told.placed.name;
+    let turn = match &told.placed.kind {
+        StageKind::Turn(turn) => turn,
+        StageKind::Slide(slide) => {
+            let words = format!("force of the {} in `{stage}`", slide.support());
+            let force = told.acceleration.as_ref().map(|rate| {
+                let force = stage::support(&told.placed.scene, slide, rate);
+                tidied(question, told, &dot(&force, along))
+            });
+            let why = "what comes before is open";
+            return Ok(measured(question, told, words, force.transpose()?, why));
+        }
+        _ => return Ok(blank(question, String::new())),
     };
+    let words = format!("force of the fixed point at the {when} of `{stage}`");
+    let out = blank(question, words);
     if let Some(why) = state.why_open([&state.spin[turn.body]]) {
         return Ok(out.leave_open(why));
     }

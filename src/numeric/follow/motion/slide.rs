@@ -165,6 +165,10 @@ pub(in crate::numeric::follow) fn slide(
     }
     let moved = Moved {
         bodies: bodies.to_vec(),
+        reaction: slide.strings.is_empty().then(|| {
+            let force = pressed((&movers, company), &acting, &rates, &units, slide.level);
+            [(); 2].map(|()| force.map(Ok))
+        }),
         driven: driven(
             &bodies,
             &directions,
@@ -207,6 +211,24 @@ fn driven(
             tension: (ropes.pull(i, company, tensions)).map(|t| t * units.force()),
         })
         .collect()
+}
+
+/// Force of the surface on the bodies, from the rates in the units: what they are accelerated with more than by the other forces.
+/// What carries the weight on a level surface lies across the plane.
+fn pressed(
+    (movers, company): (&Movers, usize),
+    acting: &Acting,
+    rates: &[f64],
+    units: &Units,
+    is_level: bool,
+) -> [f64; 2] {
+    let unit = units.length / (units.time * units.time);
+    [0, 1].map(|k| {
+        let fall = if is_level { 0.0 } else { acting.fall[k] };
+        let masses = movers.inertias[..company].iter().map(|i| i[0]).enumerate();
+        let forces = masses.map(|(i, mass)| mass * (rates[3 * i + k] * unit - fall));
+        forces.sum::<f64>() - acting.force * acting.along[k]
+    })
 }
 
 /// The state behind a bend: what came along as one turns into the line.

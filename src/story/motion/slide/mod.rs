@@ -17,7 +17,7 @@ use crate::algebra::Sign;
 use crate::answer::calc::{Seen, sign};
 use crate::expr::{Expr, Vector};
 use crate::formula::sentence;
-use crate::scene::{Slide, SlideEnd, Stage};
+use crate::scene::{Scene, Slide, SlideEnd, Stage};
 use crate::story::{Refused, StageTold, State};
 use course::Course;
 use line::Line;
@@ -92,6 +92,19 @@ pub(in crate::story) fn slide(
     }
     supposed.told(&mut out);
     Ok(out)
+}
+
+/// The force of the surface on the bodies that move along it with this acceleration, where neither string nor spring pulls them.
+/// What carries the weight on a level surface lies across the plane.
+pub(in crate::story) fn support(scene: &Scene, slide: &Slide, acceleration: &Expr) -> Vector {
+    let company = slide.company().into_iter();
+    let mass = Expr::sum(company.map(|b| scene.bodies[b].mass.clone()));
+    let force = slide.force.clone().unwrap_or_else(Expr::zero);
+    let along = &(&mass * acceleration) - &force;
+    let weight = slide.gravity.as_ref().filter(|_| !slide.level);
+    let up = weight.map_or_else(Expr::zero, |g| &mass * g);
+    let [x, y] = &slide.along;
+    [&along * x, &(&along * y) + &up]
 }
 
 /// The bodies that move along one line each, with their directions.
