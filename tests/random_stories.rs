@@ -216,7 +216,8 @@ fn on_a_line() -> impl Strategy<Value = String> {
     "B": {{{shape}, "mass": "m", "center": ["0", "R"], "velocity": ["({v})*({to_x})", "({v})*({to_y})"]{spin}}}
   }},
   "stages": [{{"name": "way", "slide": {{"body": "B", "along": ["{x}", "{y}"], {bend} "gravity": "g", {surface}, {end}}}}}],
-  "questions": {{"u": {{"velocity": "B"}}, "w1": {{"spin": "B"}}, "K": {{"energy": "lost"}}}}
+  "questions": {{"u": {{"velocity": "B"}}, "w1": {{"spin": "B"}}, "K": {{"energy": "lost"}}, "X": {{"reaction": "way", "along": "x"}},
+    "Y": {{"reaction": "way", "along": "y"}}}}
 }}"#
         )
     })
