@@ -395,8 +395,11 @@ fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {
     if expected.relation == Relation::Equal && answer.relation == Relation::Equal {
         let sought = sought_in(ctx, &expected.difference, &answer.difference);
         let mut plain = pair.clone();
-        let given = plain.iter_mut().flat_map(|n| divide(n, &sought, &domains));
-        let given: Vec<String> = given.collect();
+        let [mine, theirs] = plain.each_mut().map(|n| divide(n, &sought, &domains));
+        if are_equations([&mine, &theirs]) {
+            plain = pair.clone();
+        }
+        let given: Vec<String> = mine.iter().chain(&theirs).map(not_zero).collect();
         if plain
             .iter()
             .zip(&pair)
@@ -487,21 +490,29 @@ fn consistent(old: [&Normal; 2], new: &[Normal; 2], domains: &Domains) -> bool {
     })
 }
 
-/// Takes the factors without the sought quantity out of an equation; what they must not be in words.
-fn divide(n: &mut Normal, sought: &BTreeSet<Symbol>, domains: &Domains) -> Vec<String> {
+/// Takes the factors without the sought quantity out of an equation; those that may be zero.
+fn divide(n: &mut Normal, sought: &BTreeSet<Symbol>, domains: &Domains) -> Vec<Expr> {
     let Node::Product(factors) = n.difference.node() else {
         return Vec::new();
     };
+    let open = |factor: &&Expr| !sign_of(factor, domains).is_some_and(Sign::is_strict);
     let (free, rest): (Vec<Expr>, Vec<Expr>) = factors
         .iter()
         .cloned()
         .partition(|factor| factor.symbols().is_disjoint(sought));
-    if rest.is_empty() || sought.is_empty() {
+    // What is zero nowhere is no equation.
+    if !rest.iter().any(|factor| open(&factor)) || sought.is_empty() {
         return Vec::new();
     }
     n.difference = rooted(Expr::product(rest));
-    let open = |factor: &&Expr| !sign_of(factor, domains).is_some_and(Sign::is_strict);
-    free.iter().filter(open).map(not_zero).collect()
+    free.iter().filter(open).cloned().collect()
+}
+
+/// Whether what only either of two equations has may be what it says: `v − w` and `u − b` beside the factor `M − m` of both.
+fn are_equations<'e>(each: [impl IntoIterator<Item = &'e Expr>; 2]) -> bool {
+    let [mine, theirs] = each.map(|parts| parts.into_iter().collect::<Vec<_>>());
+    let is_sum = |e: &&Expr| matches!(e.node(), Node::Sum(_));
+    !mine.is_empty() && !theirs.is_empty() && mine.iter().chain(&theirs).any(is_sum)
 }
 
 fn as_written(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {

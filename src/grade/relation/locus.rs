@@ -47,7 +47,7 @@ pub(super) struct Compared {
     pub lost: Vec<Part>,
     /// The other way round.
     pub gained: Vec<Part>,
-    /// The symbols of the parts they share.
+    /// The symbols of the parts they share, and those that stand in a part of each.
     pub shared: BTreeSet<Symbol>,
     pub extents: [Extent; 2],
 }
@@ -100,7 +100,14 @@ pub(super) fn compare(f: &Expr, g: &Expr, domains: &Domains) -> Option<Compared>
     };
     let extents = [&lost, &gained]
         .map(|parts| extent(&field, &[parts.as_slice(), &shared].concat(), &domains));
-    let symbols = shared.iter().flat_map(|(_, e)| e.symbols()).collect();
+    // What is zero nowhere says nothing of its symbols: `(m + M) v = (m + M) w` is about v and w.
+    let open = |parts: &[(Element, Expr)]| {
+        let open = parts
+            .iter()
+            .filter(|(x, _)| !field.sign(x).is_some_and(Sign::is_strict));
+        open.flat_map(|(_, e)| e.symbols()).collect::<BTreeSet<_>>()
+    };
+    let symbols = &open(&shared) | &(&open(&lost) & &open(&gained));
     Some(Compared {
         lost: lost.into_iter().filter_map(|p| part(p, f, g)).collect(),
         gained: gained.into_iter().filter_map(|p| part(p, g, f)).collect(),

@@ -91,6 +91,10 @@ pub(super) struct Desk<'a> {
     pub in_units: bool,
     /// Own names that were used before the line that says what they are.
     pub early: BTreeSet<Symbol>,
+    /// The lines that use them or say by a law what an own name is, left minus right as they stand.
+    pub above: Vec<Expr>,
+    /// Own names that have the slip of another one, and the line that shows it.
+    pub carried: BTreeMap<Symbol, usize>,
     /// Spins as vectors: the name with an arrow, the spin, and whether it counts clockwise.
     pub spins: BTreeMap<Symbol, (Symbol, bool)>,
     /// Components of spins and places as vectors, `omega_vec_z` and `r_vec_B/C_x`.
@@ -164,6 +168,8 @@ impl<'a> Desk<'a> {
             anew: false,
             in_units: false,
             early: BTreeSet::new(),
+            above: Vec::new(),
+            carried: BTreeMap::new(),
             spins: spins(&sheet.scene),
             parts: parts(&sheet.scene),
             linked: Vec::new(),

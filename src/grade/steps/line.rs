@@ -279,7 +279,11 @@ impl Desk<'_> {
             Weighed::Holds => {
                 let used = all.iter().flat_map(Expr::symbols);
                 let own = used.filter(|name| self.own.contains_key(name));
-                self.proved.extend(own.collect::<Vec<_>>());
+                let own: Vec<_> = own.collect();
+                if own.iter().any(|name| self.early.contains(name)) {
+                    self.above.extend(all.iter().cloned());
+                }
+                self.proved.extend(own);
                 self.carry(reading);
                 self.state(None, &all);
                 Status::Holds
