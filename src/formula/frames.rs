@@ -1,5 +1,47 @@
 //! What stands around several values, taken off: braces of a set, the brace of a system, lines.
 
+/// A line without the mark of an item in a list: `1) ω = …`, `2. ω = …`, `(a) ω = …`, `* ω = …`, and `- ω = …` where `dashes` are
+/// marks.
+pub(crate) fn unlisted(line: &str, dashes: bool) -> &str {
+    let marks = ["* ", "• ", "– ", "- "]
+        .iter()
+        .take(3 + usize::from(dashes));
+    if let Some(rest) = marks.filter_map(|mark| line.strip_prefix(mark)).next() {
+        return rest.trim_start();
+    }
+    let number = |mark: &str| mark.len() < 3 && mark.bytes().all(|b| b.is_ascii_digit());
+    if let Some((_, rest)) = line.split_once(". ").filter(|(mark, _)| number(mark)) {
+        return rest.trim_start();
+    }
+    let Some((mark, rest)) = line.split_once(") ") else {
+        return line;
+    };
+    let is_mark = match mark.strip_prefix('(') {
+        // `(2) v + (3) u` are factors.
+        Some(inside) => {
+            ["a", "b", "c", "i", "ii", "iii", "iv"].contains(&inside)
+                || number(inside) && !rest.contains('(')
+        }
+        None => mark.len() == 1 || number(mark),
+    };
+    if is_mark { rest.trim_start() } else { line }
+}
+
+/// Several lines that are the items of a list, with blanks for their marks.
+pub(super) fn unmarked(text: &str) -> Option<String> {
+    let mut out = Vec::new();
+    for line in text.lines() {
+        let item = unlisted(line.trim_start(), true);
+        // A minus sign may stand before a value.
+        let marked = item.len() < line.trim_start().len() && item.contains('=');
+        if !marked && !line.trim().is_empty() {
+            return None;
+        }
+        out.push(format!("{}{item}", " ".repeat(line.len() - item.len())));
+    }
+    (out.len() > 1).then(|| out.join("\n"))
+}
+
 /// `{2, 3}` and `x ∈ {2, 3}` with blanks for the braces and an equals sign for that of membership, byte for byte; nothing
 /// where the text is no set.
 pub(super) fn without_braces(text: &str) -> Option<String> {

@@ -50,7 +50,7 @@ pub use content::{Content, Join, Quantity, Relation};
 use convert::Value;
 pub use fault::Fault;
 use fault::Faulty;
-pub(crate) use frames::lines_apart;
+pub(crate) use frames::{lines_apart, unlisted};
 pub use note::{Note, Remark};
 use parser::{Parser, Side};
 pub(crate) use prose::{beside_condition, changes, concluded};
@@ -130,6 +130,11 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
         && let Some(last) = frames::last_equation(text)
     {
         return read(&last, symbols);
+    }
+    if held.all("\n=")
+        && let Some(items) = frames::unmarked(text)
+    {
+        return read(&items, symbols);
     }
     if held.all("\\.")
         && let Some(text) = without_full_stop(text)

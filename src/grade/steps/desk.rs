@@ -49,6 +49,8 @@ pub(super) struct Desk<'a> {
     /// Every equation so far that was decided, as left minus right with the student's own names put in, and the wrong line
     /// it hangs on; `None` for what holds.
     pub stated: Vec<(Option<usize>, Expr)>,
+    /// Wrong lines of which is known what led to them.
+    pub explained: BTreeSet<usize>,
     /// Names of velocities and spins that all follow from any one of them; empty unless the motion has one freedom.
     pub moving: BTreeSet<Symbol>,
     /// Letters and indices of vectors that the page has with a prime as well.
@@ -144,6 +146,7 @@ impl<'a> Desk<'a> {
             coarse: BTreeMap::new(),
             wrong: Vec::new(),
             stated: Vec::new(),
+            explained: BTreeSet::new(),
             moving: if one_freedom(&sheet.scene) {
                 moving
             } else {

@@ -9,7 +9,7 @@ use crate::algebra::{Sign, sign};
 use crate::dimension::{self, Dimension};
 use crate::expr::{Expr, Symbol, dot};
 use crate::formula::{self, Content, Reading, Symbols};
-use crate::scene::{Ask, Question, Scene, StageKind};
+use crate::scene::{Ask, Scene, StageKind};
 
 /// Most accelerations that one letter is tried as.
 const MOST_WAYS: usize = 6;
@@ -59,11 +59,7 @@ pub(super) fn of_a_later_moment(sheet: &Sheet, text: &str) -> BTreeSet<(Symbol, 
     let Some(last) = sheet.impacts.last() else {
         return BTreeSet::new();
     };
-    let of = |q: &Question, name: &str| {
-        name.strip_prefix(&*q.name)
-            .is_some_and(|rest| ["", "_x", "_y"].contains(&rest))
-    };
-    let is_last = |name: &Symbol| last.questions.iter().any(|q| of(q, name));
+    let is_last = |name: &Symbol| last.questions.iter().any(|q| q.part(name).is_some());
     let mut marked = marked(sheet, text);
     marked.retain(|(name, mark)| *mark == "'" && !is_last(name));
     marked

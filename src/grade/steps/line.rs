@@ -144,12 +144,7 @@ impl Desk<'_> {
     fn with_sense(&self, text: &str) -> Option<String> {
         let (name, right) = names::named(text)?;
         let name = name.trim_end_matches(['\'', '^', '+']);
-        let part = |q: &Question| match name.strip_prefix(q.name.as_str())? {
-            "" => Some((q.ask.clone(), None)),
-            "_x" => Some((q.ask.clone(), Some(0))),
-            "_y" => Some((q.ask.clone(), Some(1))),
-            _ => None,
-        };
+        let part = |q: &Question| Some((q.ask.clone(), q.part(name)?));
         let (ask, component) = self.sheet.scene.questions.iter().find_map(part)?;
         let (values, _) = super::super::read::sense(right)?;
         let word = right[values.len()..].trim_start_matches([' ', ',', '(']);
@@ -224,10 +219,15 @@ impl Desk<'_> {
                 if let Weighed::Slip(_) | Weighed::Open = again {
                     continue;
                 }
-                let message = format!("holds when read as {}", super::super::show(&other.content));
+                let shown = super::super::show(&other.content);
+                // `t = 0.35 s`, where s is asked as well, reads the same either way.
+                let message = match shown == text.trim() {
+                    true => "holds when what stands behind its number is the unit".to_string(),
+                    false => format!("holds when read as {shown}"),
+                };
                 let hint = "this line can be read in two ways; use brackets to say which is meant";
                 let found = match again {
-                    Weighed::Carried(_) => Vec::new(),
+                    Weighed::Carried(cause) => self.carried_belief(&other, cause),
                     _ => vec![Diagnosis::new("AMBIGUOUS", message, hint)],
                 };
                 return (self.note(&other, &links, &again), found);
@@ -244,6 +244,7 @@ impl Desk<'_> {
                 let says = self.says_enough(&links, &self.parts, false);
                 (!says).then(open::vanishes).into_iter().collect()
             }
+            Weighed::Carried(cause) => self.carried_belief(reading, cause),
             _ => Vec::new(),
         };
         (status, found)

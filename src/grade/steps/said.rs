@@ -66,8 +66,8 @@ fn speaks_of(words: &[String], question: &Question, names: &[String], lone: bool
             when: EnergyWhen::Lost,
             ..
         } => (
-            "energy ke heat lost loss dissipated generated",
-            has("lost loss dissipated") && has("energy ke") || has("heat"),
+            "energy ke heat lost loss dissipated generated e_lost ke_lost",
+            has("lost loss dissipated") && has("energy ke") || has("heat e_lost ke_lost"),
         ),
         Ask::Impulse { .. } => ("impulse on", has("impulse")),
         Ask::Tension { .. } => ("tension string", has("tension")),
@@ -96,7 +96,7 @@ impl Desk<'_> {
             .iter()
             .copied()
             .filter(|q| self.closed.contains_key(q.name.as_str()))
-            .filter(|q| solved.iter().all(|name| !stands_for(name, &q.name)))
+            .filter(|q| solved.iter().all(|name| q.part(name).is_none()))
             .collect();
         let mut told = vec![false; open.len()];
         // A claim at the end is an answer, right or wrong; words on the way may be about anything else.
@@ -157,10 +157,4 @@ fn names(bodies: &[Body], ask: &Ask) -> Vec<String> {
     let all = [Some(&bodies[body].name), point];
     let words = all.into_iter().flatten().flat_map(|name| name.split(' '));
     words.map(str::to_lowercase).collect()
-}
-
-/// Whether a name is that of a question, or of a component of it.
-fn stands_for(name: &str, question: &str) -> bool {
-    let behind = name.strip_prefix(question);
-    behind.is_some_and(|rest| matches!(rest, "" | "_x" | "_y"))
 }
