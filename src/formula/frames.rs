@@ -27,21 +27,6 @@ pub(crate) fn unlisted(line: &str, dashes: bool) -> &str {
     if is_mark { rest.trim_start() } else { line }
 }
 
-/// Several lines that are the items of a list, with blanks for their marks.
-pub(super) fn unmarked(text: &str) -> Option<String> {
-    let mut out = Vec::new();
-    for line in text.lines() {
-        let item = unlisted(line.trim_start(), true);
-        // A minus sign may stand before a value.
-        let marked = item.len() < line.trim_start().len() && item.contains('=');
-        if !marked && !line.trim().is_empty() {
-            return None;
-        }
-        out.push(format!("{}{item}", " ".repeat(line.len() - item.len())));
-    }
-    (out.len() > 1).then(|| out.join("\n"))
-}
-
 /// `{2, 3}` and `x ∈ {2, 3}` with blanks for the braces and an equals sign for that of membership, byte for byte; nothing
 /// where the text is no set.
 pub(super) fn without_braces(text: &str) -> Option<String> {
@@ -195,10 +180,12 @@ pub(crate) fn lines_apart(text: &str) -> Option<String> {
     if let Some(inside) = LINES.iter().find_map(|n| framed(n)) {
         return Some(inside.replace('&', " "));
     }
-    let lines: Vec<&str> = text
-        .lines()
-        .map(str::trim)
-        .filter(|line| !line.is_empty())
+    let lines = text.lines().map(str::trim);
+    // What leads to a list ends in a colon.
+    let items =
+        lines.filter(|line| !line.is_empty() && (!line.ends_with(':') || line.contains('=')));
+    let lines: Vec<&str> = items
+        .map(|line| unlisted(line, line.contains('=')))
         .collect();
     (lines.len() > 1).then(|| lines.join("; "))
 }

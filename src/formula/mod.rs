@@ -131,11 +131,6 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     {
         return read(&last, symbols);
     }
-    if held.all("\n=")
-        && let Some(items) = frames::unmarked(text)
-    {
-        return read(&items, symbols);
-    }
     if held.all("\\.")
         && let Some(text) = without_full_stop(text)
     {
