@@ -25,7 +25,7 @@ mod zeros;
 use std::collections::BTreeSet;
 use std::slice::from_ref;
 
-use super::compare::Context;
+use super::compare::{Context, scalars};
 use super::{Apart, Grade, Verdict};
 use crate::algebra::{self, Element, Field, Sign};
 use crate::domain::{Domain, Domains, roles};
@@ -78,23 +78,46 @@ pub(crate) fn compare(
     if let Some(found) = listed::beyond(ctx, &expected, mine) {
         return found;
     }
-    if let Some(found) = system::in_one_symbol(ctx, from_ref(&expected), from_ref(&answer), domains)
-    {
-        return found;
-    }
-    let found = match (expected.as_slice(), answer.as_slice()) {
+    let one = system::in_one_symbol(ctx, from_ref(&expected), from_ref(&answer), domains);
+    let found = one.unwrap_or_else(|| match (expected.as_slice(), answer.as_slice()) {
         ([e], [a]) => match link(ctx, e, a) {
             found if found.is_equivalent() => where_defined(found, [&expected, &answer], domains),
             found => found,
         },
         _ => system::compare(ctx, &expected, &answer),
-    };
+    });
     match found.verdict {
         Verdict::Undecided => system::scaled(ctx, &expected, &answer)
             .or_else(|| system::with_one_given(ctx, &[expected], &[answer]))
             .unwrap_or(found),
-        _ => found,
+        _ => about_bound(ctx, found, [sides, mine]),
     }
+}
+
+/// The finding about an inequality with what is wrong with its bound, where both set one on the same name.
+fn about_bound(ctx: &Context, mut found: Grade, each: [&[Content]; 2]) -> Grade {
+    let bound = |sides: &[Content]| {
+        let [left, right] = sides else { return None };
+        let (name, bound) = match left.name() {
+            Some(name) => (name, right),
+            None => (right.name()?, left),
+        };
+        Some((name.clone(), bound.expr()?.clone()))
+    };
+    let [Some((name, e)), Some((other, a))] = each.map(bound) else {
+        return found;
+    };
+    if found.note == system::OTHER_NUMBERS[0] && name == other {
+        let mut wrong = scalars(ctx, &e, &a).diagnosis;
+        wrong.retain(|d| d.message.starts_with("right") || d.code == "ROUNDED");
+        for d in &mut wrong {
+            d.message = format!("the bound is {}", d.message);
+        }
+        if !wrong.is_empty() {
+            found.diagnosis = wrong;
+        }
+    }
+    found
 }
 
 /// An equivalence of the relations of two systems beside what must not be zero, unless in one symbol one system has no value
