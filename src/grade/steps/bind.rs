@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::super::believed::Story;
 use super::Desk;
 use super::impact::{Impact, impacts};
-use super::letters::{MARKS, readings};
+use super::letters::{MARKS, readings, used};
 use super::link::{Link, names_in};
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol, Vector};
@@ -83,8 +83,7 @@ impl Desk<'_> {
     /// The names of a solution that the desk does not know.
     fn unknown_names(&self, text: &str) -> BTreeSet<Symbol> {
         let symbols = self.symbols("");
-        let used = readings(&self.sheet.scene, text);
-        let used = used.iter().flat_map(|reading| reading.symbols());
+        let used = used(&self.sheet.scene, text).into_iter();
         // `vx` is `v_x`.
         let words = text.split(|c: char| !c.is_ascii_alphanumeric());
         let joined = words.filter_map(|word| match word.as_bytes() {

@@ -9,7 +9,6 @@ use super::link::{self, Link, Weighed, gaps};
 use super::{CONDITION, Desk, Found, MOMENT, Needed, Status, arrows, names, open, text};
 use crate::expr::Expr;
 use crate::formula::{self, Reading};
-use crate::scene::Question;
 
 impl Desk<'_> {
     /// A line is as good as its worst equation.
@@ -144,8 +143,8 @@ impl Desk<'_> {
     fn with_sense(&self, text: &str) -> Option<String> {
         let (name, right) = names::named(text)?;
         let name = name.trim_end_matches(['\'', '^', '+']);
-        let part = |q: &Question| Some((q.ask.clone(), q.part(name)?));
-        let (ask, component) = self.sheet.scene.questions.iter().find_map(part)?;
+        let mut questions = self.sheet.scene.questions.iter();
+        let (ask, component) = questions.find_map(|q| Some((q.ask.clone(), q.part(name)?)))?;
         let (values, _) = super::super::read::sense(right)?;
         let word = right[values.len()..].trim_start_matches([' ', ',', '(']);
         judge::in_words(&ask, component, &format!("{values} {word}"))?;

@@ -4,19 +4,10 @@
 
 use super::Desk;
 use super::text::{relates, without_remark};
+use super::wording::VERBS;
 use crate::expr::{Expr, Symbol};
 use crate::formula;
 use crate::scene::{Ask, Body, EnergyWhen, Question};
-
-/// What stands between words and what they say of a quantity.
-const SIGNS: [&str; 6] = [
-    " is equal to ",
-    " is given by ",
-    " equals ",
-    " is ",
-    "=",
-    ":",
-];
 
 /// Words that leave open what is spoken of.
 const FILLERS: &str = "a after amount and answer collision common final finally find get hence hit immediately impact in \
@@ -30,8 +21,7 @@ fn parted(line: &str) -> Option<(Vec<String>, &str)> {
 }
 
 fn cut(line: &str) -> Option<(Vec<String>, &str)> {
-    let signs = SIGNS.iter();
-    let (at, sign) = signs
+    let (at, sign) = (VERBS.iter().chain(&["=", ":"]))
         .filter_map(|s| Some((line.find(s)?, *s)))
         .min_by_key(|(at, s)| (*at, std::cmp::Reverse(s.len())))?;
     let left = line[..at].trim_matches([' ', '$']);

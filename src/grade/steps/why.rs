@@ -32,20 +32,19 @@ fn other_arcs(term: &Expr) -> Option<Expr> {
     (other != *term).then_some(other)
 }
 
-/// The terms of a product of sums, multiplied out once; none where it has no sum.
-fn multiplied_out(term: &Expr) -> Vec<Expr> {
+/// A product with the sign of one term of a sum in it turned.
+fn turned_inside(term: &Expr) -> Vec<Expr> {
     let Node::Product(factors) = term.node() else {
         return Vec::new();
     };
-    let sum = factors.iter().position(|f| f.terms().len() > 1);
-    let parts = sum.map(|at| {
-        let terms = factors[at].terms().iter();
-        terms.map(move |part| {
-            let others = factors.iter().enumerate().filter(|(i, _)| *i != at);
-            others.fold(part.clone(), |product, (_, factor)| product * factor)
-        })
+    let sums = factors.iter().filter(|f| matches!(f.node(), Node::Sum(_)));
+    let each = sums.flat_map(|sum| (0..sum.terms().len()).map(move |i| (sum, i)));
+    let turned = each.map(|(sum, i)| {
+        let mut terms = sum.terms().to_vec();
+        terms[i] = -&terms[i];
+        term.replace(sum, &Expr::sum(terms))
     });
-    parts.into_iter().flatten().collect()
+    turned.collect()
 }
 
 /// Whether a finding is a belief, or two together.
@@ -418,7 +417,7 @@ impl Desk<'_> {
 
     /// The term with whose other sign an equation holds.
     pub(super) fn turned(&self, left: &Expr, right: &Expr) -> Option<Diagnosis> {
-        let [term, _] = self.term([left, right], None, false, |term| vec![-term])?;
+        let [term, _] = self.term([left, right], None, |term| vec![-term])?;
         let term = formula::write_plain(&term);
         Some(Diagnosis::new(
             "TERM_SIGN",
@@ -435,67 +434,56 @@ impl Desk<'_> {
         &self,
         [left, right]: [&Expr; 2],
         sought: Option<&Sought>,
-        apart: bool,
         others: impl Fn(&Expr) -> Vec<Expr>,
     ) -> Option<[Expr; 2]> {
         let gap = left - right;
         // On the left a term stands in the gap as it is, on the right with the other sign.
         let all = [(left, 1), (right, -1)].into_iter();
         let all = all.flat_map(|(side, k)| side.terms().iter().map(move |term| (term, k)));
-        let parts = |(term, k): (&Expr, i64)| {
-            let parts = match apart {
-                true => multiplied_out(term),
-                false => vec![term.clone()],
-            };
-            parts.into_iter().map(move |part| (part, k))
-        };
-        let mut tried = all.flat_map(parts).take(MOST_TERMS).flat_map(|(term, k)| {
-            let others = others(&term).into_iter();
-            others.map(move |other| (term.clone(), other, k))
+        let mut tried = all.take(MOST_TERMS).flat_map(|(term, k)| {
+            let others = others(term).into_iter();
+            others.map(move |other| (term, other, k))
         });
-        let holds = |(term, other, k): &(Expr, Expr, i64)| {
-            let meant = &gap + &(other - term) * Expr::from(*k);
+        let found = tried.find(|(term, other, k)| {
+            let meant = &gap + &(other - *term) * Expr::from(*k);
             match sought {
                 Some(s) => !self.vanishes(&meant, s) && self.is_zero_where(&[&meant], s),
                 None => self.is_zero(&meant),
             }
-        };
-        tried.find(holds).map(|(term, other, _)| [term, other])
+        });
+        found.map(|(term, other, _)| [term.clone(), other])
     }
 
     /// The term of a law with the moment of inertia of another shape, or about another point.
     fn other_shape(&self, sides: [&Expr; 2]) -> Option<Diagnosis> {
         let scene = &self.sheet.scene;
         let free = (0..scene.bodies.len()).filter(|&b| !scene.bodies[b].is_fixed());
-        let shapes = free.flat_map(|b| {
+        let mut shapes = free.flat_map(|b| {
             let others = other_shapes(scene, b).into_iter();
             others.map(move |(other, words)| (other, &scene.bodies[b].inertia, words))
         });
-        let mut found = shapes.filter_map(|(other, truth, words)| {
-            let share = self.share(&other, truth)?.as_number()?.clone();
+        let tidied = |e: Expr| tidy(&e, &scene.domains).unwrap_or(e);
+        shapes.find_map(|(other, truth, words)| {
+            let share = self.share(&other, truth)?;
+            share.as_number()?;
             let names = other.symbols();
             // Beside it stands nothing of its own: `m g l` is no moment of inertia.
-            let [times, below] = [other.powi(-1), other.clone()];
-            let [term, meant] = self.term(sides, None, false, |term| {
-                let without = |k: &Expr| {
-                    let rest = tidy(&(term * k), &scene.domains);
-                    rest.is_ok_and(|rest| rest.symbols().is_disjoint(&names))
-                };
-                match (names.is_subset(&term.symbols()), without(&times)) {
-                    (true, true) => vec![term * &Expr::from(share.clone())],
-                    (true, false) if without(&below) => vec![term * &Expr::from(share.recip())],
-                    _ => Vec::new(),
-                }
+            let ways = [(other.powi(-1), share.clone()), (other, share.powi(-1))];
+            let found = self.term(sides, None, |term| {
+                let of = |k: &Expr| tidied(term * k).symbols().is_disjoint(&names);
+                let ways = ways.iter().filter(|(k, _)| of(k));
+                let uses = names.is_subset(&term.symbols());
+                ways.filter(|_| uses)
+                    .map(|(_, k)| tidied(term * k))
+                    .collect()
             })?;
-            let tidied = |e: Expr| tidy(&e, &scene.domains).unwrap_or(e);
-            let [term, meant] = [term, tidied(meant)].map(|e| formula::write_plain(&e));
+            let [term, meant] = found.map(|e| formula::write_plain(&e));
             let words = format!(
                 "this line holds with {meant} in place of {term} (moment of inertia {words})"
             );
             let hint = "which shape has the moment of inertia you used, and about which point?";
             Some(Diagnosis::new("INERTIA", words, hint))
-        });
-        found.next()
+        })
     }
 
     /// A balance of energies from before a plastic impact to after it, also where it is to give what is sought.
@@ -520,7 +508,7 @@ impl Desk<'_> {
     fn other_term(&self, sides: [&Expr; 2], sought: Option<&Sought>) -> Option<Diagnosis> {
         // A half is lost where none is written, and too much where one is.
         let factor = |likely: bool| {
-            self.term(sides, sought, false, |term| {
+            self.term(sides, sought, |term| {
                 let half = term.split_number().0.is_integer() == likely;
                 let [one, two] = if half { [1, 2] } else { [2, 1] };
                 vec![term * &Expr::ratio(one, two)]
@@ -538,7 +526,7 @@ impl Desk<'_> {
             [(p.clone(), q), (p.clone(), both.clone()), (both, p)]
         });
         let named = |(p, q): (Expr, Expr)| {
-            self.term(sides, sought, false, |term| {
+            self.term(sides, sought, |term| {
                 let other = term.replace(&p, &q);
                 Vec::from_iter((other != *term).then_some(other))
             })
@@ -548,8 +536,8 @@ impl Desk<'_> {
         let found = factor(true)
             .or_else(|| factor(false))
             .or_else(|| pairs.find_map(named))
-            .or_else(|| self.term(sides, sought, false, arcs))
-            .or_else(|| self.term(sides, sought, true, |part| vec![-part]))?;
+            .or_else(|| self.term(sides, sought, arcs))
+            .or_else(|| self.term(sides, sought, turned_inside))?;
         let [term, other] = found.map(|e| formula::write_plain(&e));
         Some(Diagnosis::new(
             "TERM",
