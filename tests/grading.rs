@@ -46,7 +46,10 @@ fn rows(filter: impl Fn(&str) -> bool) -> Vec<(String, usize, Vec<String>)> {
             all.push((
                 name.clone(),
                 i + 1,
-                line.split('\t').map(str::to_string).collect(),
+                // ↵ ends a line within a cell.
+                line.split('\t')
+                    .map(|cell| cell.replace('↵', "\n"))
+                    .collect(),
             ));
         }
     }

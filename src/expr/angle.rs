@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use num_traits::Zero;
 
-use super::{Expr, Node, Rational, Symbol, number, ratio};
+use super::{Expr, Function, Node, Rational, Symbol, number, ratio};
 
 /// A rational combination of angle symbols plus a rational multiple of π.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -13,6 +13,16 @@ pub struct Angle {
     pub symbols: BTreeMap<Symbol, Rational>,
     /// Coefficient of π.
     pub pi: Rational,
+}
+
+/// Sines and cosines exchanged, those of some angles.
+pub fn arcs_exchanged(e: &Expr, of: &dyn Fn(&Expr) -> bool) -> Expr {
+    match e.node() {
+        Node::Call(Function::Sin, x) if of(x) => x.cos(),
+        Node::Call(Function::Cos, x) if of(x) => x.sin(),
+        Node::Call(Function::Tan, x) if of(x) => x.tan().powi(-1),
+        _ => e.map_parts(|part| arcs_exchanged(part, of)),
+    }
 }
 
 /// Reads an expression as an angle: `None` where it is not a rational combination of symbols and π (a bare number, a

@@ -23,7 +23,33 @@ const WORDS: [&str; 5] = ["text", "textbf", "textrm", "mbox", "textit"];
 /// The formula of the last box; nothing where there is no box.
 pub(super) fn unboxed(text: &str) -> Option<Faulty<String>> {
     let last = last_box(text, text.len())?;
-    Some(last.and_then(|[at, start, end]| around(text, at, [start, end])))
+    let text = named(text);
+    Some(last.and_then(|[at, start, end]| around(&text, at, [start, end])))
+}
+
+/// Several boxes that a sentence names, `v is \boxed{5} m/s and t is \boxed{3} s`, with signs of equality.
+fn named(text: &str) -> String {
+    let mut out = text.to_string();
+    let opens = |rest: &str| OPEN.iter().any(|open| rest.starts_with(open));
+    if OPEN
+        .map(|open| text.matches(open).count())
+        .iter()
+        .sum::<usize>()
+        < 2
+    {
+        return out;
+    }
+    for (at, verb) in text.match_indices(" is ") {
+        let before = text[..at].trim_end_matches('$');
+        let name = before.rsplit([' ', '$']).next().unwrap_or_default();
+        let letters = name.trim_start_matches('\\').split('_').next();
+        let short =
+            letters.is_some_and(|l| name.starts_with('\\') || (1..3).contains(&l.chars().count()));
+        if short && opens(text[at + verb.len()..].trim_start_matches([' ', '$'])) {
+            out.replace_range(at + 1..at + 3, "= ");
+        }
+    }
+    out
 }
 
 /// Where the last box before a byte begins, and start and end of its inside.

@@ -1,5 +1,32 @@
 //! What stands around several values, taken off: braces of a set, the brace of a system, lines.
 
+/// A line without the mark of an item in a list: `1) ω = …`, `2. ω = …`, `(a) ω = …`, `* ω = …`, and `- ω = …` where `dashes` are
+/// marks.
+pub(crate) fn unlisted(line: &str, dashes: bool) -> &str {
+    let marks = ["* ", "• ", "– ", "- "]
+        .iter()
+        .take(3 + usize::from(dashes));
+    if let Some(rest) = marks.filter_map(|mark| line.strip_prefix(mark)).next() {
+        return rest.trim_start();
+    }
+    let number = |mark: &str| mark.len() < 3 && mark.bytes().all(|b| b.is_ascii_digit());
+    if let Some((_, rest)) = line.split_once(". ").filter(|(mark, _)| number(mark)) {
+        return rest.trim_start();
+    }
+    let Some((mark, rest)) = line.split_once(") ") else {
+        return line;
+    };
+    let is_mark = match mark.strip_prefix('(') {
+        // `(2) v + (3) u` are factors.
+        Some(inside) => {
+            ["a", "b", "c", "i", "ii", "iii", "iv"].contains(&inside)
+                || number(inside) && !rest.contains('(')
+        }
+        None => mark.len() == 1 || number(mark),
+    };
+    if is_mark { rest.trim_start() } else { line }
+}
+
 /// `{2, 3}` and `x ∈ {2, 3}` with blanks for the braces and an equals sign for that of membership, byte for byte; nothing
 /// where the text is no set.
 pub(super) fn without_braces(text: &str) -> Option<String> {
@@ -153,10 +180,12 @@ pub(crate) fn lines_apart(text: &str) -> Option<String> {
     if let Some(inside) = LINES.iter().find_map(|n| framed(n)) {
         return Some(inside.replace('&', " "));
     }
-    let lines: Vec<&str> = text
-        .lines()
-        .map(str::trim)
-        .filter(|line| !line.is_empty())
+    let lines = text.lines().map(str::trim);
+    // What leads to a list ends in a colon.
+    let items =
+        lines.filter(|line| !line.is_empty() && (!line.ends_with(':') || line.contains('=')));
+    let lines: Vec<&str> = items
+        .map(|line| unlisted(line, line.contains('=')))
         .collect();
     (lines.len() > 1).then(|| lines.join("; "))
 }

@@ -50,7 +50,7 @@ pub use content::{Content, Join, Quantity, Relation};
 use convert::Value;
 pub use fault::Fault;
 use fault::Faulty;
-pub(crate) use frames::lines_apart;
+pub(crate) use frames::{lines_apart, unlisted};
 pub use note::{Note, Remark};
 use parser::{Parser, Side};
 pub(crate) use prose::{beside_condition, changes, concluded};

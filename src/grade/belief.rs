@@ -7,10 +7,11 @@
 mod motions;
 mod slips;
 
+use crate::expr::angle::arcs_exchanged;
 use crate::expr::{Expr, Symbol, Vector, minus};
 use crate::numeric::Unknown;
 use crate::scene::{ContactLaw, Scene, Shape};
-pub(super) use motions::in_stages;
+pub(super) use motions::{MOTIONS, in_stages};
 pub(super) use slips::other_shapes;
 use slips::{
     about_places, all_places, at, changed, each, frictionless, inertia, lengths, movable, of,
@@ -315,7 +316,7 @@ pub const BELIEFS: &[Belief] = &[
                 &**name == "pi" || all.any(|p| p.name == *name && p.dimension.is_none())
             };
             let is_angle = |x: &Expr| x.symbols().iter().all(plain);
-            let swapped = |e: &Expr| super::partial::swap_of(e, &is_angle);
+            let swapped = |e: &Expr| arcs_exchanged(e, &is_angle);
             let swap = |v: &mut Vector| *v = v.each_ref().map(swapped);
             let places = [
                 "in the positions",

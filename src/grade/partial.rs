@@ -12,7 +12,7 @@ use super::{Diagnosis, fraction, number};
 use crate::algebra::Field;
 use crate::dimension::{self, Clash, Dimension};
 use crate::equality::identical as proved;
-use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
+use crate::expr::{Expr, Rational, Symbol, ratio};
 use std::collections::BTreeSet;
 use trial::Trial;
 
@@ -184,21 +184,6 @@ fn slip(q: &Rational) -> bool {
 /// A fraction a slip of the pen would produce.
 fn simple(q: &Rational) -> bool {
     q.numer().bits() <= 7 && q.denom().bits() <= 7
-}
-
-/// Sines and cosines exchanged everywhere.
-pub(crate) fn swap(e: &Expr) -> Expr {
-    swap_of(e, &|_| true)
-}
-
-/// Those of some angles exchanged.
-pub(crate) fn swap_of(e: &Expr, is_angle: &dyn Fn(&Expr) -> bool) -> Expr {
-    match e.node() {
-        Node::Call(Function::Sin, x) if is_angle(x) => x.cos(),
-        Node::Call(Function::Cos, x) if is_angle(x) => x.sin(),
-        Node::Call(Function::Tan, x) if is_angle(x) => x.tan().powi(-1),
-        _ => e.map_parts(|part| swap_of(part, is_angle)),
-    }
 }
 
 /// Dimensions that do not fit, inside the answer or against what is asked.

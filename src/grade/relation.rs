@@ -25,7 +25,7 @@ mod zeros;
 use std::collections::BTreeSet;
 use std::slice::from_ref;
 
-use super::compare::Context;
+use super::compare::{Context, scalars};
 use super::{Apart, Grade, Verdict};
 use crate::algebra::{self, Element, Field, Sign};
 use crate::domain::{Domain, Domains, roles};
@@ -78,23 +78,46 @@ pub(crate) fn compare(
     if let Some(found) = listed::beyond(ctx, &expected, mine) {
         return found;
     }
-    if let Some(found) = system::in_one_symbol(ctx, from_ref(&expected), from_ref(&answer), domains)
-    {
-        return found;
-    }
-    let found = match (expected.as_slice(), answer.as_slice()) {
+    let one = system::in_one_symbol(ctx, from_ref(&expected), from_ref(&answer), domains);
+    let found = one.unwrap_or_else(|| match (expected.as_slice(), answer.as_slice()) {
         ([e], [a]) => match link(ctx, e, a) {
             found if found.is_equivalent() => where_defined(found, [&expected, &answer], domains),
             found => found,
         },
         _ => system::compare(ctx, &expected, &answer),
-    };
+    });
     match found.verdict {
         Verdict::Undecided => system::scaled(ctx, &expected, &answer)
             .or_else(|| system::with_one_given(ctx, &[expected], &[answer]))
             .unwrap_or(found),
-        _ => found,
+        _ => about_bound(ctx, found, [sides, mine]),
     }
+}
+
+/// The finding about an inequality with what is wrong with its bound, where both set one on the same name.
+fn about_bound(ctx: &Context, mut found: Grade, each: [&[Content]; 2]) -> Grade {
+    let bound = |sides: &[Content]| {
+        let [left, right] = sides else { return None };
+        let (name, bound) = match left.name() {
+            Some(name) => (name, right),
+            None => (right.name()?, left),
+        };
+        Some((name.clone(), bound.expr()?.clone()))
+    };
+    let [Some((name, e)), Some((other, a))] = each.map(bound) else {
+        return found;
+    };
+    if found.note == system::OTHER_NUMBERS[0] && name == other {
+        let mut wrong = scalars(ctx, &e, &a).diagnosis;
+        wrong.retain(|d| d.message.starts_with("right") || d.code == "ROUNDED");
+        for d in &mut wrong {
+            d.message = format!("the bound is {}", d.message);
+        }
+        if !wrong.is_empty() {
+            found.diagnosis = wrong;
+        }
+    }
+    found
 }
 
 /// An equivalence of the relations of two systems beside what must not be zero, unless in one symbol one system has no value
@@ -395,8 +418,11 @@ fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {
     if expected.relation == Relation::Equal && answer.relation == Relation::Equal {
         let sought = sought_in(ctx, &expected.difference, &answer.difference);
         let mut plain = pair.clone();
-        let given = plain.iter_mut().flat_map(|n| divide(n, &sought, &domains));
-        let given: Vec<String> = given.collect();
+        let [mine, theirs] = plain.each_mut().map(|n| divide(n, &sought, &domains));
+        if are_equations([&mine, &theirs]) {
+            plain = pair.clone();
+        }
+        let given: Vec<String> = mine.iter().chain(&theirs).map(not_zero).collect();
         if plain
             .iter()
             .zip(&pair)
@@ -487,21 +513,29 @@ fn consistent(old: [&Normal; 2], new: &[Normal; 2], domains: &Domains) -> bool {
     })
 }
 
-/// Takes the factors without the sought quantity out of an equation; what they must not be in words.
-fn divide(n: &mut Normal, sought: &BTreeSet<Symbol>, domains: &Domains) -> Vec<String> {
+/// Takes the factors without the sought quantity out of an equation; those that may be zero.
+fn divide(n: &mut Normal, sought: &BTreeSet<Symbol>, domains: &Domains) -> Vec<Expr> {
     let Node::Product(factors) = n.difference.node() else {
         return Vec::new();
     };
+    let open = |factor: &&Expr| !sign_of(factor, domains).is_some_and(Sign::is_strict);
     let (free, rest): (Vec<Expr>, Vec<Expr>) = factors
         .iter()
         .cloned()
         .partition(|factor| factor.symbols().is_disjoint(sought));
-    if rest.is_empty() || sought.is_empty() {
+    // What is zero nowhere is no equation.
+    if !rest.iter().any(|factor| open(&factor)) || sought.is_empty() {
         return Vec::new();
     }
     n.difference = rooted(Expr::product(rest));
-    let open = |factor: &&Expr| !sign_of(factor, domains).is_some_and(Sign::is_strict);
-    free.iter().filter(open).map(not_zero).collect()
+    free.iter().filter(open).cloned().collect()
+}
+
+/// Whether what only either of two equations has may be what it says: `v − w` and `u − b` beside the factor `M − m` of both.
+fn are_equations<'e>(each: [impl IntoIterator<Item = &'e Expr>; 2]) -> bool {
+    let [mine, theirs] = each.map(|parts| parts.into_iter().collect::<Vec<_>>());
+    let is_sum = |e: &&Expr| matches!(e.node(), Node::Sum(_));
+    !mine.is_empty() && !theirs.is_empty() && mine.iter().chain(&theirs).any(is_sum)
 }
 
 fn as_written(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {

@@ -212,7 +212,7 @@ fn unit_missing(ctx: &Context, answer: &Content) -> Option<Grade> {
         _ => false,
     };
     let bare = results(answer)?.iter().any(|(_, value)| bare(value));
-    (bare && !unit.dimension.is_none()).then(|| unit::missing(&unit.dimension.si()))
+    (bare && !unit.dimension.is_none()).then(|| unit::missing(unit))
 }
 
 /// Bounds of something without a name, said of the symbol that the expected bounds are about.

@@ -34,7 +34,7 @@ use super::sheet::Sheet;
 use super::{Diagnosis, Options, Verdict};
 use crate::answer::{Answer, Form};
 use crate::expr::{Expr, Symbol};
-use crate::formula::Fault;
+use crate::formula::{self, Fault};
 use crate::scene::Question;
 use bind::Values;
 use desk::Desk;
@@ -336,9 +336,12 @@ fn check_with(
             }
             desk.number = i + 1;
             // What is aligned may begin with a minus sign.
-            let item = pages::unlisted(read.trim(), dashes && !line.contains('&'));
+            let item = formula::unlisted(read.trim(), dashes && !line.contains('&'));
             let whole = pages::continued(&before, item);
             let (status, diagnosis) = desk.line(&whole);
+            if status == Status::Wrong && !diagnosis.is_empty() {
+                desk.explained.insert(desk.number);
+            }
             before = whole;
             Line {
                 number: desk.number,

@@ -33,7 +33,7 @@ pub(super) fn behind(key: &Key, reading: &Reading, finding: &mut Grade) {
             && constant
             && !zero
         {
-            *finding = missing(&needed.dimension.si());
+            *finding = missing(needed);
         }
         return;
     };
@@ -72,7 +72,7 @@ pub(super) fn of_relations(key: &Key, reading: &Reading, finding: &mut Grade) {
         clash(&reading.content, &known).filter(|_| clash(&key.reading.content, &known).is_none());
     let Some(parts) = clash else { return };
     *finding = match parts.iter().position(Dimension::is_none) {
-        Some(bare) => missing(&parts[1 - bare].si()),
+        Some(bare) => missing(&Unit::coherent(parts[1 - bare].clone())),
         None => wrong(&parts[0], &parts[1], &parts[1].si(), false),
     };
 }
@@ -173,9 +173,12 @@ fn with_word(text: &str, word: &str, other: &str) -> Option<String> {
 
 const MISSING: &str = "a unit is missing";
 
-/// The finding where a number stands without a unit.
-pub(super) fn missing(unit: &str) -> Grade {
-    let words = format!("the unit {unit} is missing");
+/// The finding where a number stands without a unit; one of another system is not told by its name.
+pub(super) fn missing(unit: &Unit) -> Grade {
+    let words = match unit.value().is_one() {
+        true => format!("the unit {} is missing", unit.dimension.si()),
+        false => MISSING.to_string(),
+    };
     Grade::told("DIFF_UNIT_MISSING", "dimension", words, MISSING)
 }
 

@@ -31,6 +31,16 @@ impl Question {
             hidden: false,
         }
     }
+
+    /// What of it a name says: all, or a component, 0 for x and 1 for y.
+    pub fn part(&self, name: &str) -> Option<Option<usize>> {
+        match name.strip_prefix(self.name.as_str())? {
+            "" => Some(None),
+            "_x" => Some(Some(0)),
+            "_y" => Some(Some(1)),
+            _ => None,
+        }
+    }
 }
 
 /// The kinds of question: about an impact, about a motion, about answers (their formulas may hold names of earlier ones), and

@@ -6,8 +6,9 @@
 
 use num_traits::Zero;
 
+use crate::expr::angle::arcs_exchanged;
 use crate::expr::rows::reduce;
-use crate::expr::{Expr, Function, Int, Node, Point, Rational};
+use crate::expr::{Expr, Int, Point, Rational};
 use crate::numeric::{self, Answer, Given, Law, Solution, System};
 use crate::scene::{Ask, Scene};
 
@@ -136,7 +137,7 @@ fn mend(row: &PrintedRow, rows: &[PrintedRow], law: &dyn Fn(&PrintedRow) -> bool
     };
     let near = |e: &Expr| {
         let [twice, half] = [e * &Expr::from(2), e * &Expr::ratio(1, 2)];
-        [-e, Expr::zero(), twice, half, exchanged(e)]
+        [-e, Expr::zero(), twice, half, arcs_exchanged(e, &|_| true)]
     };
     // A turned sign in any place comes before a missing factor in another.
     let simple = (0..5).find_map(|kind| {
@@ -149,15 +150,6 @@ fn mend(row: &PrintedRow, rows: &[PrintedRow], law: &dyn Fn(&PrintedRow) -> bool
             others.find_map(|value| changed(*column, value))
         })
     })
-}
-
-/// Sines and cosines exchanged.
-fn exchanged(e: &Expr) -> Expr {
-    match e.node() {
-        Node::Call(Function::Sin, x) => x.cos(),
-        Node::Call(Function::Cos, x) => x.sin(),
-        _ => e.map_parts(exchanged),
-    }
 }
 
 /// A printed row over the unknowns, right side last.
@@ -234,14 +226,8 @@ fn column(
     given: &Given<Rational>,
     laws: &System<Rational>,
 ) -> Result<(Vec<Rational>, Rational), String> {
-    let asked = scene.asked_of_impact().find_map(|q| {
-        Some(match name.strip_prefix(q.name.as_str())? {
-            "" => (q, None),
-            "_x" => (q, Some(0)),
-            "_y" => (q, Some(1)),
-            _ => return None,
-        })
-    });
+    let mut asked = scene.asked_of_impact();
+    let asked = asked.find_map(|q| Some((q, q.part(name)?)));
     let (question, axis) = asked.ok_or_else(|| format!("the scene asks for no {name}"))?;
     if let Ask::Energy { .. } = question.ask {
         return Err(format!("{name} is no component of the motion"));

@@ -198,6 +198,7 @@ fn code(text: &str) -> String {
     if text.trim().is_empty() {
         return "(blank)".into();
     }
+    let text = &text.replace('\n', "↵");
     let mut shown = String::new();
     for c in text.chars() {
         match c {

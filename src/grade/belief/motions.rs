@@ -10,7 +10,7 @@ use crate::expr::{Expr, dot, minus};
 use crate::scene::{Ask, EnergyWhen, Question, Scene, Stage, StageKind, Turn};
 
 /// The beliefs about motions.
-const MOTIONS: &[Belief] = &[
+pub(in crate::grade) const MOTIONS: &[Belief] = &[
     Belief {
         code: "WEIGHT_FORGOTTEN",
         belief: "the weight is left out of the motion",

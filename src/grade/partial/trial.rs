@@ -8,10 +8,12 @@ use num_traits::Signed;
 
 use super::super::compare::{Context, quotient};
 use super::super::{Diagnosis, fraction, number};
-use super::{GLANCES, simple, swap};
+use super::{GLANCES, simple};
 use crate::algebra::Field;
+use crate::dimension::Dimension;
 use crate::domain::{Coordinate, Domains, Roles, Sample, roles, samples};
 use crate::equality::identical as proved;
+use crate::expr::angle::arcs_exchanged;
 use crate::expr::{Expr, Function, Node, Point, Rational, Scalar, Symbol, Table, ratio};
 use crate::formula::write_plain;
 use crate::interval::{Interval, Outcome, evaluate};
@@ -173,7 +175,11 @@ impl<'a> Trial<'a> {
                 }
             }
             let message = format!("right up to the constant factor {}", write_plain(&k));
-            let hint = "a constant factor is wrong";
+            let energy = ctx.key.question.dimension == Some(Dimension::new(1, 2, -2));
+            let hint = match energy && k == Expr::from(2) {
+                true => "an energy twice too large: has every kinetic energy its factor 1/2?",
+                false => "a constant factor is wrong",
+            };
             return Some(Diagnosis::new("FACTOR", message, hint));
         }
         None
@@ -270,7 +276,7 @@ impl<'a> Trial<'a> {
         if !self.turns {
             return None;
         }
-        let swapped = swap(self.answer);
+        let swapped = arcs_exchanged(self.answer, &|_| true);
         let right = swapped != *self.answer && self.mends(&swapped);
         let message = "right with sine and cosine exchanged";
         let found = right.then(|| Diagnosis::new("SIN_COS", message, SIDE));

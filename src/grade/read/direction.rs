@@ -4,8 +4,11 @@ use crate::formula::Fault;
 
 /// Words and arrows behind a formula for a direction, each with its sense along x and y or about the axis out of the page.
 const SENSES: [(&str, [i32; 3]); 6] = [
-    ("counterclockwise|anticlockwise|ccw|↺", [0, 0, 1]),
-    ("clockwise|cw|↻", [0, 0, -1]),
+    (
+        "counterclockwise|counter-clockwise|anticlockwise|anti-clockwise|ccw|↺|out of the page",
+        [0, 0, 1],
+    ),
+    ("clockwise|cw|↻|into the page", [0, 0, -1]),
     (
         "to the right|rightwards|rightward|eastward|to the east|→|\\rightarrow",
         [1, 0, 0],

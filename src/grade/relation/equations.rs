@@ -4,8 +4,8 @@ use super::factor::{turned_term, unrooted};
 use super::locus::{self, Compared, Extent, Part};
 use super::solved::{same_angle, solve_for, solved_in, unknowns};
 use super::{
-    APART, Normal, REALS, given_not_zero, listed, not_zero, over_reals, same_solutions,
-    says_nothing, sign_of, sought_of, undecided,
+    APART, Normal, REALS, are_equations, given_not_zero, listed, not_zero, over_reals,
+    same_solutions, says_nothing, sign_of, sought_of, undecided,
 };
 use crate::algebra::Sign;
 use crate::domain::Domains;
@@ -187,7 +187,8 @@ fn from_parts(
     }
     let sought = sought(shared);
     let free = |part: &Part| part.expr.symbols().is_disjoint(&sought);
-    if !sought.is_empty() && lost.iter().chain(&gained).all(free) {
+    let equations = are_equations([&lost, &gained].map(|parts| parts.iter().map(|p| &p.expr)));
+    if !sought.is_empty() && !equations && lost.iter().chain(&gained).all(free) {
         let factors = lost.iter().chain(&gained);
         let given = factors.map(|part| not_zero(&part.expr)).collect();
         return Some(given_not_zero(APART, given));

@@ -47,7 +47,7 @@ pub(super) struct Compared {
     pub lost: Vec<Part>,
     /// The other way round.
     pub gained: Vec<Part>,
-    /// The symbols of the parts they share.
+    /// The symbols of the parts they share, and those that stand in a part of each.
     pub shared: BTreeSet<Symbol>,
     pub extents: [Extent; 2],
 }
@@ -100,7 +100,13 @@ pub(super) fn compare(f: &Expr, g: &Expr, domains: &Domains) -> Option<Compared>
     };
     let extents = [&lost, &gained]
         .map(|parts| extent(&field, &[parts.as_slice(), &shared].concat(), &domains));
-    let symbols = shared.iter().flat_map(|(_, e)| e.symbols()).collect();
+    // A factor of both that is zero nowhere says nothing of its symbols: `(m + M) v = (m + M) w` is about v and w.
+    let symbols = |parts: &[(Element, Expr)]| -> BTreeSet<Symbol> {
+        parts.iter().flat_map(|(_, e)| e.symbols()).collect()
+    };
+    let mut open = shared.clone();
+    open.retain(|(x, _)| !field.sign(x).is_some_and(Sign::is_strict));
+    let symbols = &symbols(&open) | &(&symbols(&lost) & &symbols(&gained));
     Some(Compared {
         lost: lost.into_iter().filter_map(|p| part(p, f, g)).collect(),
         gained: gained.into_iter().filter_map(|p| part(p, g, f)).collect(),

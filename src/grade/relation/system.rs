@@ -248,18 +248,20 @@ pub(super) fn compare(ctx: &Context, expected: &[Normal], answer: &[Normal]) -> 
     }
     if equations_alone(&[expected.to_vec()], &[answer.to_vec()]) {
         let ([expected, answer], domains) = with_distances([expected, answer], domains);
-        let [lost, gained] = [(&expected, &answer), (&answer, &expected)]
-            .map(|(system, other)| fulfilled(system, other, &domains));
-        match (lost, gained) {
-            (Some(Ok(given)), Some(Ok(more))) => {
-                let words = "each system of equations, solved, fulfils the other";
-                let mut finding = same_solutions(words);
-                finding.assume([given, more].concat());
-                return finding;
+        for positive in [false, true] {
+            let [lost, gained] = [(&expected, &answer), (&answer, &expected)]
+                .map(|(system, other)| fulfilled(system, other, &domains, positive));
+            match (lost, gained) {
+                (Some(Ok(given)), Some(Ok(more))) => {
+                    let words = "each system of equations, solved, fulfils the other";
+                    let mut finding = same_solutions(words);
+                    finding.assume([given, more].concat());
+                    return finding;
+                }
+                (Some(Err(at)), _) => return other_system(at, true),
+                (_, Some(Err(at))) => return other_system(at, false),
+                _ => {}
             }
-            (Some(Err(at)), _) => return other_system(at, true),
-            (_, Some(Err(at))) => return other_system(at, false),
-            _ => {}
         }
     }
     apart_at_points(ctx, expected, answer).unwrap_or_else(|| {
@@ -360,11 +362,12 @@ fn with_distances(systems: [&[Normal]; 2], domains: &Domains) -> ([Vec<Normal>; 
 type At = (String, Expr);
 
 /// Whether a system of equations, solved one after the other, fulfils another, and what must not be zero for it in words;
-/// else a point at which it does not.
+/// else a point at which it does not. Symbols with `positive` values, if any, are solved for first: these lie in the domain.
 fn fulfilled(
     system: &[Normal],
     other: &[Normal],
     domains: &Domains,
+    positive: bool,
 ) -> Option<Result<Vec<String>, At>> {
     let mut known: BTreeMap<Symbol, Expr> = BTreeMap::new();
     let mut given = Vec::new();
@@ -376,9 +379,14 @@ fn fulfilled(
         // What may have any value is solved for first: its value lies in the domain.
         let mut names = unknowns(&left, &left);
         names.sort_by_key(|name| domains.symbols.get(name) != Some(&Domain::real()));
-        let (name, root) = names
+        let mut solved = names
             .into_iter()
-            .find_map(|name| Some((name.clone(), solve_for(&left, &name, domains)?)))?;
+            .filter_map(|name| Some((name.clone(), solve_for(&left, &name, domains)?)))
+            .peekable();
+        let first = solved.peek().cloned();
+        let mut likely = solved.filter(|_| positive);
+        let likely = likely.find(|(_, root)| sign_of(root, domains) == Some(Sign::Positive));
+        let (name, root) = likely.or(first)?;
         let slope = left.derivative(&name);
         if !sign_of(&slope, domains).is_some_and(Sign::is_strict) {
             given.push(not_zero(&slope.split_number().1));

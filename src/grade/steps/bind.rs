@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::super::believed::Story;
 use super::Desk;
 use super::impact::{Impact, impacts};
-use super::letters::{MARKS, readings};
+use super::letters::{MARKS, readings, used};
 use super::link::{Link, names_in};
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol, Vector};
@@ -40,6 +40,11 @@ fn carried(impact: &Impact, axis: &Vector) -> Vec<(Expr, usize, bool)> {
         both.map(move |mass| (mass, b, after)).collect::<Vec<_>>()
     });
     each.collect()
+}
+
+/// The number in a name: 2 in `u_2` and `v_{2n}`.
+fn number(name: &Symbol) -> Option<char> {
+    name.chars().find(char::is_ascii_digit)
 }
 
 /// The body and the part of its motion that a name speaks of: `v_A`, `v_{A,x}`, and `v_x` where nothing else moves; 0 and 1
@@ -78,8 +83,7 @@ impl Desk<'_> {
     /// The names of a solution that the desk does not know.
     fn unknown_names(&self, text: &str) -> BTreeSet<Symbol> {
         let symbols = self.symbols("");
-        let used = readings(&self.sheet.scene, text);
-        let used = used.iter().flat_map(|reading| reading.symbols());
+        let used = used(&self.sheet.scene, text).into_iter();
         // `vx` is `v_x`.
         let words = text.split(|c: char| !c.is_ascii_alphanumeric());
         let joined = words.filter_map(|word| match word.as_bytes() {
@@ -353,7 +357,8 @@ impl Desk<'_> {
         ways.next().unwrap_or_default()
     }
 
-    /// The velocities that names in an equation are where it is a balance of momenta: each has the mass of its body before it.
+    /// The velocities that names in an equation are where it is a balance of momenta: each has the mass of its body before it; or
+    /// says with which velocity two bodies part.
     fn momenta(&self, all: &[Impact], gap: &Expr, names: &[&Symbol]) -> Vec<Values> {
         if names.is_empty() || names.len() > MOST_VELOCITIES {
             return Vec::new();
@@ -361,6 +366,17 @@ impl Desk<'_> {
         let zero = |e: Expr| self.is_zero(&e);
         let factors: Vec<Expr> = names.iter().map(|name| gap.derivative(name)).collect();
         if factors.iter().any(|k| names.iter().any(|n| k.mentions(n))) {
+            return Vec::new();
+        }
+        // `u_2 − u_1 = e v` says with what they part, whatever their masses are.
+        let parting = match factors.as_slice() {
+            [a, b] => zero(a + b) && zero(a.powi(2) - Expr::one()),
+            _ => false,
+        };
+        let rest = names
+            .iter()
+            .fold(gap.clone(), |e, n| e.put(n, &Expr::zero()));
+        if parting && zero(rest) {
             return Vec::new();
         }
         let mut ways = Vec::new();
@@ -371,7 +387,10 @@ impl Desk<'_> {
             let carried = carried(impact, &axis);
             let each = factors.iter().map(|factor| {
                 let of = |mass: &Expr| zero(factor - mass) || zero(factor + mass);
-                let fits = carried.iter().filter(|(mass, ..)| of(mass));
+                let fits = carried.iter().filter(|(mass, _, after)| match parting {
+                    true => *after,
+                    false => of(mass),
+                });
                 fits.map(|(_, b, after)| (*b, *after)).collect()
             });
             let each: Vec<Vec<(usize, bool)>> = each.collect();
@@ -384,7 +403,14 @@ impl Desk<'_> {
                 };
                 chosen = chosen.iter().flat_map(with).collect();
             }
-            let after = |way: &Vec<(usize, bool)>| way.iter().any(|(_, after)| *after);
+            let after = |way: &Vec<(usize, bool)>| match way.as_slice() {
+                // Names that are numbered are so in the order of the bodies.
+                [(a, _), (b, _)] if parting => {
+                    let [m, n] = [0, 1].map(|k| number(names[k]));
+                    m == n || m.cmp(&n) == a.cmp(b)
+                }
+                way => way.iter().any(|(_, after)| *after),
+            };
             for way in chosen.into_iter().filter(after) {
                 let values = names.iter().zip(way).filter_map(|(name, (b, after))| {
                     Some(((*name).clone(), impact.along(b, &axis, after)?))

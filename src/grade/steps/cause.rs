@@ -168,7 +168,9 @@ impl Desk<'_> {
             let spoken: BTreeSet<Symbol> = wrong.clone().flat_map(|(_, e)| found(e)).collect();
             let (binding, others): (Vec<&Expr>, Vec<&Expr>) = laws.partition(|law| {
                 let names = found(law);
-                again && names.len() > 1 && names.is_subset(&spoken)
+                let linear = |name: &Symbol| solve_for(law, name, domains).is_some();
+                let binds = names.is_subset(&spoken) || names.iter().all(linear);
+                again && names.len() > 1 && binds
             });
             let mut rules: Vec<Rule> = Vec::new();
             let wrong = wrong.map(|(_, line)| line);

@@ -49,6 +49,8 @@ pub(super) struct Desk<'a> {
     /// Every equation so far that was decided, as left minus right with the student's own names put in, and the wrong line
     /// it hangs on; `None` for what holds.
     pub stated: Vec<(Option<usize>, Expr)>,
+    /// Wrong lines of which is known what led to them.
+    pub explained: BTreeSet<usize>,
     /// Names of velocities and spins that all follow from any one of them; empty unless the motion has one freedom.
     pub moving: BTreeSet<Symbol>,
     /// Letters and indices of vectors that the page has with a prime as well.
@@ -91,6 +93,10 @@ pub(super) struct Desk<'a> {
     pub in_units: bool,
     /// Own names that were used before the line that says what they are.
     pub early: BTreeSet<Symbol>,
+    /// The lines that use them or say by a law what an own name is, left minus right as they stand.
+    pub above: Vec<Expr>,
+    /// Own names that have the slip of another one, and the line that shows it.
+    pub carried: BTreeMap<Symbol, usize>,
     /// Spins as vectors: the name with an arrow, the spin, and whether it counts clockwise.
     pub spins: BTreeMap<Symbol, (Symbol, bool)>,
     /// Components of spins and places as vectors, `omega_vec_z` and `r_vec_B/C_x`.
@@ -140,6 +146,7 @@ impl<'a> Desk<'a> {
             coarse: BTreeMap::new(),
             wrong: Vec::new(),
             stated: Vec::new(),
+            explained: BTreeSet::new(),
             moving: if one_freedom(&sheet.scene) {
                 moving
             } else {
@@ -164,6 +171,8 @@ impl<'a> Desk<'a> {
             anew: false,
             in_units: false,
             early: BTreeSet::new(),
+            above: Vec::new(),
+            carried: BTreeMap::new(),
             spins: spins(&sheet.scene),
             parts: parts(&sheet.scene),
             linked: Vec::new(),

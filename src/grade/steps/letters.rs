@@ -9,7 +9,7 @@ use crate::algebra::{Sign, sign};
 use crate::dimension::{self, Dimension};
 use crate::expr::{Expr, Symbol, dot};
 use crate::formula::{self, Content, Reading, Symbols};
-use crate::scene::{Ask, Question, Scene, StageKind};
+use crate::scene::{Ask, Scene, StageKind};
 
 /// Most accelerations that one letter is tried as.
 const MOST_WAYS: usize = 6;
@@ -39,10 +39,15 @@ pub(super) fn readings(scene: &Scene, text: &str) -> Vec<Reading> {
         .collect()
 }
 
+/// The names in them.
+pub(super) fn used(scene: &Scene, text: &str) -> BTreeSet<Symbol> {
+    let readings = readings(scene, text);
+    readings.iter().flat_map(Reading::symbols).collect()
+}
+
 /// What is asked that a worked solution writes with a mark as well, and the mark: it may be of another moment with it.
 pub(super) fn marked(sheet: &Sheet, text: &str) -> BTreeSet<(Symbol, &'static str)> {
-    let readings = readings(&sheet.scene, text);
-    let used: BTreeSet<Symbol> = readings.iter().flat_map(Reading::symbols).collect();
+    let used = used(&sheet.scene, text);
     let both = |name: &Symbol, mark: &str| {
         let with = format!("{name}{mark}");
         let short = with.replace(['{', '}'], "");
@@ -59,11 +64,7 @@ pub(super) fn of_a_later_moment(sheet: &Sheet, text: &str) -> BTreeSet<(Symbol, 
     let Some(last) = sheet.impacts.last() else {
         return BTreeSet::new();
     };
-    let of = |q: &Question, name: &str| {
-        name.strip_prefix(&*q.name)
-            .is_some_and(|rest| ["", "_x", "_y"].contains(&rest))
-    };
-    let is_last = |name: &Symbol| last.questions.iter().any(|q| of(q, name));
+    let is_last = |name: &Symbol| last.questions.iter().any(|q| q.part(name).is_some());
     let mut marked = marked(sheet, text);
     marked.retain(|(name, mark)| *mark == "'" && !is_last(name));
     marked
@@ -87,7 +88,7 @@ pub(super) fn accelerations(sheet: &Sheet, text: &str) -> Vec<Option<(Symbol, Ex
         _ => true,
     };
     let readings = readings(scene, text);
-    let used: BTreeSet<Symbol> = readings.iter().flat_map(Reading::symbols).collect();
+    let used = used(scene, text);
     let free = |name: &&&str| !taken.contains(**name) && used.contains(**name);
     let along = ACCELERATIONS.iter().find(free);
     let turns = turning(sheet, text).filter(|_| along.is_none());
@@ -121,8 +122,7 @@ pub(super) fn accelerations(sheet: &Sheet, text: &str) -> Vec<Option<(Symbol, Ex
 
 /// An angular acceleration that is asked for by a letter with which a worked solution may mean that of a center.
 pub(super) fn turning<'s>(sheet: &'s Sheet, text: &str) -> Option<&'s str> {
-    let readings = readings(&sheet.scene, text);
-    let used: BTreeSet<Symbol> = readings.iter().flat_map(Reading::symbols).collect();
+    let used = used(&sheet.scene, text);
     let mut asked = sheet.scene.questions.iter().filter(|q| {
         let turns = matches!(q.ask, Ask::AngularAcceleration { .. });
         turns && ACCELERATIONS.contains(&&*q.name) && used.contains(&*q.name)

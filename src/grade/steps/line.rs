@@ -9,7 +9,6 @@ use super::link::{self, Link, Weighed, gaps};
 use super::{CONDITION, Desk, Found, MOMENT, Needed, Status, arrows, names, open, text};
 use crate::expr::Expr;
 use crate::formula::{self, Reading};
-use crate::scene::Question;
 
 impl Desk<'_> {
     /// A line is as good as its worst equation.
@@ -144,13 +143,8 @@ impl Desk<'_> {
     fn with_sense(&self, text: &str) -> Option<String> {
         let (name, right) = names::named(text)?;
         let name = name.trim_end_matches(['\'', '^', '+']);
-        let part = |q: &Question| match name.strip_prefix(q.name.as_str())? {
-            "" => Some((q.ask.clone(), None)),
-            "_x" => Some((q.ask.clone(), Some(0))),
-            "_y" => Some((q.ask.clone(), Some(1))),
-            _ => None,
-        };
-        let (ask, component) = self.sheet.scene.questions.iter().find_map(part)?;
+        let mut questions = self.sheet.scene.questions.iter();
+        let (ask, component) = questions.find_map(|q| Some((q.ask.clone(), q.part(name)?)))?;
         let (values, _) = super::super::read::sense(right)?;
         let word = right[values.len()..].trim_start_matches([' ', ',', '(']);
         judge::in_words(&ask, component, &format!("{values} {word}"))?;
@@ -224,10 +218,15 @@ impl Desk<'_> {
                 if let Weighed::Slip(_) | Weighed::Open = again {
                     continue;
                 }
-                let message = format!("holds when read as {}", super::super::show(&other.content));
+                let shown = super::super::show(&other.content);
+                // `t = 0.35 s`, where s is asked as well, reads the same either way.
+                let message = match shown == text.trim() {
+                    true => "holds when what stands behind its number is the unit".to_string(),
+                    false => format!("holds when read as {shown}"),
+                };
                 let hint = "this line can be read in two ways; use brackets to say which is meant";
                 let found = match again {
-                    Weighed::Carried(_) => Vec::new(),
+                    Weighed::Carried(cause) => self.carried_belief(&other, cause),
                     _ => vec![Diagnosis::new("AMBIGUOUS", message, hint)],
                 };
                 return (self.note(&other, &links, &again), found);
@@ -244,6 +243,7 @@ impl Desk<'_> {
                 let says = self.says_enough(&links, &self.parts, false);
                 (!says).then(open::vanishes).into_iter().collect()
             }
+            Weighed::Carried(cause) => self.carried_belief(reading, cause),
             _ => Vec::new(),
         };
         (status, found)
@@ -279,7 +279,11 @@ impl Desk<'_> {
             Weighed::Holds => {
                 let used = all.iter().flat_map(Expr::symbols);
                 let own = used.filter(|name| self.own.contains_key(name));
-                self.proved.extend(own.collect::<Vec<_>>());
+                let own: Vec<_> = own.collect();
+                if own.iter().any(|name| self.early.contains(name)) {
+                    self.above.extend(all.iter().cloned());
+                }
+                self.proved.extend(own);
                 self.carry(reading);
                 self.state(None, &all);
                 Status::Holds

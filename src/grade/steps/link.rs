@@ -20,6 +20,10 @@ use crate::scene::{Ask, Question};
 
 /// Most words between a sense of rotation and the word that it is positive.
 const MOST_APART: usize = 4;
+/// Words before the sense in which something turns.
+const TURNS: [&str; 6] = [
+    "turns", "rotates", "spins", "turning", "rotating", "spinning",
+];
 
 /// One equality of a line.
 pub(super) struct Link {
@@ -131,8 +135,10 @@ impl Desk<'_> {
             let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
             let at = |found: &dyn Fn(&str) -> bool| words.iter().position(|word| found(word));
             let sense = at(&|word| word.ends_with("clockwise"))?;
-            let beside = at(&|word| word == "positive")?.abs_diff(sense) <= MOST_APART;
-            beside.then(|| words[sense] == "clockwise")
+            let positive = at(&|word| word == "positive");
+            let beside = positive.is_some_and(|at| at.abs_diff(sense) <= MOST_APART);
+            let turns = sense > 0 && TURNS.contains(&words[sense - 1]);
+            (beside || turns).then(|| words[sense] == "clockwise")
         };
         let clockwise = page.lines().find_map(says)?;
         let mut spins = self.spins.values();

@@ -158,6 +158,7 @@ impl Desk<'_> {
             });
             let cause = cause.map(|(cause, ..)| *cause);
             self.own.insert(name.clone(), last);
+            self.slip_above(cause.unwrap_or(self.number), &name, &true_value);
             self.slipped
                 .push((cause.unwrap_or(self.number), name, true_value));
             return Some(match cause {
@@ -166,8 +167,10 @@ impl Desk<'_> {
             });
         }
         if sides.len() == 1 {
+            let cause = self.carried.get(&name);
+            let status = cause.map_or(Status::Defines, |cause| Status::Carried(*cause));
             self.own.insert(name, last);
-            return Some((Status::Defines, Vec::new()));
+            return Some((status, Vec::new()));
         }
         let links = self.links(&right)?;
         let weighed = self.weigh(text, &links);
@@ -189,6 +192,29 @@ impl Desk<'_> {
         };
         self.slipped.extend(cause.map(|cause| (cause, name, first)));
         Some(self.defined(text, &right, weighed))
+    }
+
+    /// A name that is said with a slip below the lines that use it: the one other own name of such a line has the slip as well.
+    fn slip_above(&mut self, cause: usize, name: &Symbol, truth: &Expr) {
+        let own = |gap: &Expr| {
+            gap.symbols()
+                .into_iter()
+                .filter(|n| self.own.contains_key(n))
+        };
+        let lines = self.above.iter().filter(|gap| gap.mentions(name));
+        let found = lines.filter_map(|gap| {
+            let others: Vec<Symbol> = own(gap).filter(|other| other != name).collect();
+            let [other] = others.as_slice() else {
+                return None;
+            };
+            let gap = gap.put(name, truth);
+            let value = solve_for(&gap, other, &self.sheet.scene.domains)?;
+            Some((cause, other.clone(), value))
+        });
+        let found: Vec<_> = found.collect();
+        let names = found.iter().map(|(_, other, _)| (other.clone(), cause));
+        self.carried.extend(names);
+        self.slipped.extend(found);
     }
 
     /// A new name for a vector; of a chain all further links are judged.
@@ -457,6 +483,7 @@ impl Desk<'_> {
             .or_else(|| size_in(&one, name, domains))
             .or_else(|| angle_in(&one, name, domains))
             .or_else(|| below_in(&one, name, domains))?;
+        self.above.extend(link.gap().cloned());
         self.own.insert(name.clone(), value);
         Some(Status::Defines)
     }

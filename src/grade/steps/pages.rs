@@ -132,29 +132,6 @@ fn between_formulas(line: &str) -> String {
     out
 }
 
-/// A line without the mark of an item in a list: `1) ω = …`, `(a) ω = …`, `* ω = …`, and `- ω = …` where `dashes` are marks.
-pub(super) fn unlisted(line: &str, dashes: bool) -> &str {
-    let marks = ["* ", "• ", "– ", "- "]
-        .iter()
-        .take(3 + usize::from(dashes));
-    if let Some(rest) = marks.filter_map(|mark| line.strip_prefix(mark)).next() {
-        return rest.trim_start();
-    }
-    let Some((mark, rest)) = line.split_once(") ") else {
-        return line;
-    };
-    let number = |mark: &str| mark.len() < 3 && mark.bytes().all(|b| b.is_ascii_digit());
-    let is_mark = match mark.strip_prefix('(') {
-        // `(2) v + (3) u` are factors.
-        Some(inside) => {
-            ["a", "b", "c", "i", "ii", "iii", "iv"].contains(&inside)
-                || number(inside) && !rest.contains('(')
-        }
-        None => mark.len() == 1 || number(mark),
-    };
-    if is_mark { rest.trim_start() } else { line }
-}
-
 /// Whether dashes begin the items of a list: more than one line begins with one that a blank follows.
 pub(super) fn has_dashes(text: &str) -> bool {
     let dashed = |line: &&str| line.trim_start().starts_with("- ");

@@ -4,19 +4,10 @@
 
 use super::Desk;
 use super::text::{relates, without_remark};
+use super::wording::VERBS;
 use crate::expr::{Expr, Symbol};
 use crate::formula;
 use crate::scene::{Ask, Body, EnergyWhen, Question};
-
-/// What stands between words and what they say of a quantity.
-const SIGNS: [&str; 6] = [
-    " is equal to ",
-    " is given by ",
-    " equals ",
-    " is ",
-    "=",
-    ":",
-];
 
 /// Words that leave open what is spoken of.
 const FILLERS: &str = "a after amount and answer collision common final finally find get hence hit immediately impact in \
@@ -30,8 +21,7 @@ fn parted(line: &str) -> Option<(Vec<String>, &str)> {
 }
 
 fn cut(line: &str) -> Option<(Vec<String>, &str)> {
-    let signs = SIGNS.iter();
-    let (at, sign) = signs
+    let (at, sign) = (VERBS.iter().chain(&["=", ":"]))
         .filter_map(|s| Some((line.find(s)?, *s)))
         .min_by_key(|(at, s)| (*at, std::cmp::Reverse(s.len())))?;
     let left = line[..at].trim_matches([' ', '$']);
@@ -66,8 +56,8 @@ fn speaks_of(words: &[String], question: &Question, names: &[String], lone: bool
             when: EnergyWhen::Lost,
             ..
         } => (
-            "energy ke heat lost loss dissipated generated",
-            has("lost loss dissipated") && has("energy ke") || has("heat"),
+            "energy ke heat lost loss dissipated generated e_lost ke_lost",
+            has("lost loss dissipated") && has("energy ke") || has("heat e_lost ke_lost"),
         ),
         Ask::Impulse { .. } => ("impulse on", has("impulse")),
         Ask::Tension { .. } => ("tension string", has("tension")),
@@ -96,7 +86,7 @@ impl Desk<'_> {
             .iter()
             .copied()
             .filter(|q| self.closed.contains_key(q.name.as_str()))
-            .filter(|q| solved.iter().all(|name| !stands_for(name, &q.name)))
+            .filter(|q| solved.iter().all(|name| q.part(name).is_none()))
             .collect();
         let mut told = vec![false; open.len()];
         // A claim at the end is an answer, right or wrong; words on the way may be about anything else.
@@ -157,10 +147,4 @@ fn names(bodies: &[Body], ask: &Ask) -> Vec<String> {
     let all = [Some(&bodies[body].name), point];
     let words = all.into_iter().flatten().flat_map(|name| name.split(' '));
     words.map(str::to_lowercase).collect()
-}
-
-/// Whether a name is that of a question, or of a component of it.
-fn stands_for(name: &str, question: &str) -> bool {
-    let behind = name.strip_prefix(question);
-    behind.is_some_and(|rest| matches!(rest, "" | "_x" | "_y"))
 }

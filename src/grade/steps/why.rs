@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::Diagnosis;
 use super::super::behind::{Named, behind, keeps_energy};
-use super::super::belief::BELIEFS;
+use super::super::belief::{BELIEFS, MOTIONS, other_shapes};
 use super::super::relation::{size_in, solve_for};
 use super::cause::MOST_STEPS;
 use super::impact::angular_momenta;
@@ -12,8 +12,9 @@ use super::inertias::is_other_inertia;
 use super::link::in_vectors;
 use super::sought::Sought;
 use super::{Desk, MOST_TERMS};
-use crate::algebra::{Sign, sign};
-use crate::expr::{Expr, Function, Node, Symbol, effort};
+use crate::algebra::{Sign, sign, tidy};
+use crate::expr::angle::arcs_exchanged;
+use crate::expr::{Expr, Node, Symbol, effort};
 use crate::formula::{self, Content, Reading};
 use crate::laws::{self, Unknown};
 use crate::scene::{Ask, Question, Scene};
@@ -26,16 +27,30 @@ const MOST_VALUES: usize = 48;
 const MOST_PAIRS: usize = 12;
 
 /// A term with cosines for its sines and sines for its cosines; nothing where it has none.
-fn arcs_exchanged(term: &Expr) -> Option<Expr> {
-    fn exchanged(e: &Expr) -> Expr {
-        match e.node() {
-            Node::Call(Function::Sin, x) => x.cos(),
-            Node::Call(Function::Cos, x) => x.sin(),
-            _ => e.map_parts(exchanged),
-        }
-    }
-    let other = exchanged(term);
+fn other_arcs(term: &Expr) -> Option<Expr> {
+    let other = arcs_exchanged(term, &|_| true);
     (other != *term).then_some(other)
+}
+
+/// A product with the sign of one term of a sum in it turned.
+fn turned_inside(term: &Expr) -> Vec<Expr> {
+    let Node::Product(factors) = term.node() else {
+        return Vec::new();
+    };
+    let sums = factors.iter().filter(|f| matches!(f.node(), Node::Sum(_)));
+    let each = sums.flat_map(|sum| (0..sum.terms().len()).map(move |i| (sum, i)));
+    let turned = each.map(|(sum, i)| {
+        let mut terms = sum.terms().to_vec();
+        terms[i] = -&terms[i];
+        term.replace(sum, &Expr::sum(terms))
+    });
+    turned.collect()
+}
+
+/// Whether a finding is a belief, or two together.
+fn is_belief(d: &Diagnosis) -> bool {
+    let mut all = BELIEFS.iter().chain(MOTIONS);
+    d.code == "TWO_BELIEFS" || all.any(|b| b.code == d.code)
 }
 
 impl Desk<'_> {
@@ -115,6 +130,25 @@ impl Desk<'_> {
         found
     }
 
+    /// The belief that leads to the value which a line gives, where the line follows from a wrong one of which nothing is known.
+    pub(super) fn carried_belief(&mut self, reading: &Reading, cause: usize) -> Vec<Diagnosis> {
+        let sides = reading.content.relations().map(|(sides, _)| sides);
+        let (Some([first, .., last]), false) = (sides, self.explained.contains(&cause)) else {
+            return Vec::new();
+        };
+        let entry = first.name().and_then(|n| self.sheet.entry(n).ok());
+        let value = last.expr().map(|e| formula::write_plain(&self.with_own(e)));
+        let (Some(entry), Some(value)) = (entry, value) else {
+            return Vec::new();
+        };
+        let mut found = self.sheet.judge(&entry, &value, self.options).diagnosis;
+        found.retain(is_belief);
+        if !found.is_empty() {
+            self.explained.insert(cause);
+        }
+        found
+    }
+
     fn behind_line(&self, reading: &Reading, at: usize, text: &str) -> Vec<Diagnosis> {
         let Some((sides, _)) = reading.content.relations() else {
             return Vec::new();
@@ -136,25 +170,25 @@ impl Desk<'_> {
             // What is said by way of other quantities is a law, and the sign of a term in it says more than a factor.
             if let (Some(_), [left, right]) = (&own, sides)
                 && let (Some(left), Some(right)) = (left.expr(), right.expr())
-                && let Some(turned) = self.turned(left, right)
+                && let Some(found) = self
+                    .turned(left, right)
+                    .or_else(|| self.other_shape([left, right]))
             {
-                return vec![turned];
+                return vec![found];
             }
             let text = own.map_or(text.to_string(), |(_, own)| formula::write_plain(&own));
             let mut found = self.sheet.judge(&entry, &text, self.options).diagnosis;
-            let belief =
-                |d: &Diagnosis| d.code == "TWO_BELIEFS" || BELIEFS.iter().any(|b| b.code == d.code);
             // Behind a side that is right a slip of algebra follows, and no belief; what a belief explains needs no other words.
             let settled = name.is_some_and(|name| self.is_settled(name));
             match at {
                 // So does one behind a law that holds.
-                _ if settled => found.retain(|d| !belief(d)),
-                0 if found.iter().any(belief) => found.retain(|d| {
+                _ if settled => found.retain(|d| !is_belief(d)),
+                0 if found.iter().any(is_belief) => found.retain(|d| {
                     !d.code.starts_with("SYMBOLS_")
                         && !["SPECIAL_CASE", "SMALL_ANGLE"].contains(&d.code)
                 }),
                 0 => {}
-                _ => found.retain(|d| !belief(d)),
+                _ => found.retain(|d| !is_belief(d)),
             }
             // The unit stands at the end of the chain.
             if let Some(Content::Quantity(_)) = sides.last() {
@@ -180,6 +214,7 @@ impl Desk<'_> {
             return vec![arm];
         }
         let mut found: Vec<Diagnosis> = turned
+            .or_else(|| self.other_shape([left, right]))
             .or_else(|| self.own_value([left, right], true))
             .into_iter()
             .collect();
@@ -298,7 +333,7 @@ impl Desk<'_> {
         let others = terms.flat_map(|term| {
             let others = [
                 Some(-term).filter(|_| value.terms().len() > 1),
-                arcs_exchanged(term),
+                other_arcs(term),
             ];
             others
                 .into_iter()
@@ -382,8 +417,8 @@ impl Desk<'_> {
 
     /// The term with whose other sign an equation holds.
     pub(super) fn turned(&self, left: &Expr, right: &Expr) -> Option<Diagnosis> {
-        let term = self.term([left, right], None, |term| Some(-term))?.0;
-        let term = formula::write_plain(term);
+        let [term, _] = self.term([left, right], None, |term| vec![-term])?;
+        let term = formula::write_plain(&term);
         Some(Diagnosis::new(
             "TERM_SIGN",
             format!(
@@ -395,26 +430,60 @@ impl Desk<'_> {
     }
 
     /// The term of an equation that holds with another one in its place, everywhere or for what is sought, and that other one.
-    fn term<'e>(
+    fn term(
         &self,
-        [left, right]: [&'e Expr; 2],
+        [left, right]: [&Expr; 2],
         sought: Option<&Sought>,
-        other: impl Fn(&Expr) -> Option<Expr>,
-    ) -> Option<(&'e Expr, Expr)> {
+        others: impl Fn(&Expr) -> Vec<Expr>,
+    ) -> Option<[Expr; 2]> {
         let gap = left - right;
         // On the left a term stands in the gap as it is, on the right with the other sign.
         let all = [(left, 1), (right, -1)].into_iter();
         let all = all.flat_map(|(side, k)| side.terms().iter().map(move |term| (term, k)));
-        let mut tried = all.take(MOST_TERMS).filter_map(|(term, k)| {
-            let other = other(term)?;
-            let meant = &gap + &(&other - term) * Expr::from(k);
-            let holds = match sought {
+        let mut tried = all.take(MOST_TERMS).flat_map(|(term, k)| {
+            let others = others(term).into_iter();
+            others.map(move |other| (term, other, k))
+        });
+        let found = tried.find(|(term, other, k)| {
+            let meant = &gap + &(other - *term) * Expr::from(*k);
+            match sought {
                 Some(s) => !self.vanishes(&meant, s) && self.is_zero_where(&[&meant], s),
                 None => self.is_zero(&meant),
-            };
-            holds.then_some((term, other))
+            }
         });
-        tried.next()
+        found.map(|(term, other, _)| [term.clone(), other])
+    }
+
+    /// The term of a law with the moment of inertia of another shape, or about another point.
+    fn other_shape(&self, sides: [&Expr; 2]) -> Option<Diagnosis> {
+        let scene = &self.sheet.scene;
+        let free = (0..scene.bodies.len()).filter(|&b| !scene.bodies[b].is_fixed());
+        let mut shapes = free.flat_map(|b| {
+            let others = other_shapes(scene, b).into_iter();
+            others.map(move |(other, words)| (other, &scene.bodies[b].inertia, words))
+        });
+        let tidied = |e: Expr| tidy(&e, &scene.domains).unwrap_or(e);
+        shapes.find_map(|(other, truth, words)| {
+            let share = self.share(&other, truth)?;
+            share.as_number()?;
+            let names = other.symbols();
+            // Beside it stands nothing of its own: `m g l` is no moment of inertia.
+            let ways = [(other.powi(-1), share.clone()), (other, share.powi(-1))];
+            let found = self.term(sides, None, |term| {
+                let of = |k: &Expr| tidied(term * k).symbols().is_disjoint(&names);
+                let ways = ways.iter().filter(|(k, _)| of(k));
+                let uses = names.is_subset(&term.symbols());
+                ways.filter(|_| uses)
+                    .map(|(_, k)| tidied(term * k))
+                    .collect()
+            })?;
+            let [term, meant] = found.map(|e| formula::write_plain(&e));
+            let words = format!(
+                "this line holds with {meant} in place of {term} (moment of inertia {words})"
+            );
+            let hint = "which shape has the moment of inertia you used, and about which point?";
+            Some(Diagnosis::new("INERTIA", words, hint))
+        })
     }
 
     /// A balance of energies from before a plastic impact to after it, also where it is to give what is sought.
@@ -442,7 +511,7 @@ impl Desk<'_> {
             self.term(sides, sought, |term| {
                 let half = term.split_number().0.is_integer() == likely;
                 let [one, two] = if half { [1, 2] } else { [2, 1] };
-                Some(term * &Expr::ratio(one, two))
+                vec![term * &Expr::ratio(one, two)]
             })
         };
         let scene = &self.sheet.scene;
@@ -459,15 +528,17 @@ impl Desk<'_> {
         let named = |(p, q): (Expr, Expr)| {
             self.term(sides, sought, |term| {
                 let other = term.replace(&p, &q);
-                (other != *term).then_some(other)
+                Vec::from_iter((other != *term).then_some(other))
             })
         };
         let mut pairs = pairs;
-        let (term, other) = factor(true)
+        let arcs = |term: &Expr| Vec::from_iter(other_arcs(term));
+        let found = factor(true)
             .or_else(|| factor(false))
             .or_else(|| pairs.find_map(named))
-            .or_else(|| self.term(sides, sought, arcs_exchanged))?;
-        let [term, other] = [term, &other].map(formula::write_plain);
+            .or_else(|| self.term(sides, sought, arcs))
+            .or_else(|| self.term(sides, sought, turned_inside))?;
+        let [term, other] = found.map(|e| formula::write_plain(&e));
         Some(Diagnosis::new(
             "TERM",
             format!("this line holds with {other} in place of {term}"),

@@ -3,7 +3,7 @@
 use super::text::{is_word, relates};
 
 /// Words that stand for a sign of equality behind a name.
-const VERBS: [&str; 4] = [" is equal to ", " is given by ", " equals ", " is "];
+pub(super) const VERBS: [&str; 4] = [" is equal to ", " is given by ", " equals ", " is "];
 
 /// `$\omega$ is negative: …` with a relation for the words, where they end a clause: `θ is positive counterclockwise` tells how
 /// it is counted.

@@ -528,11 +528,6 @@ pub(super) fn used<'a>(questions: &'a [Question], question: &Question) -> Vec<&'
     let put_in = question.ask.with().iter().map(|(_, value)| value);
     let all = question.ask.formulas().into_iter().chain(put_in);
     let names: BTreeSet<Symbol> = all.flat_map(Expr::symbols).collect();
-    let is_used = |q: &&Question| {
-        names.iter().any(|name| {
-            let part = name.strip_prefix(q.name.as_str());
-            part.is_some_and(|part| ["", "_x", "_y"].contains(&part))
-        })
-    };
+    let is_used = |q: &&Question| names.iter().any(|name| q.part(name).is_some());
     before.filter(is_used).collect()
 }

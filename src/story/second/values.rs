@@ -140,10 +140,7 @@ impl Asked<'_> {
         let is_given = |name: &str| self.scene.parameter(name).is_some();
         let mut out: Vec<&Question> = Vec::new();
         for question in self.scene.questions.iter().rev() {
-            let uses = |name: &Symbol| {
-                let rest = name.strip_prefix(question.name.as_str());
-                rest.is_some_and(|rest| ["", "_x", "_y"].contains(&rest)) && !is_given(name)
-            };
+            let uses = |name: &Symbol| question.part(name).is_some() && !is_given(name);
             if names.iter().any(uses) {
                 out.push(question);
                 if let Ask::Value { formula, with, .. } = &question.ask {
