@@ -240,6 +240,8 @@ pub enum Ask {
     Acceleration {
         /// Index of the body.
         body: usize,
+        /// Whether at the end of the stage; at its beginning otherwise. On a spring it changes on the way.
+        at_end: bool,
     },
     /// Pull of the string at a body, in a motion along a line.
     Tension {
@@ -371,6 +373,7 @@ impl Ask {
         match self {
             Ask::Reaction { at_end, .. }
             | Ask::Position { at_end, .. }
+            | Ask::Acceleration { at_end, .. }
             | Ask::AngularAcceleration { at_end, .. }
             | Ask::PointAcceleration { at_end, .. }
             | Ask::AngularMomentum { at_end, .. } => *at_end,

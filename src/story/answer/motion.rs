@@ -218,8 +218,20 @@ pub(super) fn time(question: &Question, told: &StageTold) -> Answer {
 }
 
 /// How a body on a line gets faster.
-pub(super) fn acceleration(question: &Question, told: &StageTold, body: usize) -> Answer {
-    let words = format!("acceleration along its way in `{}`", told.placed.name);
+pub(super) fn acceleration(
+    question: &Question,
+    told: &StageTold,
+    body: usize,
+    at_end: bool,
+) -> Answer {
+    let name = &told.placed.name;
+    if let Some(spring) = &told.on_spring {
+        let (_, when, granted) = end(told, at_end);
+        let words = format!("acceleration along its way at the {when} of `{name}`");
+        let rate = spring.rates[usize::from(at_end)].clone();
+        return valued(blank(question, words), rate, granted);
+    }
+    let words = format!("acceleration along its way in `{name}`");
     let (strings, below) = match &told.placed.kind {
         StageKind::Slide(slide) => (slide.strings.as_slice(), slide.on.as_ref()),
         _ => (Default::default(), None),

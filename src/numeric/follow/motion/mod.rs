@@ -79,8 +79,8 @@ impl Moved {
 pub struct Driven {
     /// Index of the body.
     pub body: usize,
-    /// Acceleration along its own way [m/s²].
-    pub acceleration: f64,
+    /// Acceleration along its own way, at the beginning and at the end [m/s²].
+    pub accelerations: [f64; 2],
     /// Pull of the string at it \[N\]; `None` without one, and with several.
     pub tension: Option<f64>,
 }
