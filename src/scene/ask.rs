@@ -236,7 +236,7 @@ pub enum Ask {
         /// Summed up.
         total: bool,
     },
-    /// Acceleration of a body along its own way, in a motion along a line.
+    /// Acceleration of a body along its own way, in a motion along a line; along that line where one body slides on another.
     Acceleration {
         /// Index of the body.
         body: usize,
