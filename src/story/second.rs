@@ -174,7 +174,10 @@ fn way_of(scene: &Scene, stages: &[StageTold], followed: &Followed, point: &Poin
             .branch
             .is_none_or(|(parent, case)| way.get(&parent) == Some(&case));
         let passed = passed(scene, followed, told);
-        let Some(passed) = passed.filter(|_| follows && !told.needs.iter().any(fails)) else {
+        // That it gets over the highest place, where its way leads there, is supposed in words alone.
+        let is_told = |p: &&Passed| told.turned.is_some() || !came_back(p);
+        let passed = passed.filter(|_| follows && !told.needs.iter().any(fails));
+        let Some(passed) = passed.filter(is_told) else {
             continue;
         };
         let acts = |case: &Case| match &passed.what {
@@ -189,6 +192,15 @@ fn way_of(scene: &Scene, stages: &[StageTold], followed: &Followed, point: &Poin
         way.extend(outcome.map(|k| (i, k)));
     }
     way
+}
+
+/// Whether a rotation ends where it has come back against the sense in which it began.
+fn came_back(passed: &Passed) -> bool {
+    let What::Motion(moved) = &passed.what else {
+        return false;
+    };
+    let ended = moved.turned.filter(|by| *by != 0.0).zip(moved.clockwise);
+    ended.is_some_and(|(by, clockwise)| (by < 0.0) != clockwise)
 }
 
 fn passed<'f>(scene: &Scene, followed: &'f Followed, told: &StageTold) -> Option<&'f Passed> {
