@@ -18,7 +18,7 @@ use crate::domain::Domains;
 use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::interval::rounding;
 use crate::numeric::follow::{self, BodyState, Component, Followed, Loss, Lost, Passed, What};
-use crate::scene::{Scene, Stage};
+use crate::scene::{Scene, Stage, StageKind, Until};
 
 /// Points at which each way through the cases is followed.
 const POINTS: usize = 2;
@@ -175,7 +175,7 @@ fn way_of(scene: &Scene, stages: &[StageTold], followed: &Followed, point: &Poin
             .is_none_or(|(parent, case)| way.get(&parent) == Some(&case));
         let passed = passed(scene, followed, told);
         // That it gets over the highest place, where its way leads there, is supposed in words alone.
-        let is_told = |p: &&Passed| told.turned.is_some() || !came_back(p);
+        let is_told = |p: &&Passed| !came_back(told, p);
         let passed = passed.filter(|_| follows && !told.needs.iter().any(fails));
         let Some(passed) = passed.filter(is_told) else {
             continue;
@@ -194,11 +194,14 @@ fn way_of(scene: &Scene, stages: &[StageTold], followed: &Followed, point: &Poin
     way
 }
 
-/// Whether a rotation ends where it has come back against the sense in which it began.
-fn came_back(passed: &Passed) -> bool {
-    let What::Motion(moved) = &passed.what else {
+/// Whether a rotation to the place above or below has come there back against the sense in which it began.
+fn came_back(told: &StageTold, passed: &Passed) -> bool {
+    let (StageKind::Turn(turn), What::Motion(moved)) = (&told.placed.kind, &passed.what) else {
         return false;
     };
+    if !matches!(turn.until, Until::Above | Until::Below) {
+        return false;
+    }
     let ended = moved.turned.filter(|by| *by != 0.0).zip(moved.clockwise);
     ended.is_some_and(|(by, clockwise)| (by < 0.0) != clockwise)
 }
