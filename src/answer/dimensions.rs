@@ -31,6 +31,9 @@ pub(super) fn kind_of(scene: &Scene, name: &str) -> Option<Dimension> {
         let of_others = || by_kind(scene, formula).filter(|_| with.is_empty());
         return of_others().or_else(|| dimension_of_parameter(scene, name));
     }
+    if let Ask::Condition { parameter, .. } = &question.ask {
+        return dimension_of_parameter(scene, parameter);
+    }
     match scene.dimension_of(&question.ask) {
         known if known != Dimension::none() => Some(known),
         _ => dimension_of_parameter(scene, name),

@@ -200,7 +200,9 @@ pub(super) fn put(
 ) -> Result<Expr, Refused> {
     let is_parameter = |s: &Symbol| scene.parameter(s).is_some();
     let is_open = |s: &Symbol| !known.contains_key(s) && s.as_ref() != "pi" && !is_parameter(s);
-    if let Some(open) = e.symbols().into_iter().find(is_open) {
+    let put_in = with.iter().map(|(_, value)| value);
+    let mut used = std::iter::once(e).chain(put_in).flat_map(Expr::symbols);
+    if let Some(open) = used.find(is_open) {
         let (reason, hint) = match components(&open, known) {
             Some([x, y]) => ("is a vector", format!("its components are {x} and {y}")),
             None => (

@@ -511,6 +511,12 @@ impl Search<'_> {
             let bound = self.bound(place, true);
             out.text.push(sentence!("the largest value is {}", bound));
         }
+        let others = found.iter().filter(|(x, ..)| x != place).zip(&above);
+        let equal = others.filter(|(_, seen)| **seen == Seen::Proved(Sign::Zero));
+        out.text.extend(equal.map(|((x, end, _), _)| match end {
+            Some(true) => sentence!("as close to that it comes near {} = {}", p, x),
+            _ => sentence!("it is as large at {} = {}", p, x),
+        }));
         Ok(place.clone())
     }
 }

@@ -417,18 +417,30 @@ fn replaced(e: &Expr, symbol: &Symbol, by: &[Expr; 3]) -> Option<Expr> {
     }
 }
 
-/// The angle with this sine or cosine, by its tangent where that is shorter: cosθ = √5/5 is tanθ = 2.
+/// The angle with this sine or cosine, by its tangent or the other of the two where that is shorter: cosθ = √5/5 is tanθ = 2, and
+/// cosθ = √(1 − k) is sinθ = √k.
 fn arc(inverse: Function, value: &Expr, domains: &Domains) -> Expr {
     let rest = Expr::one() - value.powi(2);
+    let is_positive = sign(value, domains).is_positive();
     let tangent = match inverse {
-        Function::Acos if sign(value, domains).is_positive() => rest.sqrt() / value.clone(),
+        Function::Acos if is_positive => rest.sqrt() / value.clone(),
         Function::Asin if sign(&rest, domains).is_positive() => value.clone() / rest.sqrt(),
         _ => return Expr::call(inverse, value.clone()),
     };
-    match tidy(&tangent, domains) {
-        Ok(tangent) if tangent.size() < value.size() => Expr::call(Function::Atan, tangent),
-        _ => Expr::call(inverse, value.clone()),
-    }
+    let other = match inverse {
+        Function::Acos => Function::Asin,
+        _ => Function::Acos,
+    };
+    let others = [(Function::Atan, tangent), (other, rest.sqrt())].into_iter();
+    // A sine below zero is not told from the cosine.
+    let others = others.filter(|(f, _)| *f == Function::Atan || is_positive);
+    let others = others.filter_map(|(f, x)| Some((f, tidy(&x, domains).ok()?)));
+    let ways = std::iter::once((inverse, value.clone())).chain(others);
+    let shortest = ways.min_by_key(|(_, x)| x.size());
+    shortest.map_or_else(
+        || Expr::call(inverse, value.clone()),
+        |(f, x)| Expr::call(f, x),
+    )
 }
 
 /// The angle with this tangent of its half, between −π and π, in the shortest of the usual ways.

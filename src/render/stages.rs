@@ -124,9 +124,13 @@ fn stage_text(followed: &Followed, passed: &Passed) -> String {
             if let Some([begin, end]) = &moved.reaction {
                 let all = [&begin[0], &begin[1], &end[0], &end[1]];
                 let [a, b, c, d] = all.map(|c| number(c, largest(&all)));
+                let of = match moved.clockwise {
+                    Some(_) => "the fixed point",
+                    None => "the surface or guide",
+                };
                 let _ = writeln!(
                     out,
-                    "  force of the fixed point: ({a}, {b}) N at the beginning, ({c}, {d}) N at the end"
+                    "  force of {of}: ({a}, {b}) N at the beginning, ({c}, {d}) N at the end"
                 );
             }
             for (name, when) in pulls(moved) {

@@ -246,10 +246,12 @@ pub enum Ask {
         /// Summed up.
         total: bool,
     },
-    /// Acceleration of a body along its own way, in a motion along a line.
+    /// Acceleration of a body along its own way, in a motion along a line; along that line where one body slides on another.
     Acceleration {
         /// Index of the body.
         body: usize,
+        /// Whether at the end of the stage; at its beginning otherwise. On a spring it changes on the way.
+        at_end: bool,
     },
     /// Pull of the string at a body, in a motion along a line.
     Tension {
@@ -381,6 +383,7 @@ impl Ask {
         match self {
             Ask::Reaction { at_end, .. }
             | Ask::Position { at_end, .. }
+            | Ask::Acceleration { at_end, .. }
             | Ask::AngularAcceleration { at_end, .. }
             | Ask::PointAcceleration { at_end, .. }
             | Ask::AngularMomentum { at_end, .. } => *at_end,

@@ -276,6 +276,18 @@ impl Symbols {
         scalar(self.content(formula, faults)?, formula, faults)
     }
 
+    /// Reads what is put in for a parameter: a formula, or a number in a unit of its dimension.
+    pub fn in_place_of(
+        &self,
+        parameter: &Symbol,
+        formula: &Formula,
+        faults: &mut Vec<Fault>,
+    ) -> Option<Expr> {
+        let dimension = self.dimensions.get(parameter).cloned().flatten();
+        let unit = Unit::coherent(dimension.unwrap_or_else(Dimension::none));
+        self.measured(formula, &unit, faults)
+    }
+
     /// Reads a number in a unit, or in the one beside it; its value in SI units.
     pub fn measured(
         &self,
@@ -377,8 +389,17 @@ fn named_like_its_unit(text: &str, quantity: Quantity) -> Option<String> {
     let unit =
         text.trim_start_matches(|c: char| c.is_ascii_digit() || matches!(c, '.' | ' ' | '-'));
     let number = text.strip_suffix(unit).map(str::trim)?;
-    let is_meant = dimension::unit(unit).is_ok_and(|u| u == Unit::coherent(quantity.dimension()));
-    (is_meant && !number.is_empty()).then(|| {
-        format!("`{unit}` is a parameter here: write {number} alone, which is in SI units")
-    })
+    let meant = dimension::unit(unit).ok()?;
+    if meant.dimension != quantity.dimension() || number.is_empty() {
+        return None;
+    }
+    let one = formula::write_plain(&meant.value());
+    let alone = match (one.as_str(), one.strip_prefix("1/")) {
+        ("1", _) => number.to_owned(),
+        (_, Some(below)) => format!("{number}/{below}"),
+        _ => format!("{number}*{one}"),
+    };
+    Some(format!(
+        "`{unit}` is a parameter here: write {alone} alone, which is in SI units"
+    ))
 }

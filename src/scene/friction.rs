@@ -305,7 +305,7 @@ pub enum FrictionEvent {
 }
 
 /// What to do where something else strikes beside a contact with friction.
-pub const ALONE: &str = "friction is followed along the path of one impulse: beside it hinges may act, and where the bodies do not approach, contacts that stick and the `supports` and `strings` of an impact in `stages`; take all contacts without friction, or one impact after the other";
+pub const ALONE: &str = "friction is followed along the path of one impulse: beside it hinges may act, and where the bodies do not approach, contacts that stick and the `supports` and `strings` of an impact in `stages`; take all contacts without friction, or one impact after the other: what sticks in the first moves as one in the next";
 
 /// What is wrong there.
 pub fn beside_friction(other: &str, friction: &str) -> String {

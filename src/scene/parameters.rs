@@ -127,8 +127,14 @@ fn parameter(
 fn unit_beside(entry: &ParameterFile) -> String {
     let value = entry.value.as_ref();
     let read = value.and_then(|v| formula::read(&v.text, &formula::Symbols::strict()).ok());
+    let in_degrees = |v: &Formula| {
+        let text = v.text.trim_end();
+        ["°", "deg", "degrees"].iter().any(|m| text.ends_with(m))
+    };
     match read.map(|reading| reading.content) {
         Some(Content::Quantity(q)) => q.unit_text,
+        // `30°` is read as π/6, and is an angle all the same.
+        Some(_) if value.is_some_and(in_degrees) => String::from("deg"),
         _ => String::from("1"),
     }
 }

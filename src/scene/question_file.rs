@@ -79,9 +79,10 @@ record! {
         time: Option<Text>,
         /// Name of a stage in which a body slides or rolls: how far does it get? Along the body that it slides `on`, if any.
         distance: Option<Text>,
-        /// Acceleration of this body along its own way in the stage `at`, a `slide`: negative where it slows down. In a `turn` or a
-        /// `linkage` that of its center of mass, or of this point of the body named in `of`, along `along`, at the end or `when` it
-        /// starts.
+        /// Acceleration of this body along its own way in the stage `at`, a `slide`: negative where it slows down; on a spring at
+        /// the end or `when` it starts; where one slides `on` another, of either along the direction of the stage. In a `turn` or a
+        /// `linkage` that of its center of mass, or of this point of the body named in `of`, along `along`, at the end or `when`
+        /// it starts.
         acceleration: Option<Text>,
         /// Angular acceleration of this body at the end of the stage `at`, a `turn` or a `linkage`, or `when` it starts:
         /// counterclockwise positive.

@@ -140,7 +140,7 @@ impl Motion<'_> {
         let [spin_before, spin] = [Moment::Start, Moment::End].map(|m| self.spin(body, m));
         let time = value(&self.told.time, &|ask| matches!(ask, Ask::Time));
         let way = value(&self.told.way, &|ask| matches!(ask, Ask::Distance));
-        let is_rate = |ask: &Ask| matches!(ask, Ask::Acceleration { body: b } if *b == body);
+        let is_rate = |ask: &Ask| matches!(ask, Ask::Acceleration { body: b, .. } if *b == body);
         let rate = value(&self.told.acceleration, &is_rate);
         let angular = self.told.steps.iter().find(|step| step.letter == "alpha");
         let mut laws = Vec::new();

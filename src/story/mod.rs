@@ -32,7 +32,7 @@ pub use sheet::{
 };
 pub(crate) use told::line;
 
-pub use told::{Balance, Case, Cluster, Kept, Part, StageTold, State, Step, Told};
+pub use told::{Balance, Case, Cluster, Kept, OnSpring, Part, StageTold, State, Step, Told};
 
 use crate::algebra::Sign;
 use crate::answer::calc::{at_least_zero, constant, is_zero, tidy};

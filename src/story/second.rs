@@ -18,7 +18,7 @@ use crate::domain::Domains;
 use crate::expr::{Expr, Point, Rational, Symbol};
 use crate::interval::rounding;
 use crate::numeric::follow::{self, BodyState, Component, Followed, Loss, Lost, Passed, What};
-use crate::scene::{Scene, Stage};
+use crate::scene::{Scene, Stage, StageKind, Until};
 
 /// Points at which each way through the cases is followed.
 const POINTS: usize = 2;
@@ -174,7 +174,10 @@ fn way_of(scene: &Scene, stages: &[StageTold], followed: &Followed, point: &Poin
             .branch
             .is_none_or(|(parent, case)| way.get(&parent) == Some(&case));
         let passed = passed(scene, followed, told);
-        let Some(passed) = passed.filter(|_| follows && !told.rests_on().any(fails)) else {
+        // That a moment does not let it come to rest on the way is supposed in words alone.
+        let is_told = |p: &&Passed| !came_back(told, p);
+        let passed = passed.filter(|_| follows && !told.rests_on().any(fails));
+        let Some(passed) = passed.filter(is_told) else {
             continue;
         };
         let acts = |case: &Case| match &passed.what {
@@ -189,6 +192,18 @@ fn way_of(scene: &Scene, stages: &[StageTold], followed: &Followed, point: &Poin
         way.extend(outcome.map(|k| (i, k)));
     }
     way
+}
+
+/// Whether a rotation under a moment, to the place above or below, has come there back against the sense in which it began.
+fn came_back(told: &StageTold, passed: &Passed) -> bool {
+    let (StageKind::Turn(turn), What::Motion(moved)) = (&told.placed.kind, &passed.what) else {
+        return false;
+    };
+    if turn.torque.is_none() || !matches!(turn.until, Until::Above | Until::Below) {
+        return false;
+    }
+    let ended = moved.turned.filter(|by| *by != 0.0).zip(moved.clockwise);
+    ended.is_some_and(|(by, clockwise)| (by < 0.0) != clockwise)
 }
 
 fn passed<'f>(scene: &Scene, followed: &'f Followed, told: &StageTold) -> Option<&'f Passed> {

@@ -239,6 +239,15 @@ impl Step {
     }
 }
 
+/// How the forces drive a body on a spring.
+#[derive(Clone, Debug)]
+pub struct OnSpring {
+    /// Mass of what moves, with what turning adds to it \[kg\].
+    pub inertia: Expr,
+    /// Acceleration along the line at the beginning and at the end [m/s²].
+    pub rates: [Expr; 2],
+}
+
 /// Bodies in flight that are stuck together and turn as one about their common center of mass.
 #[derive(Clone, Debug)]
 pub struct Cluster {
@@ -285,6 +294,8 @@ pub struct StageTold {
     pub turned: Option<Expr>,
     /// Acceleration along the line of a motion along one \[m/s²\], or of the coordinate of a linkage, where it stays the same.
     pub acceleration: Option<Expr>,
+    /// The same of a motion on a spring, where it changes on the way.
+    pub on_spring: Option<OnSpring>,
     /// Pulls of the strings at bodies, by index of body \[N\].
     pub tensions: Vec<(usize, Expr)>,
     /// What forces give by Newton's laws, where a motion does not follow from its energy alone.

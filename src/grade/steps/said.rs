@@ -140,7 +140,7 @@ fn names(bodies: &[Body], ask: &Ask) -> Vec<String> {
         Ask::Velocity { body, point, .. } => (*body, point.as_ref().map(|(name, _)| name)),
         Ask::Spin { body, .. }
         | Ask::Impulse { on: body, .. }
-        | Ask::Acceleration { body }
+        | Ask::Acceleration { body, .. }
         | Ask::Tension { body } => (*body, None),
         _ => return Vec::new(),
     };

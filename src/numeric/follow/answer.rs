@@ -169,7 +169,10 @@ impl InStage<'_> {
                 component(course, there.map(Ok), Some(along))
             }
             Ask::Time => Ok(Answer::Scalar(self.passed.time.clone()?)),
-            Ask::Acceleration { body } => Ok(Answer::Scalar(self.driven(*body)?.acceleration)),
+            Ask::Acceleration { body, at_end } => {
+                let accelerations = self.driven(*body)?.accelerations;
+                Ok(Answer::Scalar(accelerations[usize::from(*at_end)]))
+            }
             Ask::Tension { body } => {
                 let tension = self.driven(*body)?.tension;
                 tension.map(Answer::Scalar).ok_or(Unanswered::NotANumber)

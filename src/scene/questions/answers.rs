@@ -205,19 +205,26 @@ impl Reader<'_, '_> {
     /// A formula of parameters and earlier answers.
     pub fn formula(&mut self, f: &Formula) -> Option<Expr> {
         let e = self.symbols.expression(f, &mut self.base.faults)?;
+        self.mark_used(&e);
+        Some(e)
+    }
+
+    fn mark_used(&self, e: &Expr) {
         for name in e.symbols() {
             self.symbols.mark_used(&name);
             self.base.symbols.mark_used(&name);
         }
-        Some(e)
     }
 
     /// Parameters and what stands for them.
     pub fn with(&mut self, map: Option<&Map<Formula>>) -> Option<Vec<(Symbol, Expr)>> {
         let mut out = Vec::new();
         for (name, value) in entries(map) {
-            let value = self.formula(value)?;
-            out.push((self.parameter(name)?, value));
+            let parameter = self.parameter(name)?;
+            let faults = &mut self.base.faults;
+            let value = self.symbols.in_place_of(&parameter, value, faults)?;
+            self.mark_used(&value);
+            out.push((parameter, value));
         }
         Some(out)
     }

@@ -186,13 +186,13 @@ impl Asked<'_, '_> {
                 strung || slides && !strings.is_empty(),
             ),
             None => (
-                Ask::Acceleration { body },
+                Ask::Acceleration {
+                    body,
+                    at_end: self.at_end(),
+                },
                 "acceleration",
-                "in a `slide` it is that of a body which moves, along its own way, without `of`, `along` and `when`; on a spring it changes on the way",
-                (strung || slides && slide.is_some_and(|slide| slide.spring.is_none()))
-                    && self.q.of.is_none()
-                    && self.q.along.is_none()
-                    && self.q.when.is_none(),
+                "in a `slide` it is that of a body which moves, along its own way, without `of` and `along`; what sticks to it and is asked of stands in `with`",
+                (strung || slides) && self.q.of.is_none() && self.q.along.is_none(),
             ),
         };
         if !fits {

@@ -217,6 +217,11 @@ impl Page<'_> {
             if told.cases.is_empty() {
                 self.motion(stage, told);
             }
+            if let StageKind::Slide(slide) = &stage.kind
+                && let Some(spring) = &slide.spring
+            {
+                self.at_ends_of_spring(told, spring);
+            }
         }
         // What goes into every case stands before them.
         let together = told.cases.windows(2).all(|c| c[0].handed == c[1].handed);

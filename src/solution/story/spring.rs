@@ -5,7 +5,7 @@ use crate::expr::{Expr, Function, Symbol, dot};
 use crate::scene::{Ask, Slide, Spring};
 use crate::solution::neat::{neat, tidied};
 use crate::solution::words::{self, fill, set};
-use crate::solution::{Claim, Line};
+use crate::solution::{Claim, Line, Math};
 use crate::story::{StageTold, State};
 
 /// Longest place on the way of an oscillation, in nodes, that stands in a sentence.
@@ -38,6 +38,47 @@ impl Page<'_> {
             math.extend(set("⇒ {} = {}", [symbol.into(), way.into()]));
         }
         Some(Line { math, step })
+    }
+
+    /// The accelerations that are asked for at the ends of a motion on a spring, by the forces there.
+    pub(super) fn at_ends_of_spring(&mut self, told: &StageTold, spring: &Spring) {
+        let (Some(on), Some(way)) = (&told.on_spring, &told.way) else {
+            return;
+        };
+        let rates = self.answered(told).filter_map(|a| match self.ask(a)? {
+            Ask::Acceleration { at_end, .. } => Some((Expr::symbol(&a.name), *at_end)),
+            _ => None,
+        });
+        let mut rates: Vec<(Expr, bool)> = rates.collect();
+        // What rides on it has the same.
+        rates.sort_by_key(|(_, at_end)| *at_end);
+        rates.dedup_by_key(|(_, at_end)| *at_end);
+        let asked = self.to(told, |ask| matches!(ask, Ask::Distance));
+        let named = asked.map_or_else(|| way.clone(), |a| Expr::symbol(&a.name));
+        let others = told.work.iter().filter(|(what, _)| *what != "spring");
+        let others = Expr::sum(others.map(|(_, work)| tidied(self.scene, &(work / way))));
+        let mut lines = Vec::new();
+        for (rate, at_end) in &rates {
+            let force = |way: &Expr| match at_end {
+                true => &others + &spring.stiffness * (&spring.relaxed - way),
+                false => &others + &spring.stiffness * &spring.relaxed,
+            };
+            let shown = neat(self.scene, &force(&named));
+            let inertia = Math::Factor(neat(self.scene, &on.inertia));
+            let math = set("{} {} = {}", [inertia, rate.into(), shown.into()]);
+            let driven = &on.inertia * &on.rates[usize::from(*at_end)];
+            let why = "mass times acceleration = forces along the line";
+            lines.push(self.claimed(math, &force(way), &driven, why));
+        }
+        let Some((_, at_end)) = rates.first() else {
+            return;
+        };
+        self.solution.say(match (rates.len(), at_end) {
+            (1, true) => "The forces at the end of the way give the acceleration there:",
+            (1, false) => "The forces at the beginning give the acceleration there:",
+            _ => "The forces at the beginning and at the end of the way give the accelerations there:",
+        });
+        self.solution.display(lines);
     }
 
     /// The time of a motion on a spring, which is a part of a harmonic oscillation about the place where the forces balance: it goes

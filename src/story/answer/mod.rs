@@ -220,7 +220,9 @@ fn one(
         }
         Ask::Time => each(&|told| Ok(motion::time(question, told))),
         Ask::Distance => each(&|told| Ok(motion::distance(question, told))),
-        Ask::Acceleration { body } => each(&|told| Ok(motion::acceleration(question, told, *body))),
+        Ask::Acceleration { body, at_end } => {
+            each(&|told| Ok(motion::acceleration(question, told, *body, *at_end)))
+        }
         Ask::AngularAcceleration { at_end, .. } => {
             each(&|told| motion::angular_acceleration(question, told, *at_end))
         }

@@ -226,12 +226,29 @@ pub(super) fn time(question: &Question, told: &StageTold) -> Answer {
 }
 
 /// How a body on a line gets faster.
-pub(super) fn acceleration(question: &Question, told: &StageTold, body: usize) -> Answer {
-    let words = format!("acceleration along its way in `{}`", told.placed.name);
+pub(super) fn acceleration(
+    question: &Question,
+    told: &StageTold,
+    body: usize,
+    at_end: bool,
+) -> Answer {
+    let name = &told.placed.name;
+    if let Some(spring) = &told.on_spring {
+        let (_, when, granted) = end(told, at_end);
+        let words = format!("acceleration along its way at the {when} of `{name}`");
+        let rate = spring.rates[usize::from(at_end)].clone();
+        return valued(blank(question, words), rate, granted);
+    }
+    let mut words = format!("acceleration along its way in `{name}`");
     let (strings, below) = match &told.placed.kind {
         StageKind::Slide(slide) => (slide.strings.as_slice(), slide.on.as_ref()),
         _ => (Default::default(), None),
     };
+    // What slides on a body that moves, and that one, may go against the direction in which one slides along the other.
+    if let (Some(_), StageKind::Slide(slide)) = (below, &told.placed.kind) {
+        let along = answer::along(Some(&slide.along));
+        words = format!("acceleration in `{name}`{along}");
+    }
     let its_own = strings.iter().find(|s| s.hung().any(|b| b == body));
     let is_below = below.is_some_and(|on| on.company().contains(&body));
     let rate = match is_below {

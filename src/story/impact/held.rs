@@ -30,7 +30,7 @@ impl Held {
 
 const STRING: &str = "say that it is there: \"strings\" of the impact, over a pulley one from the pulley to each end";
 const SURFACE: &str = "say that it is there: \"supports\" of the impact";
-const JOINT: &str = "say what joins them: \"hinges\" of the impact";
+const JOINT: &str = "say what joins them: \"hinges\" of the impact; where one rests on the other, as on a wedge, \"supports\", and a particle has its `center` where they touch";
 
 /// Holds the motion just after an impact against what held the bodies just before.
 pub(in crate::story) fn stays_held(
@@ -44,9 +44,11 @@ pub(in crate::story) fn stays_held(
     }
     let mut between: Vec<&State> = Vec::new();
     let mut moved: Vec<usize> = Vec::new();
+    let mut apart: Vec<[usize; 2]> = Vec::new();
     for (i, k) in branch.into_iter().flat_map(|at| line(stages, at)) {
         if let Some(case) = stages[i].cases.get(k) {
             between.push(&case.after);
+            apart.extend(moves_apart(&stages[i].placed, &case.after));
             continue;
         }
         let kind = &stages[i].placed.kind;
@@ -60,7 +62,7 @@ pub(in crate::story) fn stays_held(
         if let StageKind::Linkage(linkage) = kind
             && last.iter().all(is_last)
         {
-            keeps_joints(stage, linkage, &told)?;
+            keeps_joints(stage, linkage, &told, &apart)?;
         }
         let mut held = holding(kind, &stages[i].placed, &told.before);
         held.retain(|held| held.parts.iter().all(|(b, _)| is_last(b)));
@@ -216,10 +218,7 @@ fn leaves_pivot(stage: &Stage, turn: &Turn, told: &mut StageTold) {
     let mut said = hinges.chain(contacts).chain(supports);
     let is_said = said.any(|(bodies, at)| bodies.contains(&turn.body) && is_pivot(at));
     let moves = |after: &State| {
-        let arm = minus(&turn.about, &after.center[turn.body]);
-        let [x, y] = &after.velocity[turn.body];
-        let w = &after.spin[turn.body];
-        let there = [x - &(w * &arm[1]), y + &(w * &arm[0])];
+        let there = velocity_at(stage, after, turn.body, &turn.about);
         after.why_open(&there).is_none() && there.iter().any(|c| is_zero(c, domains) == Some(false))
     };
     if !body.is_particle() && !is_said && told.cases.iter().any(|case| moves(&case.after)) {
@@ -229,8 +228,39 @@ fn leaves_pivot(stage: &Stage, turn: &Turn, told: &mut StageTold) {
     }
 }
 
-/// Bodies of a linkage move on in the same proportions where an impact says nothing of what joins them.
-fn keeps_joints(stage: &Stage, linkage: &Linkage, told: &StageTold) -> Result<(), Refused> {
+/// Velocity of the point of a body at a place; a particle has no other.
+fn velocity_at(stage: &Stage, state: &State, body: usize, at: &Vector) -> Vector {
+    if stage.scene.bodies[body].is_particle() {
+        return state.velocity[body].clone();
+    }
+    let arm = minus(at, &state.center[body]);
+    let [x, y] = &state.velocity[body];
+    let w = &state.spin[body];
+    [x - &(w * &arm[1]), y + &(w * &arm[0])]
+}
+
+/// The pairs of bodies that move apart just after an impact where one rests on the other.
+fn moves_apart(stage: &Stage, after: &State) -> Vec<[usize; 2]> {
+    let StageKind::Impact { one_sided, .. } = &stage.kind else {
+        return Vec::new();
+    };
+    let supports = one_sided.iter().filter(|one| !one.is_string);
+    let parts = supports.filter(|one| {
+        let [first, second] = one.bodies.map(|b| velocity_at(stage, after, b, &one.at));
+        let opening = dot(&minus(&second, &first), &one.normal);
+        after.why_open([&opening]).is_none() && sign(&opening, &stage.scene.domains).is_positive()
+    });
+    parts.map(|one| one.bodies).collect()
+}
+
+/// Bodies of a linkage that have not come apart since move on in the same proportions where an impact says nothing of what
+/// joins them.
+fn keeps_joints(
+    stage: &Stage,
+    linkage: &Linkage,
+    told: &StageTold,
+    apart: &[[usize; 2]],
+) -> Result<(), Refused> {
     let bodies: Vec<usize> = linkage.places.iter().map(|(b, _)| *b).collect();
     // What guides a single body may only push, as a floor does.
     let is_joint = |pair: &[usize; 2]| pair.iter().all(|b| bodies.contains(b));
@@ -239,7 +269,7 @@ fn keeps_joints(stage: &Stage, linkage: &Linkage, told: &StageTold) -> Result<()
     };
     let hinges = stage.scene.hinges.iter().map(|h| &h.bodies);
     let mut said = hinges.chain(one_sided.iter().map(|o| &o.bodies));
-    if bodies.len() == 1 || said.any(is_joint) {
+    if bodies.len() == 1 || said.any(is_joint) || apart.iter().any(is_joint) {
         return Ok(());
     }
     let parts = |state: &State| -> Vec<Expr> {

@@ -60,17 +60,14 @@ pub(in crate::story) fn linkage(
         }
     };
     let mut after = before.clone();
-    for ((b, _), (place, rates)) in linkage
-        .places
-        .iter()
-        .zip(last.places.iter().zip(&last.rates))
-    {
-        let [x, y, angle] = place.clone();
+    for (i, (b, _)) in linkage.places.iter().enumerate() {
+        let ([x, y, angle], rates) = (last.places[i].clone(), &last.rates[i]);
         let [u, v, w] = rates.each_ref().map(|r| tidied(stage, &(r * &speed)));
         after.center[*b] = [x, y];
         after.velocity[*b] = [u?, v?];
         if !stage.scene.bodies[*b].is_particle() {
-            after.angle[*b] = angle;
+            let turned = angle - &first.places[i][2];
+            after.angle[*b] = tidied(stage, &(&after.angle[*b] + turned))?;
             after.spin[*b] = w?;
         }
     }
@@ -236,7 +233,9 @@ fn stands(stage: &Stage, before: &State, linkage: &Linkage, pose: &Pose) -> Resu
         let body = &stage.scene.bodies[*b];
         let [x, y] = &before.center[*b];
         let all = [x, y, &before.angle[*b]].into_iter().zip(place);
-        let seen = if body.is_particle() { 2 } else { 3 };
+        // How far what is round has turned before makes no difference.
+        let is_round = body.shape.radius().is_some();
+        let seen = if body.is_particle() || is_round { 2 } else { 3 };
         let mut gaps = all.take(seen).map(|(a, b)| a - b);
         if gaps.any(|gap| is_zero(&gap, &stage.scene.domains) != Some(true)) {
             let why = format!(

@@ -273,7 +273,7 @@ pub(super) fn carried(
     let time = Ok(run.time * units.time);
     let driven = movers.bodies.iter().enumerate().map(|(i, body)| Driven {
         body: *body,
-        acceleration: grows(if i < pair.company { 0 } else { pair.company }),
+        accelerations: [grows(if i < pair.company { 0 } else { pair.company }); 2],
         tension: None,
     });
     let moved = Moved {

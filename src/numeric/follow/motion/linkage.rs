@@ -179,14 +179,24 @@ pub(in crate::numeric::follow) fn linkage(
         true => Err(course.open(Why::Push)),
         false => Ok(run.time * moving.time),
     };
-    let ended = moving.states([1.0, run.end[1]]).ok_or_else(lost)?;
+    let mut ended = moving.states([1.0, run.end[1]]).ok_or_else(lost)?;
+    // A body may have turned before that, and turns on from there.
+    let turned = movers.states.iter().zip(&first.places);
+    let turned: Vec<f64> = turned.map(|(state, place)| state[2] - place[2]).collect();
+    let turning = ended.iter_mut().zip(&turned);
+    turning.for_each(|(state, by)| state[2] += by);
     let after = arrived(course, &before, &bodies, ended);
     let accelerations = moving.accelerations([[0.0, start[1]], [1.0, run.end[1]]]);
     let accelerations = accelerations.ok_or_else(lost)?;
     let moved = Moved {
         bodies,
         accelerations,
-        samples: sampled(&run, moving.time, |y| Some(moving.shape(y[0])?.places)),
+        samples: sampled(&run, moving.time, |y| {
+            let mut places = moving.shape(y[0])?.places;
+            let turning = places.iter_mut().zip(&turned);
+            turning.for_each(|(place, by)| place[2] += by);
+            Some(places)
+        }),
         ..Moved::default()
     };
     Ok(course.moved([before, after], time, has_forces, moved))

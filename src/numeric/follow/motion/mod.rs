@@ -41,7 +41,7 @@ pub struct Moved {
     pub clockwise: Option<bool>,
     /// Angle of a rotation about a point, counterclockwise \[rad\]: of a particle too, which has none of its own.
     pub turned: Option<f64>,
-    /// Force of the fixed point of a rotation on the bodies, at the beginning and at the end \[N\].
+    /// Force of the fixed point of a rotation, or of the surface of a slide, on the bodies, at the beginning and at the end \[N\].
     pub reaction: Option<[[Component; 2]; 2]>,
     /// Name of the contact that holds the fixed point where it has to pull, at the beginning and at the end.
     pub pulls: [Option<String>; 2],
@@ -79,8 +79,8 @@ impl Moved {
 pub struct Driven {
     /// Index of the body.
     pub body: usize,
-    /// Acceleration along its own way [m/s²].
-    pub acceleration: f64,
+    /// Acceleration along its own way, at the beginning and at the end [m/s²].
+    pub accelerations: [f64; 2],
     /// Pull of the string at it \[N\]; `None` without one, and with several.
     pub tension: Option<f64>,
 }

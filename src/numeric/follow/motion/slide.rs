@@ -158,6 +158,13 @@ pub(in crate::numeric::follow) fn slide(
     if turns && slips && !slide.is_smooth() && still(&run.end) {
         return Err(course.never("it rolls before"));
     }
+    let rates = match &sprung {
+        None => [rates.clone(), rates],
+        Some(sprung) => {
+            let [first, last] = [&start, &run.end].map(|y| sprung.accelerations_of(y));
+            first.zip(last).ok_or_else(|| unsolved(course))?.into()
+        }
+    };
     let (after, samples) = movers.ended(course, &units, &run, &before);
     let way = gone(&before, &after, slide.body, acting.along);
     if ropes.room.iter().any(|room| way > room * (1.0 + ROUNDING)) {
@@ -165,9 +172,11 @@ pub(in crate::numeric::follow) fn slide(
     }
     let moved = Moved {
         bodies: bodies.to_vec(),
-        reaction: slide.strings.is_empty().then(|| {
-            let force = pressed((&movers, company), &acting, &rates, &units, slide.level);
-            [(); 2].map(|()| force.map(Ok))
+        reaction: (slide.strings.is_empty() && slide.spring.is_none()).then(|| {
+            let force = |rates: &Vec<f64>| {
+                pressed((&movers, company), &acting, rates, &units, slide.level).map(Ok)
+            };
+            rates.each_ref().map(force)
         }),
         driven: driven(
             &bodies,
@@ -193,11 +202,11 @@ fn pull_only(course: &Course<'_>, mechanism: &Mechanism, tensions: &[f64]) -> Re
     }
 }
 
-/// How each body on a line is driven at the beginning, from the rates and tensions in the units.
+/// How each body on a line is driven, from the rates at the beginning and at the end and the tensions in the units.
 fn driven(
     bodies: &[usize],
     directions: &[([f64; 2], f64)],
-    rates: &[f64],
+    rates: &[Vec<f64>; 2],
     (ropes, company, tensions): (&Ropes, usize, &[f64]),
     units: &Units,
 ) -> Vec<Driven> {
@@ -207,7 +216,9 @@ fn driven(
         .filter(|(_, along)| **along != [0.0; 2])
         .map(|(i, along)| Driven {
             body: bodies[i],
-            acceleration: dot(&[rates[3 * i], rates[3 * i + 1]], along) * acceleration,
+            accelerations: rates
+                .each_ref()
+                .map(|r| dot(&[r[3 * i], r[3 * i + 1]], along) * acceleration),
             tension: (ropes.pull(i, company, tensions)).map(|t| t * units.force()),
         })
         .collect()

@@ -7,7 +7,7 @@ use crate::algebra::Sign;
 use crate::answer::calc::{Seen, above_zero, is_zero, sign};
 use crate::expr::{Expr, Function};
 use crate::scene::{SlideEnd, Spring};
-use crate::story::{Refused, Step};
+use crate::story::{OnSpring, Refused, Step};
 
 /// The course from the beginning to the end.
 pub(super) struct Course {
@@ -208,6 +208,15 @@ impl Line<'_> {
         let [net, mass] = self.driven();
         let force = self.tidied(&(&net + &(&spring.stiffness * &spring.relaxed)))?;
         Ok([force, mass])
+    }
+
+    /// How the forces drive it on a spring, at the beginning and at the end of a way.
+    pub fn on_spring(&self, spring: &Spring, way: &Expr) -> Result<OnSpring, Refused> {
+        let [force, inertia] = self.sprung(spring)?;
+        let last = &force - &(&spring.stiffness * way);
+        let rate = |force: &Expr| self.tidied(&(force / &inertia));
+        let rates = [rate(&force)?, rate(&last)?];
+        Ok(OnSpring { inertia, rates })
     }
 
     /// The time on a spring over a way: m v² + k x² stays, with x from the place where the forces balance, so that x goes as

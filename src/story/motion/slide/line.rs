@@ -134,7 +134,7 @@ impl<'a> Line<'a> {
         if self.slide.rolling && way != Some(0) {
             return Err(self.refused(
                 "it slips when the stage begins",
-                "give `friction` with \"until\": \"rolls\" for the stage before, or a spin that fits",
+                "give `friction` with \"until\": \"rolls\" for the stage before, or a spin that fits, or suppose of the contact before that it \"sticks\"",
             ));
         }
         let Some(way) = way else {

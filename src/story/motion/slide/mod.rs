@@ -51,8 +51,8 @@ pub(in crate::story) fn slide(
         false => line.steps(),
     };
     let course = line.course(&mut steps, &mut supposed, &mut limits)?;
-    let by_newton = !matches!(slide.until, SlideEnd::Distance(_)) && slide.spring.is_none();
-    if by_newton || line.round.is_some() && slide.spring.is_none() || is_driven && !swings {
+    let by_newton = !matches!(slide.until, SlideEnd::Distance(_));
+    if slide.spring.is_none() && (by_newton || line.round.is_some() || is_driven) {
         line.told(&course, &mut steps);
     } else if !swings {
         steps.clear();
@@ -82,9 +82,13 @@ pub(in crate::story) fn slide(
     ]);
     out.work = line.work(&course);
     out.time = course.time;
-    out.way = Some(course.distance);
     out.steps = steps;
     out.acceleration = (slide.spring.is_none()).then(|| line.acceleration.clone());
+    let spring = slide.spring.as_ref();
+    out.on_spring = spring
+        .map(|spring| line.on_spring(spring, &course.distance))
+        .transpose()?;
+    out.way = Some(course.distance);
     out.tensions = tensions;
     if let SlideEnd::Distance(_) = &slide.until {
         let square = line.tidied(&course.speed.powi(2))?;
