@@ -87,7 +87,7 @@ pub(super) fn turning(
                 let gap = first.zip(j.at).map(|(one, other)| minus(one, other));
                 gap.is_some_and(|gap| !gap.iter().all(is_none))
             };
-            first.is_some() && (bodies[b].is_particle() || to.any(|j| is_apart(j)))
+            first.is_some() && (bodies[b].is_particle() || to.any(is_apart))
         };
         while let Some(next) = cluster
             .iter()
