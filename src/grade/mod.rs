@@ -473,7 +473,7 @@ pub fn show(content: &Content) -> String {
     match content {
         Content::Scalar(e) => number::shown(e),
         Content::Either(values) => {
-            let values: Vec<String> = values.iter().map(formula::write_plain).collect();
+            let values: Vec<String> = values.iter().map(number::shown).collect();
             values.join(" or ")
         }
         Content::Joined(join, parts) => {
@@ -485,7 +485,7 @@ pub fn show(content: &Content) -> String {
             parts.join(join.word())
         }
         Content::Vector(v) => {
-            let parts: Vec<String> = v.iter().map(formula::write_plain).collect();
+            let parts: Vec<String> = v.iter().map(number::shown).collect();
             format!("[{}]", parts.join(", "))
         }
         Content::Matrix(rows) => {

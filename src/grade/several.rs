@@ -395,6 +395,17 @@ pub(super) fn lists(ctx: &Context, expected: &[Expr], answer: &[Expr]) -> Grade 
         }
         (lost, gained, ..) => {
             let beside = gained.map_or(&answer[0], |(value, _)| value);
+            let others = answer.iter().zip(&found).filter(|(_, found)| !**found);
+            // What is no value may be one with fewer digits.
+            let rounded = |mine: &Expr| {
+                mine.as_number().filter(|number| !number.is_integer())?;
+                let mut each = expected.iter().map(|value| scalars(ctx, value, mine));
+                each.find(|grade| grade.note == "DIFF_ROUNDED")
+            };
+            let all: Option<Vec<Grade>> = others.map(|(mine, _)| rounded(mine)).collect();
+            if let Some(first) = all.and_then(|all| all.into_iter().next()) {
+                return first;
+            }
             match lost {
                 // What is wrong with the only value that is.
                 Some(lost) if found.iter().filter(|found| !**found).count() == 1 => {

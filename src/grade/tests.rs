@@ -32,3 +32,11 @@ fn what_takes_too_much_work_is_undecided_for_that_reason() {
     assert_eq!(open.note, "UNDECIDED_LIMIT");
     assert!(open.proof.words.contains("limit of work"));
 }
+
+#[test]
+fn values_that_are_all_rounded_are_told_as_rounded() {
+    let note = |answer| grade("1 ± sqrt(2)", answer).note;
+    assert_eq!(note("2.414 or -0.414"), "DIFF_ROUNDED");
+    assert_eq!(note("2.414 or 1 - sqrt(2)"), "DIFF_ROUNDED");
+    assert_eq!(note("2.414 or -0.5"), "DIFF_ROOT_GAINED");
+}
