@@ -28,9 +28,13 @@ pub(super) struct Panel {
     alternative: String,
 }
 
-/// The spin of a pulley without mass: its strings turn it, and nobody misses it in a picture.
-fn is_idle(scene: &Scene, unknown: Unknown) -> bool {
-    matches!(unknown, Unknown::Spin(b) if scene.bodies[b].is_light_pulley())
+/// Whether an unknown is drawn in the motion after. Nobody misses the spin of a pulley without mass, which its strings turn.
+fn is_drawn(scene: &Scene, unknown: Unknown) -> bool {
+    match unknown {
+        Unknown::Spin(b) => !scene.bodies[b].is_light_pulley(),
+        Unknown::Velocity(..) => true,
+        _ => false,
+    }
 }
 
 pub(super) fn panel(stage: &Stage, motion: Option<&Motion<f64>>, which: Which) -> Panel {
@@ -90,7 +94,7 @@ pub(super) fn panel(stage: &Stage, motion: Option<&Motion<f64>>, which: Which) -
             let mut notes = Vec::new();
             let sheet = match motion {
                 Some(motion) => {
-                    if !motion.loose.iter().all(|u| is_idle(scene, *u)) {
+                    if motion.loose.iter().any(|u| is_drawn(scene, *u)) {
                         notes.push(
                             "The equations leave part of the motion open; that part is not drawn."
                                 .to_string(),
