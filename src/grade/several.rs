@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::compare::{Context, kind, scalars, values};
-use super::{Diagnosis, Grade, Verdict, relation, show, unit};
+use super::{Diagnosis, Grade, Verdict, number, relation, show, unit};
 use crate::dimension::Unit;
 use crate::equality;
 use crate::expr::{Expr, Symbol};
@@ -359,7 +359,7 @@ fn by_name(ctx: &Context, expected: &[(Symbol, Content)], answer: &[(Symbol, Con
 pub(super) fn lists(ctx: &Context, expected: &[Expr], answer: &[Expr]) -> Grade {
     let plain = ctx.plain();
     let mut found = vec![false; answer.len()];
-    let (mut total, mut undecided, mut lost) = (None::<Grade>, None, None);
+    let (mut total, mut undecided, mut lost) = (None::<Grade>, None, Vec::new());
     for value in expected {
         let mut here = None;
         for (k, mine) in answer.iter().enumerate() {
@@ -374,49 +374,54 @@ pub(super) fn lists(ctx: &Context, expected: &[Expr], answer: &[Expr]) -> Grade 
             }
         }
         match (here, &mut total) {
-            (None, _) => lost = lost.or(Some(value)),
+            (None, _) => lost.push(value),
             (Some(finding), None) => total = Some(finding),
             (Some(finding), Some(total)) => total.assume(finding.assumed),
         }
     }
-    let gained = answer.iter().zip(&found).find(|(_, found)| !**found);
+    let gained = answer.iter().zip(&found).filter(|(_, found)| !**found);
+    let gained: Vec<&Expr> = gained.map(|(value, _)| value).collect();
     if let Some(total) = total.as_mut() {
         total.assumed.sort();
     }
-    match (lost, gained, undecided, total) {
-        (None, None, _, Some(total)) => total,
+    match (lost.as_slice(), gained.as_slice(), undecided, total) {
+        ([], [], _, Some(total)) => total,
         (_, _, Some(undecided), _) => undecided,
-        (Some(lost), None, ..) => {
+        ([lost, ..], [], ..) => {
             let words = match expected.len() {
                 2 => "one of the two values is missing".to_string(),
                 _ => format!("the value {} is missing", ctx.say(lost)),
             };
             Grade::told("DIFF_ONE_OF_TWO", "kind", words, "there are more values")
         }
-        (lost, gained, ..) => {
-            let beside = gained.map_or(&answer[0], |(value, _)| value);
-            let others = answer.iter().zip(&found).filter(|(_, found)| !**found);
-            // What is no value may be one with fewer digits.
-            let rounded = |mine: &Expr| {
-                mine.as_number().filter(|number| !number.is_integer())?;
-                let mut each = expected.iter().map(|value| scalars(ctx, value, mine));
-                each.find(|grade| grade.note == "DIFF_ROUNDED")
-            };
-            let all: Option<Vec<Grade>> = others.map(|(mine, _)| rounded(mine)).collect();
-            if let Some(first) = all.and_then(|all| all.into_iter().next()) {
-                return first;
+        (lost, gained, ..) => rounded(ctx, lost, gained).unwrap_or_else(|| match (lost, gained) {
+            // What is wrong with the only value that is.
+            ([lost], [beside]) => scalars(&plain, lost, beside),
+            _ => {
+                let beside = gained.first().map_or(&answer[0], |value| value);
+                let said = match beside.as_number() {
+                    Some(_) => number::shown(beside),
+                    None => ctx.say(beside),
+                };
+                let words = format!("{said} is none of the values");
+                let hint = "check each of your values";
+                Grade::told("DIFF_ROOT_GAINED", "kind", words, hint)
             }
-            match lost {
-                // What is wrong with the only value that is.
-                Some(lost) if found.iter().filter(|found| !**found).count() == 1 => {
-                    scalars(&plain, lost, beside)
-                }
-                _ => {
-                    let words = format!("{} is none of the values", ctx.say(beside));
-                    let hint = "check each of your values";
-                    Grade::told("DIFF_ROOT_GAINED", "kind", words, hint)
-                }
-            }
-        }
+        }),
     }
+}
+
+/// The finding that values are those that are expected with fewer digits, each of them one.
+fn rounded(ctx: &Context, expected: &[&Expr], answer: &[&Expr]) -> Option<Grade> {
+    let mut left = expected.to_vec();
+    let mut found = None;
+    for mine in answer {
+        let each = left.iter().map(|value| scalars(ctx, value, mine));
+        let (at, grade) = each
+            .enumerate()
+            .find(|(_, grade)| grade.note == "DIFF_ROUNDED")?;
+        left.remove(at);
+        found.get_or_insert(grade);
+    }
+    found.filter(|_| left.is_empty())
 }

@@ -39,4 +39,6 @@ fn values_that_are_all_rounded_are_told_as_rounded() {
     assert_eq!(note("2.414 or -0.414"), "DIFF_ROUNDED");
     assert_eq!(note("2.414 or 1 - sqrt(2)"), "DIFF_ROUNDED");
     assert_eq!(note("2.414 or -0.5"), "DIFF_ROOT_GAINED");
+    // Two roundings of one value are not both.
+    assert_eq!(note("2.414 or 2.41"), "DIFF_ROOT_GAINED");
 }
