@@ -316,15 +316,7 @@ impl Writer<'_> {
             lines.into_iter().partition(|(u, _)| is_asked(u));
         // A velocity that a contact gives stands there already.
         let section = self.solution.sections.last();
-        let stands = |math: &[Math]| {
-            let parts = section.into_iter().flat_map(|s| &s.parts);
-            let mut lines = parts.filter_map(|part| match part {
-                Part::Display(lines) => Some(lines),
-                _ => None,
-            });
-            lines.any(|lines| lines.iter().any(|l| l.math == math))
-        };
-        others.retain(|(_, line)| !stands(&line.math));
+        others.retain(|(_, line)| !section.is_some_and(|s| s.shows(&line.math)));
         for (i, (_, mut line)) in others.into_iter().enumerate() {
             if i == 0 && matches!(self.last_part(), Some(Part::Display(_))) {
                 line.math.insert(0, Math::Op("⇒"));

@@ -6,6 +6,20 @@ use super::words::say;
 use super::{Claim, Inline, Line, Math, Meaning, Part, Section, Solution, Step};
 use crate::expr::{Expr, Symbol};
 
+impl Part {
+    /// Whether it displays an equation.
+    fn shows(&self, math: &[Math]) -> bool {
+        matches!(self, Part::Display(lines) if lines.iter().any(|l| l.math == math))
+    }
+}
+
+impl Section {
+    /// Whether an equation stands in a display of it.
+    pub(super) fn shows(&self, math: &[Math]) -> bool {
+        self.parts.iter().any(|part| part.shows(math))
+    }
+}
+
 impl Solution {
     /// Opens a section; what comes next stands in it.
     pub(super) fn section(&mut self, depth: usize, heading: Vec<Inline>) {
@@ -29,11 +43,7 @@ impl Solution {
 
     /// Whether an equation stands in a display already.
     pub(super) fn shows(&self, math: &[Math]) -> bool {
-        let mut parts = self.sections.iter().flat_map(|s| &s.parts);
-        parts.any(|part| match part {
-            Part::Display(lines) => lines.iter().any(|l| l.math == math),
-            _ => false,
-        })
+        self.sections.iter().any(|section| section.shows(math))
     }
 
     /// What stands in the stages before the one under way; nothing where there are none.
@@ -45,10 +55,7 @@ impl Solution {
 
     /// Whether an equation stands in an earlier stage.
     pub(super) fn stood(&self, math: &[Math]) -> bool {
-        self.earlier().any(|part| match part {
-            Part::Display(lines) => lines.iter().any(|l| l.math == math),
-            _ => false,
-        })
+        self.earlier().any(|part| part.shows(math))
     }
 
     /// Whether these sentences stand there already.

@@ -21,8 +21,7 @@ pub(super) use fall::fall;
 pub(crate) use linkage::by_coordinate;
 pub(super) use linkage::{accelerations, linkage};
 pub(super) use riders::riders_stay;
-pub(super) use slide::slide;
-pub(super) use slide::support;
+pub(super) use slide::{slide, support};
 pub(super) use turn::{arms, inertia_about, sense, turn};
 pub(super) use wind::wind;
 
