@@ -3,6 +3,8 @@
 
 use std::collections::BTreeMap;
 
+use num_traits::Signed;
+
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, essential, is_zero, sign, tidy};
 use crate::dimension::{self, Dimension};
@@ -251,14 +253,17 @@ fn is_definite(seen: Seen) -> bool {
     matches!(seen, Seen::Proved(Sign::Positive | Sign::Negative))
 }
 
-/// The factors without a root, and the others.
+/// The factors without a root, and the others; a number stays with the root, beside which it tells how fast something is, but for
+/// its sign.
 fn split(e: &Expr) -> (Expr, Expr) {
     let Node::Product(factors) = e.node() else {
         return (Expr::one(), e.clone());
     };
     let (roots, others): (Vec<&Expr>, Vec<&Expr>) = factors.iter().partition(|f| has_root(f));
     let product = |all: Vec<&Expr>| Expr::product(all.into_iter().cloned());
-    (product(others), product(roots))
+    let (number, others) = product(others).split_number();
+    let sign = Expr::from(if number.is_negative() { -1 } else { 1 });
+    (sign * others, Expr::from(number.abs()) * product(roots))
 }
 
 /// How many times another value a value is, without roots; nothing where that divides by what may vanish.
