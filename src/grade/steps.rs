@@ -315,8 +315,9 @@ fn check_with(
     desk.bound = meant.bound.keys().cloned().collect();
     desk.learned.extend(desk.bound.iter().cloned());
     desk.solved_for = names::solved_for(&read);
-    desk.own_with_mark = letters::of_a_later_moment(sheet, &read);
-    desk.own_with_mark.extend(meant.marked.iter().cloned());
+    let later = letters::of_a_later_moment(sheet, &read);
+    let marked = later.into_iter().chain(meant.marked.iter().cloned());
+    desk.own_with_mark.extend(marked);
     desk.anew = meant.anew;
     desk.in_units = meant.in_units;
     desk.ahead = names::definitions(&read, &desk.symbols(""));

@@ -199,6 +199,9 @@ impl Desk<'_> {
         let Some((name, value)) = meant.filter(|(name, _)| ACCELERATIONS.contains(&&**name)) else {
             return;
         };
+        // With a prime it is that of another motion.
+        let marks = MARKS.map(|mark| (name.clone(), mark));
+        self.own_with_mark.extend(marks);
         let all = &self.sheet.accelerations;
         let turned = !all.contains(value);
         let others = all
