@@ -346,7 +346,7 @@ pub fn write(scene: &Scene, told: &Told, detail: Detail) -> Solution {
         Some(impact) => lone(scene, told, impact, detail),
         None => story::tell(scene, told, detail),
     };
-    solution.explain(scene);
+    solution.explain(scene, &told.unused);
     solution.round(opening::AXES);
     opening::set_axes(&mut solution);
     solution

@@ -16,8 +16,9 @@ pub(super) const AXES: &str = "Let x point right and y up; counterclockwise is p
 pub(super) const NUMBERS: &str = "In numbers: ";
 
 impl Solution {
-    /// Explains the letter of a center of mass where the text uses it, and the values that numbers were found with.
-    pub(super) fn explain(&mut self, scene: &Scene) {
+    /// Explains the letter of a center of mass where the text uses it, and the values that numbers were found with, without data
+    /// that are unused.
+    pub(super) fn explain(&mut self, scene: &Scene, unused: &[Symbol]) {
         let moving: Vec<usize> = scene.moving().collect();
         let uses = |math: &[Math]| uses_center(math);
         let used = self
@@ -46,11 +47,11 @@ impl Solution {
                 text.push(say(format!(" G is the center of mass of {whose}.")));
             }
         }
-        self.values(scene);
+        self.values(scene, unused);
     }
 
     /// Where there are results in numbers, the values behind them stand with the meaning of each symbol.
-    fn values(&mut self, scene: &Scene) {
+    fn values(&mut self, scene: &Scene, unused: &[Symbol]) {
         let mut texts = Vec::new();
         for part in self.sections.iter_mut().flat_map(|s| &mut s.parts) {
             if let Part::Text(text) = part {
@@ -66,7 +67,8 @@ impl Solution {
         let meant = here.zip(words::meant(scene, true));
         let is_told = |p: &Parameter| meant.is_some() && !p.meaning.is_empty();
         let (told, rest): (Vec<_>, Vec<_>) = scene.parameters.iter().partition(|p| is_told(p));
-        let rest = rest.into_iter().filter_map(|p| {
+        let rest = rest.into_iter().filter(|p| !unused.contains(&p.name));
+        let rest = rest.filter_map(|p| {
             let value = words::value(p)?;
             Some([words::formula(&Expr::symbol(&p.name)), say(" = "), value])
         });
