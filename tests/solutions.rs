@@ -1000,8 +1000,17 @@ fn every_answer_stands_under_its_name_however_much_is_told() {
                     )
             })
         };
-        let of_value =
-            |a: &&carom::answer::Answer| a.formula().is_some() && a.range.is_empty() && !is_near(a);
+        // Along a coordinate a speed is all of the velocity: its components are told with it.
+        let is_in_speed = |a: &carom::answer::Answer| {
+            let speed = |q: &scene::Question| a.question == format!("{}_velocity", q.name);
+            let mut parts = case.worked.told.answers.iter();
+            case.scene.questions.iter().any(speed)
+                && parts
+                    .any(|b| b.question == a.question && b.formula().is_some_and(|f| f.is_zero()))
+        };
+        let of_value = |a: &&carom::answer::Answer| {
+            a.formula().is_some() && a.range.is_empty() && !is_near(a) && !is_in_speed(a)
+        };
         for answer in case.worked.told.answers.iter().filter(of_value) {
             // Within a case the name has no number.
             let numbered = answer.name.rsplit_once("_case");
