@@ -274,7 +274,19 @@ fn turned(sum: &Expr) -> Expr {
     let Node::Sum(terms) = sum.node() else {
         return -sum;
     };
-    let mut terms: Vec<Expr> = terms.iter().map(|t| -t).collect();
+    let mut terms: Vec<Expr> = terms.iter().map(turned_inside).collect();
     terms.sort_by_key(Expr::is_negative);
     Expr::sum(terms)
+}
+
+/// A term with its sign turned, within its bracket where something is taken away there: `m (u − v)` as `m (v − u)`.
+pub(super) fn turned_inside(term: &Expr) -> Expr {
+    let takes = |f: &Expr| f.terms().len() > 1 && f.terms().iter().any(Expr::is_negative);
+    match term.factors().iter().find(|f| takes(f)) {
+        Some(bracket) if !term.is_negative() => {
+            let own = |f: &Expr| if f == bracket { turned(f) } else { f.clone() };
+            Expr::product(term.factors().iter().map(own))
+        }
+        _ => -term,
+    }
 }

@@ -11,7 +11,7 @@ use super::field::{AngleOf, Field, Kind};
 use super::mono::{Mono, exponent, mono_add, mono_div, mono_divides, mono_is_one, mono_of, powers};
 use super::parts::{Parts, letters, strike};
 use super::poly::Poly;
-use super::product::MOST_SIGNED;
+use super::product::{MOST_SIGNED, turned_inside};
 use crate::expr::{Expr, Function, Int, Node, Rational, ratio};
 
 /// Longest sum above or below a line that is looked at for a term that stands better beside it.
@@ -359,7 +359,8 @@ impl Field {
         }
         let mut written = self.grouped(terms);
         written.sort_by_key(|(first, e)| (e.is_negative(), *first));
-        let mixed = written.last().is_some_and(|(_, e)| e.is_negative());
+        let can_take = |e: &Expr| e.is_negative() || !turned_inside(e).is_negative();
+        let mixed = written.iter().any(|(_, e)| can_take(e));
         (Expr::sum(written.into_iter().map(|(_, e)| e)), flip, mixed)
     }
 

@@ -421,22 +421,22 @@ fn replaced(e: &Expr, symbol: &Symbol, by: &[Expr; 3]) -> Option<Expr> {
 /// cosθ = √(1 − k) is sinθ = √k.
 fn arc(inverse: Function, value: &Expr, domains: &Domains) -> Expr {
     let rest = Expr::one() - value.powi(2);
-    let is_positive = sign(value, domains).is_positive();
-    let tangent = match inverse {
-        Function::Acos if is_positive => rest.sqrt() / value.clone(),
-        Function::Asin if sign(&rest, domains).is_positive() => value.clone() / rest.sqrt(),
-        _ => return Expr::call(inverse, value.clone()),
-    };
-    let other = match inverse {
-        Function::Acos => Function::Asin,
-        _ => Function::Acos,
-    };
-    let others = [(Function::Atan, tangent), (other, rest.sqrt())].into_iter();
+    let is_positive = |e: &Expr| sign(e, domains).is_positive();
+    let mut ways = vec![(inverse, value.clone())];
+    let mut add = |f: Function, x: Expr| ways.extend(tidy(&x, domains).ok().map(|x| (f, x)));
+    match inverse {
+        Function::Acos if is_positive(value) => add(Function::Atan, rest.sqrt() / value.clone()),
+        Function::Asin if is_positive(&rest) => add(Function::Atan, value.clone() / rest.sqrt()),
+        _ => {}
+    }
     // A sine below zero is not told from the cosine.
-    let others = others.filter(|(f, _)| *f == Function::Atan || is_positive);
-    let others = others.filter_map(|(f, x)| Some((f, tidy(&x, domains).ok()?)));
-    let ways = std::iter::once((inverse, value.clone())).chain(others);
-    let shortest = ways.min_by_key(|(_, x)| x.size());
+    match inverse {
+        _ if !is_not_negative(value, domains) => {}
+        Function::Acos => add(Function::Asin, rest.sqrt()),
+        Function::Asin => add(Function::Acos, rest.sqrt()),
+        _ => {}
+    }
+    let shortest = ways.into_iter().min_by_key(|(_, x)| x.size());
     shortest.map_or_else(
         || Expr::call(inverse, value.clone()),
         |(f, x)| Expr::call(f, x),

@@ -5,10 +5,10 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use num_traits::{Signed, Zero};
+use num_traits::{One, Signed, Zero};
 
 use super::write_plain;
-use crate::expr::{Expr, Node, Symbol};
+use crate::expr::{Expr, Node, Rational, Symbol};
 
 /// A sentence from a template, with words, formulas and other sentences in its gaps, in order:
 /// `sentence!("it holds for {} ≤ {}", &h, &limit)`.
@@ -222,13 +222,57 @@ pub fn trimmed(decimal: &str) -> &str {
 pub fn sides(e: &Expr) -> [Expr; 2] {
     // The size of a factor before a sum says nothing of its sign.
     let (factor, rest) = e.split_number();
-    let terms = match rest.node() {
+    let terms: Vec<Expr> = match rest.node() {
         Node::Sum(terms) if factor.is_negative() => terms.iter().map(|t| -t).collect(),
         Node::Sum(terms) => terms.clone(),
         _ => vec![e.clone()],
     };
-    let (taken, kept): (Vec<Expr>, Vec<Expr>) = terms.into_iter().partition(Expr::is_negative);
-    [Expr::sum(kept), -Expr::sum(taken)]
+    let by_sign = |terms: Vec<Expr>| {
+        let (taken, kept): (Vec<Expr>, Vec<Expr>) = terms.into_iter().partition(Expr::is_negative);
+        [Expr::sum(kept), -Expr::sum(taken)].map(|side| gathered(&side))
+    };
+    let [kept, taken] = by_sign(terms.clone());
+    if terms.len() > 1 && (kept.is_zero() || taken.is_zero()) {
+        // `A u + m (u − v) ≤ 0` is `m v ≥ u (A + m)`.
+        let apart = by_sign(terms.iter().flat_map(taken_apart).collect());
+        let total = |[a, b]: &[Expr; 2], of: fn(&Expr) -> usize| of(a) + of(b);
+        let is_short = total(&apart, |e| e.terms().len()) <= terms.len() + 1;
+        if is_short && total(&apart, Expr::size) <= kept.size() + taken.size() {
+            return apart;
+        }
+    }
+    [kept, taken]
+}
+
+/// The terms of `m (u − v)`, where the sum in it takes something away.
+fn taken_apart(term: &Expr) -> Vec<Expr> {
+    let is_sum = |f: &&Expr| matches!(f.node(), Node::Sum(_));
+    let mut sums = term.factors().iter().filter(is_sum);
+    match (sums.next().map(|f| (f, f.node())), sums.next()) {
+        (Some((sum, Node::Sum(inner))), None) if inner.iter().any(Expr::is_negative) => {
+            let others = Expr::product(term.factors().iter().filter(|f| *f != sum).cloned());
+            inner.iter().map(|t| multiplied(&others, t)).collect()
+        }
+        _ => vec![term.clone()],
+    }
+}
+
+/// A product with each power once.
+fn multiplied(a: &Expr, b: &Expr) -> Expr {
+    let mut all: Vec<(&Expr, Rational)> = Vec::new();
+    for f in a.factors().iter().chain(b.factors()) {
+        let (base, k) = match f.node() {
+            Node::Power(base, k) => (base, k.as_number().cloned()),
+            _ => (f, Some(Rational::one())),
+        };
+        match (all.iter_mut().find(|(own, _)| *own == base), k) {
+            (Some((_, own)), Some(k)) => *own += k,
+            (_, Some(k)) => all.push((base, k)),
+            (_, None) => all.push((f, Rational::one())),
+        }
+    }
+    let powers = all.into_iter().map(|(base, k)| base.power(Expr::from(k)));
+    Expr::product(powers)
 }
 
 /// A relation to zero by its two sides; the second sign stands where they change places.
@@ -244,11 +288,17 @@ fn beyond_zero(e: &Expr, [sign, turned]: [&str; 2]) -> Sentence {
             &(constant * &Expr::from(factor.recip()))
         )
     };
+    // `1 + cosθ > 0` as `cosθ > −1`.
+    let number = kept.terms().iter().find(|t| t.as_number().is_some());
+    if let (Some(number), true, true) = (number, taken.is_zero(), kept.terms().len() > 1) {
+        let rest = kept.terms().iter().filter(|t| *t != number).cloned();
+        return sentence!("{}{}{}", &Expr::sum(rest), sign, &-number);
+    }
     let is_scaled = |side: &Expr| !side.is_constant() && !side.split_number().0.is_zero();
     match (kept.is_constant(), taken.is_constant()) {
         (true, _) if is_scaled(&taken) => solved(&taken, turned, &kept),
         (_, true) if is_scaled(&kept) => solved(&kept, sign, &taken),
-        _ => sentence!("{}{}{}", &gathered(&kept), sign, &gathered(&taken)),
+        _ => sentence!("{}{}{}", &kept, sign, &taken),
     }
 }
 

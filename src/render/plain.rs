@@ -71,9 +71,25 @@ fn sentence(s: &Solution, text: &[Inline]) -> String {
     text.iter()
         .map(|piece| match piece {
             Inline::Text(words) => visible(words),
-            Inline::Math(math) => unicode(s, math),
+            Inline::Math(math) => held(&unicode(s, math)),
         })
         .collect()
+}
+
+/// A formula with spaces that do not break: a line may end before a relation of it, in a long one before a sign too.
+fn held(formula: &str) -> String {
+    let is_long = formula.chars().count() > WIDTH / 2;
+    let breaks = |word: &str| match word {
+        "+" | "−" => is_long,
+        _ => matches!(word, "=" | "≈" | "<" | ">" | "≤" | "≥" | "≠"),
+    };
+    let mut words = formula.split(' ');
+    let mut out = String::from(words.next().unwrap_or_default());
+    for word in words {
+        out.push(if breaks(word) { ' ' } else { '\u{a0}' });
+        out.push_str(word);
+    }
+    out
 }
 
 fn wrapped(out: &mut String, first: &str, next: &str, text: &str) {
@@ -88,7 +104,7 @@ fn wrapped(out: &mut String, first: &str, next: &str, text: &str) {
         if !empty {
             current.push(' ');
         }
-        current.push_str(word);
+        current.push_str(&word.replace('\u{a0}', " "));
         empty = false;
     }
     line(out, &current);

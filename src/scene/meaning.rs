@@ -6,11 +6,11 @@ use super::{BlowImpulse, Body, ContactLaw, KnownQuantity, Parameter, Scene, Shap
 use num_traits::{One, Signed};
 
 use crate::dimension::Dimension;
-use crate::expr::{Expr, Node, Symbol, Vector};
+use crate::expr::{Expr, Node, Symbol, Vector, minus};
 use crate::formula::unicode_name;
 
-/// What a number is, with `{}` where a body stands, and of which body.
-type Use<'s> = (&'static str, Option<&'s str>, &'s Expr);
+/// What a number is, with `{}` where a body or a point stands, and of which.
+type Use<'s> = (&'static str, Option<&'s str>, Expr);
 
 /// What an angle of a velocity is, from the x axis or from the y axis.
 const TO: [&str; 2] = [
@@ -47,6 +47,14 @@ const PLACED: [&str; 4] = [
     "distance of {} to the left of the origin at first",
     "height of {} above the origin at first",
     "depth of {} below the origin at first",
+];
+
+/// The same of a point.
+const POINT: [&str; 4] = [
+    "distance of {} to the right of the origin",
+    "distance of {} to the left of the origin",
+    "height of {} above the origin",
+    "depth of {} below the origin",
 ];
 
 /// Gives words to the parameters that have none and stand alone for a number of a body, a contact or a motion.
@@ -119,7 +127,7 @@ fn words(scene: &Scene, uses: &[Use<'_>], name: &Symbol) -> Option<String> {
         bodies.extend(body.filter(|body| !bodies.contains(body)));
     }
     let moving = scene.moving().count();
-    if moving > 2 && bodies.len() == moving {
+    if moving > 2 && bodies.len() == moving && !POINT.contains(what) {
         return Some(what.replace("{}", "each body"));
     }
     let last = bodies.pop();
@@ -141,6 +149,9 @@ fn called(scene: &Scene, body: &str) -> String {
         _ => Default::default(),
     });
     let part = parts.find(is_it).map(Body::called);
+    let point = || scene.points.iter().find(|p| p.name == body);
+    let point = || Some(point()?.name.clone());
+    let part = part.or_else(point);
     let part = part.unwrap_or_else(|| format!("the {}", body.replace('_', " ")));
     match part.strip_prefix("body ") {
         Some(letter) => format!("part {letter}"),
@@ -158,44 +169,41 @@ fn uses(scene: &Scene) -> Vec<Use<'_>> {
     for at in [scene].into_iter().chain(stages) {
         of_impact(at, &mut out);
     }
-    for stage in &scene.stages {
-        out.extend(
-            stage
-                .kind
-                .gravity()
-                .map(|g| ("acceleration of gravity", None, g)),
-        );
-        of_motion(scene, &stage.kind, &mut out);
+    for (i, stage) in scene.stages.iter().enumerate() {
+        let gravity = stage.kind.gravity();
+        out.extend(gravity.map(|g| ("acceleration of gravity", None, g.clone())));
+        of_motion(scene, i, &mut out);
     }
-    // Where nothing else is told by a letter, it says where a body is.
+    // Where nothing else is told by a letter, it says where a body or a point is.
     let turns = |stage: &Stage| match &stage.kind {
         StageKind::Turn(turn) => turn.about.iter().all(Expr::is_zero),
         _ => false,
     };
     let turns = scene.stages.iter().any(turns);
-    for body in scene
-        .bodies
-        .iter()
-        .filter(|b| !matches!(b.shape, Shape::Fixed))
-    {
-        let [x, y] = &body.center;
+    let bodies = scene.bodies.iter();
+    for body in bodies.filter(|b| !matches!(b.shape, Shape::Fixed)) {
         if turns && let Some((size, None)) = polar(&body.center) {
-            out.push((
-                "distance of {} from the pivot at first",
-                Some(&body.name),
-                size,
-            ));
+            let what = "distance of {} from the pivot at first";
+            out.push((what, Some(&body.name), size.clone()));
         }
-        for (e, words) in [x, y].into_iter().zip(PLACED.chunks(2)) {
-            let words = words[usize::from(e.as_symbol().is_none())];
-            out.push((words, Some(&body.name), e));
-        }
+        placed(&body.name, &body.center, &PLACED, &mut out);
+    }
+    for point in &scene.points {
+        placed(&point.name, &point.at, &POINT, &mut out);
     }
     out
 }
 
+/// The coordinates of a place, the height first: of a letter that stands for both it says more.
+fn placed<'s>(name: &'s str, at: &'s Vector, words: &[&'static str; 4], out: &mut Vec<Use<'s>>) {
+    for (e, words) in at.iter().zip(words.chunks(2)).rev() {
+        let what = words[usize::from(e.as_symbol().is_none())];
+        out.push((what, Some(name), e.clone()));
+    }
+}
+
 fn of_body<'s>(body: &'s Body, out: &mut Vec<Use<'s>>) {
-    let mut push = |what, e| out.push((what, Some(body.name.as_str()), e));
+    let mut push = |what, e: &Expr| out.push((what, Some(body.name.as_str()), e.clone()));
     if !matches!(body.shape, Shape::Fixed) {
         push("mass of {}", &body.mass);
     }
@@ -289,22 +297,22 @@ fn of_impact<'s>(scene: &'s Scene, out: &mut Vec<Use<'s>>) {
     for contact in &scene.contacts {
         match &contact.law {
             ContactLaw::Frictionless { restitution } => {
-                out.push(("coefficient of restitution", None, restitution));
+                out.push(("coefficient of restitution", None, restitution.clone()));
             }
             ContactLaw::Friction(law) => {
-                out.push(("coefficient of restitution", None, &law.restitution));
-                out.push(("coefficient of friction", None, &law.mu));
+                out.push(("coefficient of restitution", None, law.restitution.clone()));
+                out.push(("coefficient of friction", None, law.mu.clone()));
             }
             _ => {}
         }
         let normal = contact.normal.iter().filter_map(inclination);
-        out.extend(normal.map(|(axis, angle)| (NORMAL[axis], None, angle)));
+        out.extend(normal.map(|(axis, angle)| (NORMAL[axis], None, angle.clone())));
     }
     for blow in &scene.blows {
         if let BlowImpulse::Given(impulse) = &blow.impulse
             && let Some((size, _)) = polar(impulse)
         {
-            out.push(("impulse of the blow", None, size));
+            out.push(("impulse of the blow", None, size.clone()));
         }
     }
     for known in &scene.after {
@@ -318,47 +326,56 @@ fn of_impact<'s>(scene: &'s Scene, out: &mut Vec<Use<'s>>) {
         let name = scene.bodies[known.body].name.as_str();
         // Of −u only the author knows what u is.
         if known.value.as_symbol().is_some() {
-            out.push((what, Some(name), &known.value));
+            out.push((what, Some(name), known.value.clone()));
         }
     }
 }
 
-fn of_motion<'s>(scene: &'s Scene, kind: &'s StageKind, out: &mut Vec<Use<'s>>) {
+fn of_motion<'s>(scene: &'s Scene, stage: usize, out: &mut Vec<Use<'s>>) {
     let name = |b: usize| Some(scene.bodies[b].name.as_str());
-    match kind {
+    match &scene.stages[stage].kind {
         StageKind::Turn(turn) => {
             match &turn.until {
-                Until::By(angle) => {
-                    out.push(("angle through which {} turns", name(turn.body), angle))
+                Until::By(angle) => out.push((
+                    "angle through which {} turns",
+                    name(turn.body),
+                    angle.clone(),
+                )),
+                Until::For(time) => {
+                    out.push(("time for which {} turns", name(turn.body), time.clone()))
                 }
-                Until::For(time) => out.push(("time for which {} turns", name(turn.body), time)),
                 _ => {}
             }
             let moment = turn.torque.iter();
-            out.extend(moment.map(|moment| ("moment on {}", name(turn.body), moment)));
-            if turn.about.iter().all(Expr::is_zero)
-                && let Some((size, angle)) = polar(&scene.bodies[turn.body].center)
+            out.extend(moment.map(|moment| ("moment on {}", name(turn.body), moment.clone())));
+            let arm = minus(&scene.bodies[turn.body].center, &turn.about);
+            let stays =
+                |stage: &Stage| !matches!(stage.kind, StageKind::Fall(_) | StageKind::Slide(_));
+            if scene.stages[..stage].iter().all(stays)
+                && let Some((size, angle)) = polar(&arm)
             {
                 let about = "distance of {} from the point about which it turns";
-                out.push((about, name(turn.body), size));
-                out.extend(angle.map(|(axis, angle)| (FROM[axis], name(turn.body), angle)));
+                out.push((about, name(turn.body), size.clone()));
+                out.extend(angle.map(|(axis, angle)| (FROM[axis], name(turn.body), angle.clone())));
             }
         }
         StageKind::Slide(slide) => {
             let friction = slide.friction.iter();
-            out.extend(friction.map(|mu| ("coefficient of sliding friction", None, mu)));
+            out.extend(friction.map(|mu| ("coefficient of sliding friction", None, mu.clone())));
             let spring = slide.spring.iter();
-            out.extend(spring.map(|spring| ("stiffness of the spring", None, &spring.stiffness)));
+            out.extend(
+                spring.map(|spring| ("stiffness of the spring", None, spring.stiffness.clone())),
+            );
             let slope = inclination(&slide.along);
-            out.extend(slope.map(|(axis, angle)| (SLOPE[axis], name(slide.body), angle)));
+            out.extend(slope.map(|(axis, angle)| (SLOPE[axis], name(slide.body), angle.clone())));
             let force = slide.force.iter();
-            out.extend(force.map(|force| ("force along the line", None, force)));
+            out.extend(force.map(|force| ("force along the line", None, force.clone())));
             match &slide.until {
                 SlideEnd::Distance(way) => {
-                    out.push(("distance that {} goes", name(slide.body), way))
+                    out.push(("distance that {} goes", name(slide.body), way.clone()))
                 }
                 SlideEnd::Time(time) => {
-                    out.push(("time for which {} moves", name(slide.body), time))
+                    out.push(("time for which {} moves", name(slide.body), time.clone()))
                 }
                 _ => {}
             }
@@ -370,12 +387,16 @@ fn of_motion<'s>(scene: &'s Scene, kind: &'s StageKind, out: &mut Vec<Use<'s>>) 
                 } else {
                     "height of the fall of {}"
                 };
-                out.push((what, name(fall.body), height));
+                out.push((what, name(fall.body), height.clone()));
             }
-            FallEnd::Range(range) => {
-                out.push(("horizontal distance that {} flies", name(fall.body), range))
+            FallEnd::Range(range) => out.push((
+                "horizontal distance that {} flies",
+                name(fall.body),
+                range.clone(),
+            )),
+            FallEnd::Time(time) => {
+                out.push(("time for which {} flies", name(fall.body), time.clone()))
             }
-            FallEnd::Time(time) => out.push(("time for which {} flies", name(fall.body), time)),
             _ => {}
         },
         _ => {}

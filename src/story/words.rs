@@ -355,6 +355,7 @@ fn sliding(stage: &Stage, told: &StageTold, slide: &Slide) -> Sentence {
     if told.time.as_ref().is_some_and(Expr::is_zero) {
         return match (&slide.until, one) {
             (SlideEnd::Rolls, _) => sentence!("{} rolls already", lead),
+            (SlideEnd::Distance(_), _) => sentence!("{} covers no distance here", lead),
             (_, true) => sentence!("{} is at rest already", lead),
             (_, false) => sentence!("{} are at rest already", lead),
         };
