@@ -419,7 +419,7 @@ fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {
         let sought = sought_in(ctx, &expected.difference, &answer.difference);
         let mut plain = pair.clone();
         let [mine, theirs] = plain.each_mut().map(|n| divide(n, &sought, &domains));
-        if are_equations([&mine, &theirs]) {
+        if are_equations([&mine, &theirs], pair.each_ref().map(|n| &n.difference)) {
             plain = pair.clone();
         }
         let given: Vec<String> = mine.iter().chain(&theirs).map(not_zero).collect();
@@ -531,11 +531,14 @@ fn divide(n: &mut Normal, sought: &BTreeSet<Symbol>, domains: &Domains) -> Vec<E
     free.iter().filter(open).cloned().collect()
 }
 
-/// Whether what only either of two equations has may be what it says: `v − w` and `u − b` beside the factor `M − m` of both.
-fn are_equations<'e>(each: [impl IntoIterator<Item = &'e Expr>; 2]) -> bool {
+/// Whether what only either of two equations has may be what it says: `v − w` and `u − b` beside the factor `M − m` of both,
+/// or v and u where each equation is written as a product that is zero.
+fn are_equations<'e>(each: [impl IntoIterator<Item = &'e Expr>; 2], whole: [&Expr; 2]) -> bool {
     let [mine, theirs] = each.map(|parts| parts.into_iter().collect::<Vec<_>>());
     let is_sum = |e: &&Expr| matches!(e.node(), Node::Sum(_));
-    !mine.is_empty() && !theirs.is_empty() && mine.iter().chain(&theirs).any(is_sum)
+    let are_products = whole.iter().all(|e| matches!(e.node(), Node::Product(_)));
+    let each_has_own = !mine.is_empty() && !theirs.is_empty();
+    each_has_own && (are_products || mine.iter().chain(&theirs).any(is_sum))
 }
 
 fn as_written(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {

@@ -292,7 +292,7 @@ impl Desk<'_> {
             return Ok(());
         }
         if finding.holds == Some(false) && finding.explained.is_none() {
-            self.caught(&all, finding);
+            self.caught(&all, printed, finding);
             finding.explained = self
                 .before(item, &all)
                 .or_else(|| self.place(item, &all))
@@ -390,7 +390,7 @@ impl Desk<'_> {
             finding.carom = shown.collect::<Vec<_>>().join(" against ");
             self.identities(&pairs, printed, finding);
             if finding.holds == Some(false) {
-                self.caught(&pairs, finding);
+                self.caught(&pairs, printed, finding);
                 finding.explained = self
                     .turned(sides, printed)
                     .or_else(|| self.factor(&pairs))
