@@ -12,6 +12,7 @@ mod equations;
 mod factor;
 mod inequality;
 mod inside;
+mod least;
 mod listed;
 mod locus;
 mod plain;
@@ -37,6 +38,7 @@ use cells::Cases;
 use equations::{GAINED, LOST, alternatives, equations, told};
 use inequality::inequalities;
 pub(super) use inside::{angle_in, below_in, size_in, under_root};
+pub(super) use least::of_which;
 use num_traits::Signed;
 use points::{apart_at_points, apart_in_cases, holding};
 pub(super) use solved::solve_for;
@@ -70,6 +72,19 @@ pub(crate) fn compare(
     (sides, signs): (&[Content], &[Relation]),
     (mine, my_signs): (&[Content], &[Relation]),
 ) -> Grade {
+    if let Some([name, value]) = least::as_bound((sides, signs), (mine, my_signs)) {
+        let sign = match sides.first() == Some(&name) {
+            true => signs[0],
+            false => signs[0].turned(),
+        };
+        let mut found = compare(ctx, (sides, signs), (&[name, value], &[sign]));
+        if found.is_equivalent() {
+            let words =
+                "the bound is told as the least or largest value; whether it counts itself is not";
+            found.assume(vec![words.into()]);
+        }
+        return found;
+    }
     let (Some(expected), Some(answer)) = (links(sides, signs), links(mine, my_signs)) else {
         let words = "the relation holds something that is not a plain expression";
         return Grade::different("DIFF_KIND", "kind", words);
