@@ -49,6 +49,7 @@ pub fn sheet(scene: Scene) -> Result<(Sheet, Vec<String>), String> {
         accelerations: story::accelerations(&worked.told),
         coefficients: coefficients.clone(),
         story: (story.clone()).map(|scene| Story::new(scene, answers)),
+        spoken: Vec::new(),
         otherwise: Vec::new(),
     });
     let mut ways: Vec<Sheet> = ways.collect();

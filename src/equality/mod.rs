@@ -18,9 +18,11 @@ mod proof;
 mod refute;
 mod verdict;
 
-use crate::algebra::Stop;
+use std::collections::BTreeSet;
+
+use crate::algebra::{self, Stop};
 use crate::domain::{Domain, Domains, Roles, Sample, at_ends, roles, samples};
-use crate::expr::{Expr, Node, effort};
+use crate::expr::{Expr, Node, Symbol, effort};
 pub(crate) use gap::{divisors, poles};
 pub(crate) use line::zero_apart;
 use measure::Size;
@@ -28,6 +30,7 @@ pub(crate) use measure::work;
 pub use modular::AtPoints;
 use pinned::Pin;
 use proof::Proof;
+pub(crate) use refute::sign_at;
 use refute::{Probe, Tally};
 pub use verdict::{
     Assumption, Condition, Counterexample, Decision, Equality, Evidence, Ground, How, Reason, Side,
@@ -274,37 +277,69 @@ impl Search<'_> {
             .unwrap_or(open)
     }
 
-    /// A proof for what is above zero and one for what is below, where the absolute value of a symbol stands in the way: cos|x|
-    /// is cos x in both.
+    /// A proof for what is above zero and one for what is below, where the absolute values of one symbol or two stand in the
+    /// way: cos|x| is cos x in both. Where something that must not be negative is so, there is nothing to prove.
     fn on_halves(&self, open: &Proof) -> Option<Proof> {
         let Proof::Unequal { folded, .. } = open else {
             return None;
         };
-        let name = folded.iter().find_map(Expr::as_symbol)?;
-        let domain = self.domains.symbols.get(name)?;
-        if !domain.changes_sign() || self.domains.is_component(name) {
+        let is_split = |name: &&Symbol| {
+            let changes = self.domains.symbols.get(*name);
+            changes.is_some_and(Domain::changes_sign) && !self.domains.is_component(name)
+        };
+        let plain = folded.iter().filter(|e| !matches!(e.node(), Node::Sum(_)));
+        let names: BTreeSet<Symbol> = plain.flat_map(Expr::symbols).collect();
+        let names: Vec<&Symbol> = names.iter().filter(is_split).collect();
+        if names.is_empty() || names.len() > 2 {
             return None;
         }
-        let x = Expr::symbol(name);
-        let mut grounds = [true, false].map(|positive| {
+        let needed = self.needed();
+        let (mut used, mut ground) = (Vec::new(), None);
+        for signs in 0..1 << names.len() {
             let mut half = self.domains.clone();
-            half.symbols.insert(name.clone(), domain.half(positive));
-            let value = if positive { x.clone() } else { -&x };
-            let [a, b] = [self.a, self.b].map(|e| branch::unfold(e, &x, &value));
+            let mut pair = [self.a.clone(), self.b.clone()];
+            for (i, name) in names.iter().enumerate() {
+                let positive = signs >> i & 1 == 0;
+                let x = Expr::symbol(name);
+                let value = if positive { x.clone() } else { -&x };
+                pair = pair.map(|e| branch::unfold(&e, &x, &value));
+                if let Some(domain) = half.symbols.get_mut(*name) {
+                    *domain = domain.half(positive);
+                    if self.divides_by(name) {
+                        domain.leave_out(0);
+                    }
+                }
+            }
+            let below = |e: &Expr| algebra::sign(e, &half) == Some(algebra::Sign::Negative);
+            if let Some(none) = needed.iter().find(|e| below(e)) {
+                used.push(none.clone());
+                continue;
+            }
+            let [a, b] = pair;
             let proof = match proof::compare(&a, &b, &half) {
                 known @ Proof::Equal(..) => known,
                 _ => arcs::prove(&a, &b, &half)?,
             };
             match proof {
-                Proof::Equal(assumed, ground) if assumed.is_empty() => Some(ground),
-                _ => None,
+                Proof::Equal(assumed, found) if assumed.is_empty() => {
+                    ground.get_or_insert(found);
+                }
+                _ => return None,
             }
-        });
-        let ground = grounds[0].take();
-        Some(Proof::Equal(
-            Vec::new(),
-            ground.filter(|_| grounds[1].is_some())?,
-        ))
+        }
+        used.dedup();
+        Proof::Equal(Vec::new(), ground?).with_roots(used)
+    }
+
+    /// Whether one of the two has no value where a symbol is zero.
+    fn divides_by(&self, name: &Symbol) -> bool {
+        [self.a, self.b].into_iter().any(|e| {
+            let there = e.put(name, &Expr::zero());
+            matches!(
+                algebra::Field::of(self.domains, &there),
+                Err(Stop::DivisionByZero)
+            )
+        })
     }
 
     /// What must not be negative where both have values.

@@ -240,7 +240,7 @@ pub(super) fn enclosure(value: &Value) -> Option<Enclosure> {
 }
 
 /// The sign of an expression at a point, where enclosures tell it.
-pub(super) fn sign_at(e: &Expr, at: &Sample) -> Option<i32> {
+pub(crate) fn sign_at(e: &Expr, at: &Sample) -> Option<i32> {
     // Arc tangents for the radians of known directions cost more than the rest; they are rarely needed.
     let value = [false, true].into_iter().find_map(|radians| {
         match evaluate::<Big<192>>(e, &at.point(radians)) {

@@ -1,6 +1,6 @@
 //! Bounds in words, and behind a sign that begins an answer: `at least 3 m/s`, `v must exceed 2`, `between 0 and 1`, `≥ 3`.
 
-use super::several::UNNAMED;
+use super::sets::UNNAMED;
 use super::together::together;
 use super::{Content, Join, Note, Reading, Relation, Remark, Symbols, prose, read_either};
 use crate::expr::Expr;

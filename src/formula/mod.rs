@@ -29,6 +29,7 @@ mod product;
 mod prose;
 mod quotient;
 mod sentence;
+mod sets;
 mod several;
 mod symbols;
 mod tex;
@@ -57,7 +58,8 @@ pub(crate) use prose::{beside_condition, changes, concluded};
 pub use quotient::Quotient;
 pub(crate) use sentence::sentence;
 pub use sentence::{Piece, Sentence, capital, either, listed, sides, trimmed};
-pub(crate) use several::{UNNAMED, letters_apart, relations};
+pub(crate) use sets::UNNAMED;
+pub(crate) use several::{letters_apart, relations};
 pub use symbols::{Declared, Symbols, letter};
 pub(crate) use symbols::{is_angle_name, is_greek, letters};
 pub(crate) use together::values_of_one;
@@ -167,8 +169,8 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
     {
         return pair;
     }
-    if held.any(",;")
-        && let Some(between) = several::interval(text, symbols, false)
+    if (held.any(",;") || held.any("{") && sets::leaves_out(text))
+        && let Some(between) = sets::interval(text, symbols, false)
     {
         return Ok(between);
     }
@@ -326,7 +328,7 @@ fn read_full_width(text: &str, symbols: &Symbols) -> Option<Result<Reading, Faul
 /// Reads a pair of numbers in brackets as an interval: `(0, 1)` and `[0, 1]`.
 pub(crate) fn read_interval(text: &str, symbols: &Symbols) -> Option<Reading> {
     let short = text.len() <= MAX_BYTES && text.contains([',', ';']);
-    short.then(|| several::interval(text, symbols, true))?
+    short.then(|| sets::interval(text, symbols, true))?
 }
 
 /// A formula with words around or before it.

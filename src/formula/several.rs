@@ -6,14 +6,8 @@ use super::frames::{below_each_other, without_braces};
 use super::prose::{Held, lead_to_values};
 use super::together::together;
 use super::{
-    Content, Fault, Join, MAX_BYTES, Reading, Relation, Remark, Symbols, framed, plain_unit,
-    read_either,
+    Content, Fault, Join, MAX_BYTES, Reading, Relation, Remark, Symbols, framed, read_either,
 };
-use crate::dimension;
-use crate::expr::Expr;
-
-/// What lies in an interval that is written without a name, `[0, 1)`.
-pub(crate) const UNNAMED: &str = "·";
 
 /// Signs that join two relations.
 const LOGIC: [&str; 6] = ["∨", "∧", "\\lor", "\\land", "\\vee", "\\wedge"];
@@ -39,85 +33,8 @@ const AND: [&str; 4] = ["and", "∧", "\\wedge", "\\land"];
 /// Most values or bounds of one text.
 pub(super) const MOST: usize = 12;
 
-/// `x ∈ [2, 3)`, `x in (0, ∞)`, `x ∈ (−∞, 1) ∪ (2, 3]` and `[0, 1)` as the relations they stand for; without a name only what
-/// could be no vector, unless `pairs` are intervals too.
-pub(super) fn interval(text: &str, symbols: &Symbols, pairs: bool) -> Option<Reading> {
-    const SIGNS: [&str; 6] = ["∈", "\\in ", "\\in\\", "\\in(", "\\in[", " in "];
-    let (mut start, mut stop) = framed(text);
-    let plain = |c: char| c.is_whitespace() || c == '$';
-    start = stop - text[start..stop].trim_start_matches(plain).len();
-    stop = start
-        + text[start..stop]
-            .trim_end_matches(|c| plain(c) || c == '.')
-            .len();
-    let signed = |sign: &&'static str| Some((start + text[start..stop].find(*sign)?, *sign));
-    let sign = SIGNS.iter().find_map(signed);
-    // What opens the interval stands behind the word.
-    let behind = sign.map(|(at, sign)| at + sign.trim_end_matches(['\\', '(', '[']).len());
-    // `[2, 5] m`: the unit of both ends.
-    let close = start + text[start..stop].rfind([')', ']', '['])? + 1;
-    let behind_it = plain_unit(&text[close..stop]).filter(|plain| !plain.trim().is_empty());
-    let unit = behind_it.and_then(|plain| Some((dimension::unit(&plain).ok()?, plain)));
-    stop = if unit.is_some() { close } else { stop };
-    let part = |[from, to]: [usize; 2]| {
-        let read = read_either(&text[..to], from, symbols, 0).ok();
-        let mut read = read.filter(|reading| {
-            matches!(reading.content, Content::Scalar(_) | Content::Quantity(_))
-        })?;
-        if let Some((unit, plain)) = &unit {
-            read.content = read.content.in_unit(unit, plain.trim());
-        }
-        Some(read)
-    };
-    let pieces = pieces(text, [behind.unwrap_or(start), stop]);
-    if pieces.len() > MOST {
-        return None;
-    }
-    let ends: Vec<Ends> = pieces
-        .iter()
-        .map(|piece| ends(text, *piece))
-        .collect::<Option<_>>()?;
-    if sign.is_none() && !pairs && ends.len() == 1 && ends[0].may_be_pair {
-        return None;
-    }
-    let (name, mut reading) = match sign {
-        Some((at, _)) => {
-            let name = part([start, at])?;
-            (name.content.clone(), name)
-        }
-        None => {
-            let end = ends[0].low.or(ends[0].high)?;
-            (Content::Scalar(Expr::symbol(UNNAMED)), part(end)?)
-        }
-    };
-    let mut cases = Vec::new();
-    for ends in &ends {
-        let mut sides = vec![name.clone()];
-        let mut signs = Vec::new();
-        let strict = |open: bool| match open {
-            true => Relation::Less,
-            false => Relation::LessEqual,
-        };
-        if let Some(low) = ends.low {
-            sides.insert(0, part(low)?.content);
-            signs.push(strict(ends.open[0]));
-        }
-        if let Some(high) = ends.high {
-            sides.push(part(high)?.content);
-            signs.push(strict(ends.open[1]));
-        }
-        if signs.is_empty() {
-            return None;
-        }
-        cases.push(Content::Relations(sides, signs));
-    }
-    reading.content = joined(Join::Or, cases)?;
-    reading.literal = None;
-    Some(reading)
-}
-
 /// Several relations as one content; the only one as it is.
-fn joined(join: Join, mut parts: Vec<Content>) -> Option<Content> {
+pub(super) fn joined(join: Join, mut parts: Vec<Content>) -> Option<Content> {
     match parts.len() {
         0 => None,
         1 => parts.pop(),
@@ -125,41 +42,8 @@ fn joined(join: Join, mut parts: Vec<Content>) -> Option<Content> {
     }
 }
 
-/// The parts of a union of sets.
-fn pieces(text: &str, [from, stop]: [usize; 2]) -> Vec<[usize; 2]> {
-    const SIGNS: [&str; 3] = ["∪", "\\cup", "\\bigcup"];
-    const WORDS: [&str; 3] = ["U", "u", "or"];
-    let mut out = Vec::new();
-    let mut start = from;
-    loop {
-        let rest = &text[start..stop];
-        // A letter or a word joins two intervals where it stands between their brackets.
-        let between = |word: &str, at: usize| {
-            let closed = rest[..at].trim_end().ends_with([')', ']', '[']);
-            closed
-                && rest[at + word.len()..]
-                    .trim_start()
-                    .starts_with(['(', ']', '['])
-        };
-        let word = |word: &'static str| {
-            let mut found = rest.match_indices(word).map(|(at, _)| at);
-            Some((found.find(|at| between(word, *at))?, word.len()))
-        };
-        let sign = SIGNS
-            .iter()
-            .filter_map(|sign| Some((rest.find(sign)?, sign.len())));
-        let sign = sign.chain(WORDS.iter().filter_map(|name| word(name))).min();
-        let Some((at, length)) = sign else {
-            out.push([start, stop]);
-            return out;
-        };
-        out.push([start, start + at]);
-        start += at + length;
-    }
-}
-
 /// Whether an end is infinity, and then whether that is the positive one.
-fn infinity(end: &str) -> Option<bool> {
+pub(super) fn infinity(end: &str) -> Option<bool> {
     let end = end.trim_matches([' ', '$']);
     let size = end.trim_start_matches(['+', '-', '−']).trim_start();
     const NAMES: &str = "∞ \\infty infty inf oo infinity \\infin";
@@ -252,50 +136,6 @@ pub(super) fn without_infinity(text: &str, symbols: &Symbols) -> Option<String> 
         "",
         &text[start..stop].replace('$', " ")
     ))
-}
-
-/// An interval: where its ends stand, from the first byte of each to the one behind it.
-struct Ends {
-    /// Nothing where there is no end on that side.
-    low: Option<[usize; 2]>,
-    high: Option<[usize; 2]>,
-    /// Whether each end is left out.
-    open: [bool; 2],
-    /// Whether it could be two components in brackets as well.
-    may_be_pair: bool,
-}
-
-fn ends(text: &str, [from, stop]: [usize; 2]) -> Option<Ends> {
-    let rest = text[from..stop].trim_start();
-    let rest = rest.strip_prefix("\\left").unwrap_or(rest);
-    let closed = rest.trim_end();
-    let opened = rest.strip_prefix(['(', '[', ']'])?;
-    let from = stop - opened.len();
-    let inside = closed.strip_suffix([')', ']', '['])?;
-    let inside = inside.strip_suffix("\\right").unwrap_or(inside);
-    let to = from + inside.len().checked_sub(rest.len() - opened.len())?;
-    let between = text.get(from..to)?;
-    let comma = between.find([',', ';'])?;
-    let braces = between.contains(['{', '}']) && !between.contains('\\');
-    if between[comma + 1..].contains([',', ';']) || braces {
-        return None;
-    }
-    let bounded = |[from, to]: [usize; 2]| infinity(&text[from..to]).is_none();
-    let [low, high] = [[from, from + comma], [from + comma + 1, to]];
-    let (low, high) = (
-        Some(low).filter(|end| bounded(*end)),
-        Some(high).filter(|end| bounded(*end)),
-    );
-    let brackets = (rest.chars().next()?, closed.chars().next_back()?);
-    Some(Ends {
-        low,
-        high,
-        open: [
-            matches!(brackets.0, '(' | ']'),
-            matches!(brackets.1, ')' | '['),
-        ],
-        may_be_pair: matches!(brackets, ('(', ')') | ('[', ']')) && low.is_some() && high.is_some(),
-    })
 }
 
 /// A text with blanks between the letters of declared names that could be products of declared letters, `m u` for `mu`;

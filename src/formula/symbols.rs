@@ -165,6 +165,16 @@ impl Symbols {
         }
     }
 
+    /// Spells a declared name in another way, whatever was spelled so before.
+    pub(crate) fn respell(&mut self, name: &str, latex: &str) {
+        let index = self.declared.iter().position(|d| *d.name == *name);
+        if let (Some(index), Some(key)) = (index, super::name::key_of_latex(latex)) {
+            let letters = key.bytes().take_while(u8::is_ascii_alphabetic).count();
+            self.add_base(&key[..letters]);
+            self.keys.insert(key.into(), index);
+        }
+    }
+
     fn add_base(&mut self, base: &str) {
         if base.len() > 1 {
             self.longest_base = self.longest_base.max(base.len());

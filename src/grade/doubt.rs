@@ -6,8 +6,8 @@ mod unread;
 use super::compare;
 use super::{Diagnosis, Grade, Key, Options, Proof, Verdict, read, show};
 use crate::dimension;
-use crate::expr::{Expr, Node, Point};
-use crate::formula::{self, Content, Fault, Note, Reading, Relation, Remark};
+use crate::expr::{Expr, Node, Point, Symbol};
+use crate::formula::{self, Content, Fault, Note, Reading, Relation, Remark, Symbols};
 pub(super) use letters::{any_whole_number, euler, imaginary, primes};
 pub(super) use unread::{mixed, number, unread};
 
@@ -126,6 +126,21 @@ fn ambiguous(finding: &mut Grade, words: &str, hint: &str) {
     finding.diagnosis = vec![Diagnosis::new("AMBIGUOUS", words, hint)];
 }
 
+/// The names with which an answer was read: those of its question, and its own name for what it gives.
+fn readable(key: &Key, reading: &Reading) -> Symbols {
+    let mut names = key.readable.clone();
+    if key.question.closed {
+        let known = |name: &Symbol| names.declared().iter().any(|d| d.name == *name);
+        let own: Vec<Symbol> = reading
+            .symbols()
+            .into_iter()
+            .filter(|n| !known(n))
+            .collect();
+        own.iter().for_each(|name| names.declare(name));
+    }
+    names
+}
+
 /// An answer that is wrong as it is usually read, and right with every slash turned round, is right, and is told how it was
 /// taken: people differ about slashes. So is `acosφ` that is right as a times the cosine.
 pub(super) fn turned(
@@ -143,10 +158,11 @@ pub(super) fn turned(
     if !(reading.slashes || arcs) || finding.verdict != Verdict::Different {
         return;
     }
-    let slashes = || formula::slashes_turned(answer, &key.readable);
+    let names = readable(key, reading);
+    let slashes = || formula::slashes_turned(answer, &names);
     let slashes = reading.slashes.then(slashes);
     let factors = || {
-        let mut others = formula::other_readings(answer, &key.readable, false);
+        let mut others = formula::other_readings(answer, &names, false);
         others.retain(|other| arc(&other.notes, false));
         others
     };
@@ -276,7 +292,7 @@ pub(super) fn ambiguity(
         return;
     }
     let plain = options.plain();
-    let mut others = formula::other_readings(answer, &key.readable, false);
+    let mut others = formula::other_readings(answer, &readable(key, reading), false);
     if let Some(content) = power_of_function(&reading.content) {
         others.push(reading.with(content));
     }

@@ -279,6 +279,25 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
     }
 }
 
+/// An answer without the words in brackets behind it, `v_1 = m v/(m+M) (by conservation of momentum)`: none that could change it,
+/// such as `(if e = 1)` or `(negative)`, and no name.
+fn without_remark(text: &str) -> Option<&str> {
+    let (before, inside) = text.trim_end().strip_suffix(')')?.rsplit_once(" (")?;
+    let words: Vec<&str> = inside.split(' ').collect();
+    let is_word = |word: &&str| {
+        let word = word.trim_end_matches([',', '.']);
+        let plain = word.len() > 1 || word == "a";
+        plain && word.chars().all(|c| c.is_alphabetic() && c.is_lowercase())
+    };
+    const CONDITIONS: &str = "when where while for upward upwards down downward downwards up left right clockwise \
+        counterclockwise anticlockwise approximately about roughly each both";
+    let changes = |word: &&str| {
+        formula::changes(word) || CONDITIONS.split_whitespace().any(|other| other == *word)
+    };
+    let is_remark = words.iter().all(is_word) && !words.iter().any(changes);
+    (is_remark && words.iter().any(|word| word.len() > 2)).then_some(before)
+}
+
 /// Where a vector is asked, `(2,3)` and `2, 3` are one, and so is `2i + 3j`.
 fn as_vector(key: &Key, text: &str) -> Option<(String, Reading)> {
     let content = &key.reading.content;
@@ -310,8 +329,16 @@ fn includes_ends(content: &Content) -> bool {
     }
 }
 
-/// An answer that cannot be read with the names of its question alone: with a unit apart, or names of its own.
+/// An answer that cannot be read as it stands: by names of its own, or without a remark behind it.
 fn mended(key: &Key, text: &str, fault: Fault) -> Result<Reading, Fault> {
+    by_own_names(key, text, fault).or_else(|fault| {
+        let plain = without_remark(text).and_then(|plain| answer(key, plain).ok());
+        plain.ok_or(fault)
+    })
+}
+
+/// An answer that cannot be read with the names of its question alone: with a unit apart, or names of its own.
+fn by_own_names(key: &Key, text: &str, fault: Fault) -> Result<Reading, Fault> {
     let numbered = text.contains(|c: char| c.is_ascii_digit())
         && !text.trim().starts_with(char::is_alphabetic);
     if quantitative(&key.reading) && !numbered && dimension::unit(text.trim()).is_ok() {

@@ -12,6 +12,7 @@ mod equations;
 mod factor;
 mod inequality;
 mod inside;
+mod least;
 mod listed;
 mod locus;
 mod plain;
@@ -37,6 +38,7 @@ use cells::Cases;
 use equations::{GAINED, LOST, alternatives, equations, told};
 use inequality::inequalities;
 pub(super) use inside::{angle_in, below_in, size_in, under_root};
+pub(super) use least::of_which;
 use num_traits::Signed;
 use points::{apart_at_points, apart_in_cases, holding};
 pub(super) use solved::solve_for;
@@ -70,6 +72,19 @@ pub(crate) fn compare(
     (sides, signs): (&[Content], &[Relation]),
     (mine, my_signs): (&[Content], &[Relation]),
 ) -> Grade {
+    if let Some([name, value]) = least::as_bound((sides, signs), (mine, my_signs)) {
+        let sign = match sides.first() == Some(&name) {
+            true => signs[0],
+            false => signs[0].turned(),
+        };
+        let mut found = compare(ctx, (sides, signs), (&[name, value], &[sign]));
+        if found.is_equivalent() {
+            let words =
+                "the bound is told as the least or largest value; whether it counts itself is not";
+            found.assume(vec![words.into()]);
+        }
+        return found;
+    }
     let (Some(expected), Some(answer)) = (links(sides, signs), links(mine, my_signs)) else {
         let words = "the relation holds something that is not a plain expression";
         return Grade::different("DIFF_KIND", "kind", words);
@@ -419,7 +434,7 @@ fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {
         let sought = sought_in(ctx, &expected.difference, &answer.difference);
         let mut plain = pair.clone();
         let [mine, theirs] = plain.each_mut().map(|n| divide(n, &sought, &domains));
-        if are_equations([&mine, &theirs]) {
+        if are_equations([&mine, &theirs], pair.each_ref().map(|n| &n.difference)) {
             plain = pair.clone();
         }
         let given: Vec<String> = mine.iter().chain(&theirs).map(not_zero).collect();
@@ -531,11 +546,14 @@ fn divide(n: &mut Normal, sought: &BTreeSet<Symbol>, domains: &Domains) -> Vec<E
     free.iter().filter(open).cloned().collect()
 }
 
-/// Whether what only either of two equations has may be what it says: `v − w` and `u − b` beside the factor `M − m` of both.
-fn are_equations<'e>(each: [impl IntoIterator<Item = &'e Expr>; 2]) -> bool {
+/// Whether what only either of two equations has may be what it says: `v − w` and `u − b` beside the factor `M − m` of both,
+/// or v and u where each equation is written as a product that is zero.
+fn are_equations<'e>(each: [impl IntoIterator<Item = &'e Expr>; 2], whole: [&Expr; 2]) -> bool {
     let [mine, theirs] = each.map(|parts| parts.into_iter().collect::<Vec<_>>());
     let is_sum = |e: &&Expr| matches!(e.node(), Node::Sum(_));
-    !mine.is_empty() && !theirs.is_empty() && mine.iter().chain(&theirs).any(is_sum)
+    let are_products = whole.iter().all(|e| matches!(e.node(), Node::Product(_)));
+    let each_has_own = !mine.is_empty() && !theirs.is_empty();
+    each_has_own && (are_products || mine.iter().chain(&theirs).any(is_sum))
 }
 
 fn as_written(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {

@@ -14,7 +14,7 @@ use crate::derive::{self, Derivation, Moment};
 use crate::domain::Domains;
 use crate::equality;
 use crate::expr::{Expr, Symbol};
-use crate::formula::{self, Content, Relation, Sentence};
+use crate::formula::{self, Content, Relation, Sentence, Symbols};
 use crate::scene::{self, Ask, Print, Scene};
 use crate::verify::printed::{Finding, UNEXPLAINED};
 
@@ -43,6 +43,8 @@ pub struct Sheet {
     pub story: Option<Story>,
     /// What must hold for these answers, in words; empty where they hold on the whole domain.
     pub given: Vec<String>,
+    /// Letters of somebody's own for parameters: `m` for what the scene calls M.
+    pub spoken: Vec<(Symbol, String)>,
     /// The same scene as it goes otherwise, where supports, strings or friction leave several ways.
     pub otherwise: Vec<Sheet>,
 }
@@ -109,6 +111,7 @@ pub fn sheet(scene: Scene) -> Result<Sheet, derive::Stop> {
         coefficients: Vec::new(),
         story: None,
         given: Vec::new(),
+        spoken: Vec::new(),
         otherwise: Vec::new(),
     })
 }
@@ -153,6 +156,14 @@ impl Sheet {
             Some(Bound::new(name, mu, *relation, answer.formula()?))
         });
         self.all.iter().filter_map(bound).chain(friction)
+    }
+
+    /// Declares the parameters, by the letters that somebody gives them.
+    pub fn declare(&self, symbols: &mut Symbols) {
+        self.scene.declare_parameters(symbols);
+        for (name, letter) in &self.spoken {
+            symbols.respell(name, letter);
+        }
     }
 
     /// What the answers take for granted of a parameter, solved for it: `u ≥ 2√(g l)`, so that a bob gets to the top.

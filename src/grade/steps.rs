@@ -21,6 +21,7 @@ mod pages;
 mod rounded;
 mod said;
 mod sought;
+mod spoken;
 mod start;
 mod tending;
 mod text;
@@ -149,10 +150,19 @@ struct Meant {
 /// Numbers that it gives the scene are those of the scene, but an answer in such numbers is none to what is asked.
 pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
     let plain = pages::joined(text);
+    let spoken = spoken::letters(&sheet.scene, &plain);
+    let lettered = (!spoken.is_empty()).then(|| Sheet {
+        spoken,
+        ..sheet.clone()
+    });
+    let sheet = lettered.as_ref().unwrap_or(sheet);
     let Some(valued) = pages::with_numbers(sheet, &plain) else {
-        return checked(sheet, text, &plain, options);
+        let mut worked = checked(sheet, text, &plain, options);
+        tell_own_data(sheet, &plain, &mut worked);
+        return worked;
     };
     let mut worked = checked(&valued, text, &plain, options);
+    tell_own_data(sheet, &plain, &mut worked);
     let lines = &worked.lines;
     for (name, told) in &mut worked.finals {
         let right = told
@@ -172,6 +182,25 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
         }
     }
     worked
+}
+
+/// Tells of lines that hold as data that the numbers in them are the student's own: the scene gives none.
+fn tell_own_data(sheet: &Sheet, plain: &str, worked: &mut Worked) {
+    let texts: Vec<&str> = plain.lines().collect();
+    let holds = |line: &&mut Line| line.status == Status::Holds && line.diagnosis.is_empty();
+    for line in worked.lines.iter_mut().filter(holds) {
+        let text = texts.get(line.number - 1).copied().unwrap_or_default();
+        let own = pages::numbers(sheet, text).unwrap_or_default();
+        let names: Vec<&str> = own.iter().map(|(name, _)| &**name).collect();
+        if !names.is_empty() {
+            let words = format!(
+                "a number of your own: the scene gives {} no value",
+                names.join(", ")
+            );
+            let hint = "is it given? an answer that rests on it is none in general";
+            line.diagnosis.push(Diagnosis::new("OWN_DATA", words, hint));
+        }
+    }
 }
 
 /// The same by the values of the scene.

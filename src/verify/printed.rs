@@ -24,7 +24,7 @@ use crate::derive::Derivation;
 use crate::domain::{self, Domains, Origin};
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol};
-use crate::formula::{Content, Relation, Sentence};
+use crate::formula::{self, Content, Relation, Sentence};
 use crate::scene::{Ask, Print, Printed, Scene};
 
 /// The finding about one printed thing.
@@ -56,6 +56,9 @@ pub struct Finding {
     /// The cheap check that would have caught it.
     pub caught_by: Option<String>,
 }
+
+/// Most readings of one text that are tried beside the usual one.
+const MOST_READINGS: usize = 4;
 
 /// What is said where nothing explains a wrong thing.
 pub const UNEXPLAINED: &str = "no single slip of the pen leads to it";
@@ -176,6 +179,9 @@ impl Desk<'_> {
         if let Err(message) = outcome {
             finding.because = message;
         }
+        if finding.holds == Some(false) {
+            self.read_otherwise(printed, &mut finding);
+        }
         if let Some(excluded) = self.excluded(printed) {
             let because =
                 format!("at these values the answer is another one; this one needs {excluded}");
@@ -190,6 +196,32 @@ impl Desk<'_> {
             };
         }
         finding
+    }
+
+    /// What does not hold as it is usually read, and holds in another reading, is open: no habit decides how far `√ab` reaches.
+    fn read_otherwise(&self, printed: &Printed, finding: &mut Finding) {
+        let text = match &printed.what {
+            Print::Formula { text, .. } | Print::Equation { text, .. } => text,
+            Print::Number { .. } | Print::Matrix { .. } => return,
+        };
+        let others = formula::other_readings(text, &self.symbols(printed), false);
+        for other in others.iter().take(MOST_READINGS) {
+            let Some(shown) = plain(&other.content) else {
+                continue;
+            };
+            let mut found = Finding::default();
+            let outcome = match &printed.what {
+                Print::Formula { item, .. } => self.answer(printed, item, &shown, &mut found),
+                _ => self.equation(printed, &shown, &mut found),
+            };
+            if outcome.is_ok() && found.holds == Some(true) {
+                finding.holds = None;
+                finding.because =
+                    format!("as it is usually read it does not hold; read as {shown} it does");
+                (finding.explained, finding.caught_by) = (None, None);
+                return;
+            }
+        }
     }
 
     /// Whether an answer is a spin that counts clockwise.
@@ -292,7 +324,7 @@ impl Desk<'_> {
             return Ok(());
         }
         if finding.holds == Some(false) && finding.explained.is_none() {
-            self.caught(&all, finding);
+            self.caught(&all, printed, finding);
             finding.explained = self
                 .before(item, &all)
                 .or_else(|| self.place(item, &all))
@@ -390,7 +422,7 @@ impl Desk<'_> {
             finding.carom = shown.collect::<Vec<_>>().join(" against ");
             self.identities(&pairs, printed, finding);
             if finding.holds == Some(false) {
-                self.caught(&pairs, finding);
+                self.caught(&pairs, printed, finding);
                 finding.explained = self
                     .turned(sides, printed)
                     .or_else(|| self.factor(&pairs))
@@ -459,4 +491,17 @@ impl Desk<'_> {
         }
         finding.holds = holds;
     }
+}
+
+/// An expression, or expressions with relations between them, in plain notation.
+fn plain(content: &Content) -> Option<String> {
+    let side = |side: &Content| side.expr().map(formula::write_plain);
+    let Content::Relations(sides, signs) = content else {
+        return side(content);
+    };
+    let mut out = side(sides.first()?)?;
+    for (sign, next) in signs.iter().zip(&sides[1..]) {
+        out.push_str(&format!(" {} {}", sign.sign(), side(next)?));
+    }
+    Some(out)
 }

@@ -46,6 +46,8 @@ fn is_number(text: &str) -> bool {
 /// A formula with names of its own that are said behind it: `m d v/I where I = M l^2/3 + m d^2`; or before it,
 /// `I = M l²/3 ⇒ ω = L/I`.
 pub(super) fn with_definitions(key: &Key, text: &str) -> Option<Reading> {
+    let text = text.replace(",\\ ", ", ").replace(",\\quad", ", ");
+    let text = text.as_str();
     let several = matches!(key.reading.content, Content::Joined(..));
     said_behind(key, text)
         .or_else(|| said_behind(key, &definitions_last(text).filter(|_| !several)?))

@@ -187,7 +187,8 @@ fn from_parts(
     }
     let sought = sought(shared);
     let free = |part: &Part| part.expr.symbols().is_disjoint(&sought);
-    let equations = are_equations([&lost, &gained].map(|parts| parts.iter().map(|p| &p.expr)));
+    let own = [&lost, &gained].map(|parts| parts.iter().map(|p| &p.expr));
+    let equations = are_equations(own, [f, g]);
     if !sought.is_empty() && !equations && lost.iter().chain(&gained).all(free) {
         let factors = lost.iter().chain(&gained);
         let given = factors.map(|part| not_zero(&part.expr)).collect();

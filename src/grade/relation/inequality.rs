@@ -65,16 +65,12 @@ fn by_extent(ctx: &Context, expected: &Normal, answer: &Normal) -> Option<Grade>
     let (f, g) = (&expected.difference, &answer.difference);
     match [expected, answer].map(|n| extent(n, domains)) {
         [Extent::All, Extent::All] | [Extent::None, Extent::None] => {
-            if !domains.relations.is_empty() {
-                let mut key = ctx.key.clone();
-                key.question.domains.relations.clear();
-                let wider = Context::new(&key, ctx.options, false);
-                let mut found = inequalities(&wider, expected, answer);
-                if found.is_equivalent() {
-                    let given = "compared beyond what is granted of the parameters";
-                    found.assume(vec![given.into()]);
-                    return Some(found);
-                }
+            if let Some(mut found) = beyond_granted(ctx, expected, answer)
+                && found.is_equivalent()
+            {
+                let given = "compared beyond what is granted of the parameters";
+                found.assume(vec![given.into()]);
+                return Some(found);
             }
             let reals = over_reals(domains, &[f, g]);
             let extents = [expected, answer].map(|n| extent(n, &reals));
@@ -101,12 +97,33 @@ fn by_extent(ctx: &Context, expected: &Normal, answer: &Normal) -> Option<Grade>
         }
         // Where one always or never holds, the other can say the same only if it does so on its boundary too.
         [Extent::All | Extent::None, Extent::Unknown] => {
-            Some(beside_boundary(ctx, answer, expected))
+            Some(at_the_edge(ctx, expected, answer, [answer, expected]))
         }
         [Extent::Unknown, Extent::All | Extent::None] => {
-            Some(beside_boundary(ctx, expected, answer))
+            Some(at_the_edge(ctx, expected, answer, [expected, answer]))
         }
         _ => None,
+    }
+}
+
+/// Two inequalities without what is granted of the parameters, where something is.
+fn beyond_granted(ctx: &Context, expected: &Normal, answer: &Normal) -> Option<Grade> {
+    let mut key = ctx.key.clone();
+    let granted = std::mem::take(&mut key.question.domains.relations);
+    let wider = Context::new(&key, ctx.options, false);
+    (!granted.is_empty()).then(|| inequalities(&wider, expected, answer))
+}
+
+/// Two inequalities that part on a boundary at most, of which the first of `pair` is open there.
+fn at_the_edge(ctx: &Context, expected: &Normal, answer: &Normal, pair: [&Normal; 2]) -> Grade {
+    let found = beside_boundary(ctx, pair[0], pair[1]);
+    let strict = || {
+        let wider = beyond_granted(ctx, expected, answer);
+        wider.filter(|wider| wider.note == "DIFF_STRICT")
+    };
+    match found.verdict {
+        Verdict::Undecided => strict().unwrap_or(found),
+        _ => found,
     }
 }
 

@@ -1,6 +1,7 @@
 //! Judges answers of a scene: formulas, numbers where the scene gives values, and what beliefs a wrong one shows.
 
 use super::super::believed::{self, Written};
+use super::super::relation::of_which;
 use super::super::worked::worked;
 use super::super::{
     Diagnosis, Grade, Key, Options, Proof, Strength, Tolerance, Verdict, fraction, judge_against,
@@ -295,7 +296,8 @@ impl Sheet {
                 Some(grade)
             }
             (_, Content::Relations(said, signs)) => {
-                let bound = self.bounds().find(|b| b.name == entry.name)?;
+                let bound = self.bounds().find(|b| b.name == entry.name);
+                let bound = bound.or_else(|| self.least(entry))?;
                 let equation = signs.iter().all(|s| *s == Relation::Equal);
                 if equation && !bound.is_in(said) {
                     return None;
@@ -323,6 +325,19 @@ impl Sheet {
             }
             _ => None,
         }
+    }
+
+    /// What a parameter has to be at least, or may be at most, where a value is asked by such a name: μ ≥ … for μ_min.
+    fn least(&self, entry: &Entry) -> Option<Bound> {
+        let value = entry.key.reading.content.expr()?;
+        let (of, relation) = of_which(&entry.name)?;
+        let is_free = self.scene.question(&of).is_none();
+        is_free.then(|| Bound {
+            name: entry.name.clone(),
+            parameter: of,
+            relation,
+            value: value.clone(),
+        })
     }
 
     /// Whether gravity or a time enters that neither the scene nor an answer names.

@@ -10,14 +10,17 @@ use crate::formula::{Content, Join, Piece, Relation, Sentence};
 pub(super) fn relations(answer: &Answer) -> Option<Content> {
     let mut found = answer.range.iter();
     let are_solutions = answer.range.len() > 1 && found.all(|r| r.1 == Relation::Equal);
-    let parts: Vec<Content> = match are_solutions {
-        true => {
-            let each = answer.range.iter();
-            each.map(|(of, sign, value)| related(&[of, value], &[*sign]))
-                .collect()
-        }
-        false => answer.text.iter().find_map(intervals)?,
-    };
+    let name = answer.range.first().map(|(of, ..)| of);
+    if let Some(name) = name.filter(|_| are_solutions) {
+        // What is said without a name, `2 or 3`, is one of the values as well.
+        let values = answer.range.iter().map(|(_, _, value)| value.clone());
+        let sides = vec![
+            Content::Scalar(name.clone()),
+            Content::Either(values.collect()),
+        ];
+        return Some(Content::Relations(sides, vec![Relation::Equal]));
+    }
+    let parts: Vec<Content> = answer.text.iter().find_map(intervals)?;
     match <[Content; 1]>::try_from(parts) {
         Ok([only]) => Some(only),
         Err(parts) => Some(Content::Joined(Join::Or, parts)),

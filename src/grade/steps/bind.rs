@@ -10,9 +10,10 @@ use super::Desk;
 use super::impact::{Impact, impacts};
 use super::letters::{MARKS, readings, used};
 use super::link::{Link, names_in};
+use crate::dimension::{self, Dimension};
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol, Vector};
-use crate::formula;
+use crate::formula::{self, Reading, Relation};
 use crate::scene::Ask;
 
 /// Most readings of names that are tried.
@@ -83,7 +84,7 @@ impl Desk<'_> {
     /// The names of a solution that the desk does not know.
     fn unknown_names(&self, text: &str) -> BTreeSet<Symbol> {
         let symbols = self.symbols("");
-        let used = used(&self.sheet.scene, text).into_iter();
+        let used = used(self.sheet, text).into_iter();
         // `vx` is `v_x`.
         let words = text.split(|c: char| !c.is_ascii_alphanumeric());
         let joined = words.filter_map(|word| match word.as_bytes() {
@@ -207,7 +208,7 @@ impl Desk<'_> {
     /// Names that stand for velocities before an impact, with these: one side of a balance of momenta has them with the masses of
     /// their bodies, and of one of them it is said that it is what its body comes in with.
     fn coming_in(&self, all: &[Impact], text: &str) -> Values {
-        let readings = readings(&self.sheet.scene, text);
+        let readings = readings(self.sheet, text);
         let sides = readings.iter().filter_map(|reading| {
             let (sides, _) = reading.content.relations()?;
             Some([sides.first()?.expr()?, sides.get(1)?.expr()?])
@@ -295,7 +296,8 @@ impl Desk<'_> {
                 found = found.iter().flat_map(with).take(MOST_READINGS).collect();
             }
         }
-        for reading in readings(&self.sheet.scene, text) {
+        let readings = readings(self.sheet, text);
+        for reading in &readings {
             let gap = reading
                 .content
                 .relations()
@@ -310,8 +312,9 @@ impl Desk<'_> {
                 let gap = gap.substitute(values);
                 let used = gap.symbols();
                 let open: Vec<&Symbol> = unknown.iter().filter(|n| used.contains(*n)).collect();
-                let ways = self.momenta(&all, &gap, &open);
-                let ways = ways.into_iter().map(|mut way| {
+                let ways = self.momenta(&all, &gap, &open).into_iter();
+                let ways = ways.filter(|way| self.are_velocities(way, &readings));
+                let ways = ways.map(|mut way| {
                     way.extend(values.clone());
                     way
                 });
@@ -325,6 +328,27 @@ impl Desk<'_> {
             found = found.iter().flat_map(with).take(MOST_READINGS).collect();
         }
         found
+    }
+
+    /// Whether names may be velocities by all that is said of them: `x_1 + x_2 = L` says that they are lengths.
+    fn are_velocities(&self, way: &Values, readings: &[Reading]) -> bool {
+        let velocity = Dimension::new(0, 1, -1);
+        let of = |name: &str| match way.contains_key(name) {
+            true => Some(velocity.clone()),
+            false => Some(self.sheet.scene.parameter(name)?.dimension.clone()),
+        };
+        let clashes = |reading: &Reading| {
+            let Some(([left, right], [Relation::Equal])) = reading.content.relations() else {
+                return false;
+            };
+            let sides = [left, right].map(|side| side.expr().map(|e| dimension::of(e, &of)));
+            match sides {
+                [Some(Ok(Some(a))), Some(Ok(Some(b)))] => a != b,
+                _ => false,
+            }
+        };
+        let speaks = |reading: &&Reading| reading.symbols().iter().any(|n| way.contains_key(n));
+        !readings.iter().filter(speaks).any(clashes)
     }
 
     /// What a given velocity or spin is after the impact, which has its letter with a prime; a velocity may be counted either way,

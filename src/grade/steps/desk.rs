@@ -204,7 +204,7 @@ impl<'a> Desk<'a> {
         let crossed = ["×", "\\times"].iter().any(|sign| text.contains(sign)) && arms;
         let is_vector =
             |name: &Symbol| crossed && self.spins.values().any(|(spin, _)| spin == name);
-        self.sheet.scene.declare_parameters(&mut symbols);
+        self.sheet.declare(&mut symbols);
         let is_other = |name: &Symbol| self.turning == Some(&**name);
         if let Some(letter) = self.turning {
             symbols.declare_typeset(OF_CENTER, letter);
@@ -329,6 +329,23 @@ impl<'a> Desk<'a> {
         parts
             .iter()
             .all(|part| formula::read(part, &symbols).is_ok())
+    }
+
+    /// The line with `0.2 m` as a number of meters, where it says so of a length that is asked for or given.
+    pub(super) fn in_its_unit(&self, text: &str, reading: &Reading) -> Option<Reading> {
+        let (sides, _) = reading.content.relations()?;
+        let name = sides.first()?.name()?;
+        let mut answers = self.sheet.derivation.answers.iter();
+        let asked = answers.find(|a| a.name == **name).map(|a| &a.dimension);
+        let given = || Some(&self.sheet.scene.parameter(name)?.dimension);
+        let dimension = asked.or_else(given).filter(|d| !d.is_none())?;
+        let measured = self.measured(text, reading)?;
+        let (sides, _) = measured.content.relations()?;
+        let fits = |side: &Content| match side {
+            Content::Quantity(q) => q.unit.dimension == *dimension,
+            _ => true,
+        };
+        sides.iter().all(fits).then_some(measured)
     }
 
     /// The line with `0.2 m` as a number of meters, where m is also a mass of the scene.

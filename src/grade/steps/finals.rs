@@ -2,7 +2,7 @@
 //!
 //! In: a line that was read. Out: whether it holds, and the final answer that is kept of it, right or wrong.
 
-use super::super::{Grade, Verdict};
+use super::super::{Diagnosis, Grade, Verdict};
 use super::bind::Values;
 use super::letters::ACCELERATIONS;
 use super::link::{Link, Weighed, equal};
@@ -49,7 +49,7 @@ impl Desk<'_> {
         asked.first()?;
         // What the answers suppose is said of it as well.
         if self.is_granted(name, reading) {
-            return Some((Status::Holds, Vec::new()));
+            return Some((Status::Holds, self.give_granted(&asked, text)));
         }
         let told = self.of_value(reading);
         if let Some(Content::Relations(told, _)) = told.as_ref().map(|told| &told.content)
@@ -121,6 +121,18 @@ impl Desk<'_> {
         let given = given.map(|value| (Relation::Equal, value));
         let mut granted = self.sheet.granted(name).into_iter().chain(given);
         granted.any(|(said, value)| *sign == said && self.is_value(end, &value))
+    }
+
+    /// Keeps a bound that is granted as the answer to what asks for it, where it is right or wrong by its end alone, which is told.
+    fn give_granted(&mut self, asked: &[String], text: &str) -> Vec<Diagnosis> {
+        let judged = self.judged_as(asked, text).into_iter();
+        let near =
+            |grade: &Grade| grade.verdict == Verdict::Equivalent || grade.note == "DIFF_STRICT";
+        let Some((question, grade)) = judged.filter(|(_, grade)| near(grade)).last() else {
+            return Vec::new();
+        };
+        self.give(question, text, grade.verdict);
+        grade.diagnosis
     }
 
     /// Whether a side is this value.

@@ -9,7 +9,7 @@ use crate::algebra::{Sign, sign};
 use crate::dimension::{self, Dimension};
 use crate::expr::{Expr, Symbol, dot};
 use crate::formula::{self, Content, Reading, Symbols};
-use crate::scene::{Ask, Scene, StageKind};
+use crate::scene::{Ask, StageKind};
 
 /// Most accelerations that one letter is tried as.
 const MOST_WAYS: usize = 6;
@@ -30,9 +30,9 @@ fn is_alone(side: &Content, name: &str) -> bool {
 }
 
 /// The equations of a worked solution that can be read by themselves.
-pub(super) fn readings(scene: &Scene, text: &str) -> Vec<Reading> {
+pub(super) fn readings(sheet: &Sheet, text: &str) -> Vec<Reading> {
     let mut symbols = Symbols::open();
-    scene.declare_parameters(&mut symbols);
+    sheet.declare(&mut symbols);
     let parts = super::pages::all_equations(text);
     parts
         .filter_map(|part| formula::read(part, &symbols).ok())
@@ -40,14 +40,14 @@ pub(super) fn readings(scene: &Scene, text: &str) -> Vec<Reading> {
 }
 
 /// The names in them.
-pub(super) fn used(scene: &Scene, text: &str) -> BTreeSet<Symbol> {
-    let readings = readings(scene, text);
+pub(super) fn used(sheet: &Sheet, text: &str) -> BTreeSet<Symbol> {
+    let readings = readings(sheet, text);
     readings.iter().flat_map(Reading::symbols).collect()
 }
 
 /// What is asked that a worked solution writes with a mark as well, and the mark: it may be of another moment with it.
 pub(super) fn marked(sheet: &Sheet, text: &str) -> BTreeSet<(Symbol, &'static str)> {
-    let used = used(&sheet.scene, text);
+    let used = used(sheet, text);
     let both = |name: &Symbol, mark: &str| {
         let with = format!("{name}{mark}");
         let short = with.replace(['{', '}'], "");
@@ -87,8 +87,8 @@ pub(super) fn accelerations(sheet: &Sheet, text: &str) -> Vec<Option<(Symbol, Ex
         Some(Ok(Some(found))) => found == rate,
         _ => true,
     };
-    let readings = readings(scene, text);
-    let used = used(scene, text);
+    let readings = readings(sheet, text);
+    let used = used(sheet, text);
     let free = |name: &&&str| !taken.contains(**name) && used.contains(**name);
     let along = ACCELERATIONS.iter().find(free);
     let turns = turning(sheet, text).filter(|_| along.is_none());
@@ -122,7 +122,7 @@ pub(super) fn accelerations(sheet: &Sheet, text: &str) -> Vec<Option<(Symbol, Ex
 
 /// An angular acceleration that is asked for by a letter with which a worked solution may mean that of a center.
 pub(super) fn turning<'s>(sheet: &'s Sheet, text: &str) -> Option<&'s str> {
-    let used = used(&sheet.scene, text);
+    let used = used(sheet, text);
     let mut asked = sheet.scene.questions.iter().filter(|q| {
         let turns = matches!(q.ask, Ask::AngularAcceleration { .. });
         turns && ACCELERATIONS.contains(&&*q.name) && used.contains(&*q.name)

@@ -50,6 +50,12 @@ impl Desk<'_> {
         if let Some(found) = self.said_before(text) {
             return found;
         }
+        // `v = 20 m/s` of data, though v be sought as well and m be a mass.
+        if let Some((name, value)) = super::pages::number(self.sheet, text)
+            && self.sheet.scene.values().get(&name) == Some(&value)
+        {
+            return (Status::Holds, Vec::new());
+        }
         let reading = match formula::read(text, &self.symbols(text)) {
             // `(m+M) V`, `(m+M) g h`: a letter that is said further down, or is a quantity first, is no unit.
             Ok(reading) if names::behind(text, &reading).is_some() => {
@@ -74,7 +80,7 @@ impl Desk<'_> {
                     None => reading,
                 }
             }
-            Ok(reading) => reading,
+            Ok(reading) => self.in_its_unit(text, &reading).unwrap_or(reading),
             Err(fault) => {
                 if let Some(found) = self.definition(text) {
                     return found;

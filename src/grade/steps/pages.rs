@@ -6,6 +6,7 @@ use super::super::sheet::Sheet;
 use super::MAX_LINES;
 use super::text::{BETWEEN, equations, relates};
 use crate::dimension;
+use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Content, Symbols};
 use crate::scene;
 
@@ -14,35 +15,43 @@ pub(super) fn all_equations(page: &str) -> impl Iterator<Item = &str> {
     page.lines().take(MAX_LINES).flat_map(equations)
 }
 
-/// The scene with the numbers that a page gives several of its quantities, where it has none itself: lines such as `m = 2 kg,
-/// l = 1.5 m`, each of numbers alone.
-pub(super) fn with_numbers(sheet: &Sheet, page: &str) -> Option<Sheet> {
-    let scene = &sheet.scene;
+/// The numbers that a line gives to quantities of the scene which have none there: `m = 2 kg, l = 1.5 m`. Nothing where it says
+/// something else as well.
+pub(super) fn numbers(sheet: &Sheet, line: &str) -> Option<Vec<(Symbol, Expr)>> {
+    let is_open = |name: &Symbol| {
+        sheet
+            .scene
+            .parameter(name)
+            .is_some_and(|p| p.value.is_none())
+    };
+    let open = |equation| number(sheet, equation).filter(|(name, _)| is_open(name));
+    equations(line).into_iter().map(open).collect()
+}
+
+/// A parameter with the number that an equation gives it, in its unit or bare: `m = 2 kg`.
+pub(super) fn number(sheet: &Sheet, equation: &str) -> Option<(Symbol, Expr)> {
     let mut symbols = Symbols::strict();
-    scene.declare_parameters(&mut symbols);
-    let number = |equation: &str| {
-        let (left, right) = equation.split_once('=')?;
-        let name = formula::read_name(left.trim(), &symbols)?;
-        let given = scene.parameter(&name).filter(|p| p.value.is_none())?;
-        let value = formula::read(right, &Symbols::strict()).ok()?.content;
-        let measured = match &value {
-            Content::Quantity(q) => q.unit.dimension == given.dimension,
-            _ => true,
-        };
-        let plain = dimension::unit(&given.unit).is_ok_and(|unit| unit.value().is_one());
-        let value = value
-            .expr()
-            .filter(|e| measured && plain && e.is_constant())?
-            .clone();
-        Some((name, value))
+    sheet.declare(&mut symbols);
+    let (left, right) = equation.split_once('=')?;
+    let name = formula::read_name(left.trim(), &symbols)?;
+    let given = sheet.scene.parameter(&name)?;
+    let value = formula::read(right, &Symbols::strict()).ok()?.content;
+    let measured = match &value {
+        Content::Quantity(q) => q.unit.dimension == given.dimension,
+        _ => true,
     };
-    let of_line = |line: &str| {
-        equations(line)
-            .into_iter()
-            .map(number)
-            .collect::<Option<Vec<_>>>()
-    };
-    let said = page.lines().take(MAX_LINES).filter_map(of_line).flatten();
+    let plain = dimension::unit(&given.unit).is_ok_and(|unit| unit.value().is_one());
+    let value = value
+        .expr()
+        .filter(|e| measured && plain && e.is_constant())?
+        .clone();
+    Some((name, value))
+}
+
+/// The scene with the numbers that a page gives several of its quantities, where it has none itself, in lines of numbers alone.
+pub(super) fn with_numbers(sheet: &Sheet, page: &str) -> Option<Sheet> {
+    let lines = page.lines().take(MAX_LINES);
+    let said = lines.filter_map(|line| numbers(sheet, line)).flatten();
     let mut values = BTreeMap::new();
     for (name, value) in said {
         // What is said twice is no number for all of the page.

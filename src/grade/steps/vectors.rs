@@ -96,7 +96,7 @@ impl Desk<'_> {
             let along = formula::along_axes(&arrow).into_iter().zip(vector);
             self.parts.extend(along);
         }
-        let readings = readings(&sheet.scene, text);
+        let readings = readings(sheet, text);
         let used = readings.iter().flat_map(Reading::symbols);
         let symbols = self.symbols(text);
         // Places and spins are others at other moments, though the scene has names for them.

@@ -13,6 +13,7 @@ use super::link::in_vectors;
 use super::sought::Sought;
 use super::{Desk, MOST_TERMS};
 use crate::algebra::{Sign, sign, tidy};
+use crate::equality;
 use crate::expr::angle::arcs_exchanged;
 use crate::expr::{Expr, Node, Symbol, effort};
 use crate::formula::{self, Content, Reading};
@@ -528,7 +529,8 @@ impl Desk<'_> {
         let named = |(p, q): (Expr, Expr)| {
             self.term(sides, sought, |term| {
                 let other = term.replace(&p, &q);
-                Vec::from_iter((other != *term).then_some(other))
+                let says = other != *term && !equality::vanishes(&other, &scene.domains);
+                Vec::from_iter(says.then_some(other))
             })
         };
         let mut pairs = pairs;

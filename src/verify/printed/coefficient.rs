@@ -61,7 +61,7 @@ impl Desk<'_> {
         };
         if !is_rounded {
             finding.explained = slip_of_digits(&written, &low, place);
-            self.caught(std::slice::from_ref(pair), finding);
+            self.caught(std::slice::from_ref(pair), printed, finding);
         }
     }
 

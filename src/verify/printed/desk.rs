@@ -263,7 +263,16 @@ impl<'a> Desk<'a> {
     }
 
     pub(super) fn read(&self, text: &str, printed: &Printed) -> Result<Reading, String> {
-        formula::read(text, &self.symbols(printed)).map_err(|fault| fault.to_string())
+        let reading = formula::read(text, &self.symbols(printed)).map_err(|f| f.to_string())?;
+        // `v T with v = …`: what is passed over could say something else.
+        let words = reading
+            .notes
+            .iter()
+            .find(|n| n.remark == formula::Remark::Words);
+        match words {
+            Some(_) => Err("words stand beside the formula: print it alone".into()),
+            None => Ok(reading),
+        }
     }
 
     /// Abbreviations, then closed forms, then special values put in.

@@ -9,6 +9,7 @@ use super::desk::Desk;
 use super::number::{last_place, number_of};
 use crate::algebra::{self, Sign};
 use crate::dimension::{self, Clash};
+use crate::domain::Domains;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Point, Rational, Symbol, ratio};
 use crate::formula::{Content, Reading, Relation};
@@ -184,7 +185,8 @@ impl Desk<'_> {
     }
 
     /// The cheapest check that shows a pair to be wrong.
-    pub(super) fn caught(&self, pairs: &[(Expr, Expr)], finding: &mut Finding) {
+    pub(super) fn caught(&self, pairs: &[(Expr, Expr)], printed: &Printed, finding: &mut Finding) {
+        let within = self.domains_of(printed);
         let known = |name: &str| self.dimensions.get(name).cloned();
         for (closed, value) in pairs {
             if self.is_same(closed, value) {
@@ -211,20 +213,17 @@ impl Desk<'_> {
             let is_plain =
                 |e: &Expr| e.is_constant() || e.as_symbol().is_some() || (-e).as_symbol().is_some();
             let factor = self.factor_of(closed, value);
-            for p in self
-                .scene
-                .parameters
-                .iter()
-                .filter(|p| self.may_vanish(&p.name))
-            {
+            for p in &self.scene.parameters {
+                let Some(there) = vanishing(&within, &p.name) else {
+                    continue;
+                };
                 let at_zero = BTreeMap::from([(p.name.clone(), Expr::zero())]);
                 let (a, b) = (closed.substitute(&at_zero), value.substitute(&at_zero));
                 let shorter =
                     a.symbols().len() + 1 < closed.symbols().len() || a.size() < closed.size() / 2;
                 if shorter
                     && (factor.is_none() || is_plain(&a))
-                    && let Equality::Different(_) =
-                        equality::decide(&a, &b, &self.scene.domains).equality
+                    && let Equality::Different(_) = equality::decide(&a, &b, &there).equality
                 {
                     let [p, a, b] =
                         [&Expr::from(p.name.clone()), &a, &b].map(|e| self.say(&self.tidied(e)));
@@ -236,18 +235,6 @@ impl Desk<'_> {
         }
         let words = "putting simple numbers in, or the result back into the laws";
         finding.caught_by = Some(words.into());
-    }
-
-    /// Whether a parameter may come near zero, by its domain and by what is granted.
-    fn may_vanish(&self, name: &Symbol) -> bool {
-        let domains = &self.domains;
-        let low = domains.symbols.get(name).and_then(|d| d.bounds()[0]);
-        let broken = domains.relations.iter().any(|r| {
-            let there = r.excess.put(name, &Expr::zero());
-            r.excess.mentions(name)
-                && algebra::sign(&there, &domains.of(&[&there])) == Some(Sign::Negative)
-        });
-        low.is_none_or(|low| low <= 0.0) && !broken
     }
 
     /// A single slip in evaluating a formula for the same quantity that gives the printed number.
@@ -355,4 +342,23 @@ impl Desk<'_> {
             }
         }
     }
+}
+
+/// Where the other symbols may lie as one goes to zero; `None` where its domain or what is granted keeps it away from there.
+fn vanishing(domains: &Domains, name: &Symbol) -> Option<Domains> {
+    let low = domains.symbols.get(name).and_then(|d| d.bounds()[0]);
+    if low.is_some_and(|low| low > 0.0) {
+        return None;
+    }
+    let mut there = domains.clone();
+    there.relations.retain(|r| !r.excess.mentions(name));
+    for r in domains.relations.iter().filter(|r| r.excess.mentions(name)) {
+        let excess = r.excess.put(name, &Expr::zero());
+        match algebra::sign(&excess, &domains.of(&[&excess])) {
+            Some(Sign::Negative) => return None,
+            Some(sign) if sign.is_not_negative() => {}
+            _ => there = there.given(&excess, true),
+        }
+    }
+    Some(there)
 }

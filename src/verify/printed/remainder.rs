@@ -5,14 +5,11 @@ use std::collections::BTreeMap;
 
 use num_traits::{Signed, Zero};
 
-use super::Finding;
 use super::desk::Desk;
-use super::inequality::inequality;
 use crate::algebra::Field;
-use crate::domain::Domains;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Rational};
-use crate::formula::{Content, Relation};
+use crate::formula::Content;
 use crate::scene::Printed;
 use crate::verify::rounding::ten_to;
 
@@ -122,24 +119,6 @@ impl Desk<'_> {
         let found = equality::decide(a, b, &self.scene.domains).equality;
         matches!(found, Equality::Same { .. })
     }
-}
-
-/// A strict inequality that holds with equality allowed.
-pub(super) fn loose(values: &[Expr], signs: &[Relation], domains: &Domains, finding: &mut Finding) {
-    let weak = |sign: &Relation| match sign {
-        Relation::Less => Relation::LessEqual,
-        Relation::Greater => Relation::GreaterEqual,
-        other => *other,
-    };
-    let mut scratch = finding.clone();
-    let holds = values.windows(2).zip(signs).all(|(pair, sign)| {
-        inequality([&pair[0], &pair[1]], weak(sign), domains, &mut scratch) == Some(true)
-    });
-    finding.caught_by = Some("trying the ends of the domain".into());
-    finding.explained = Some(match holds {
-        true => "it holds with ≤ in place of <: an end of the domain is left out".into(),
-        false => "it fails inside the domain too".into(),
-    });
 }
 
 /// One digit misprinted or two exchanged: what the right value, rounded to the same place, shows.
