@@ -22,9 +22,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
+use serde_json::json;
 
 use carom::command::{self, Format, Numbers, Output};
-use carom::render::pretty;
+use carom::render::json::versioned;
 use carom::verify::friction::settled;
 use carom::worked::{self, Worked};
 use carom::{derive, render, scene};
@@ -225,7 +226,7 @@ fn derive_command(
     let full = derive::full_matrix(&scene, &names).map_err(|stop| refused(path, stop))?;
     print(&match format {
         Format::Text => render::text::matrix(&scene, &full),
-        Format::Json => pretty(&render::json::matrix(&full)),
+        Format::Json => versioned(&render::json::matrix(&full)),
     })?;
     Ok(0)
 }
@@ -276,9 +277,9 @@ fn check_scene(path: &Path, format: Format) -> Result<u8, Failure> {
     let text = files::read(path, scene::LONGEST)?;
     match (scene::read(&text), format) {
         (Ok(_), Format::Text) => Ok(0),
-        (Ok(_), Format::Json) => print("{\"faults\": [], \"untold\": 0}").map(|()| 0),
+        (Ok(_), Format::Json) => print(&versioned(&json!({"faults": [], "untold": 0}))).map(|()| 0),
         (Err(faults), Format::Json) => {
-            print(&pretty(&render::faults::json(&faults, &text))).map(|()| 2)
+            print(&versioned(&render::faults::json(&faults, &text))).map(|()| 2)
         }
         (Err(faults), Format::Text) => {
             let name = path.display().to_string();

@@ -1,21 +1,27 @@
 //! Scenes as questions of learning platforms: well-formed, a branch for every belief, nothing of a scene acted on as markup.
 //! That the branches end where they should is tried in Maxima by `tests/platforms/stack.py`.
 
-use carom::export::{Exercise, exercise, moodle, numbas, stack};
+use carom::export::{Exercise, Shown, exercise, moodle, numbas, stack};
+use carom::expr::{Point, Symbol};
+use carom::formula::Symbols;
 use carom::grade::sheet::Sheet;
 use carom::grade::{Options, Verdict};
 use carom::{command, worked};
 use roxmltree::{Document, Node};
+use std::collections::BTreeMap;
+
+const FIGURE: &str = "A ball before a wall";
 
 fn opened(text: &str) -> (Sheet, Exercise) {
     let scene = command::scene("scene", text, &[]).expect("a sound scene");
     let (sheet, _) = command::sheet(scene.clone()).expect("proved answers");
     let assumed = worked::in_cases(&scene).expect("a told scene").told;
-    let exercise = exercise(
-        &sheet,
-        String::from("<p>[[input:ans9]] {@1@} \\(x\\) $y$ {z}</p>"),
-        &assumed.assumed(),
-    );
+    let marks = "<p>[[input:ans9]] {@1@} \\(x\\) $y$ {z}</p>";
+    let shown = Shown {
+        figure: format!("<img alt=\"{FIGURE}\" src=\"data:,\">"),
+        solution: String::from(marks),
+    };
+    let exercise = exercise(&sheet, shown, &assumed.assumed());
     (sheet, exercise.expect("questions"))
 }
 
@@ -158,6 +164,87 @@ fn other_platforms_hold_the_same_beliefs() {
     }
 }
 
+#[test]
+fn a_question_shows_how_it_begins_with_its_symbols_typeset() {
+    let (_, exercise) = scene("book/falling-stick");
+    let typeset = "inclined at <math><mrow><mrow><mi>θ</mi></mrow></mrow></math>, comes down";
+    for quiz in [stack(&exercise), moodle(&exercise).expect("exact values")] {
+        let quiz = Document::parse(&quiz).expect("XML");
+        for asked in all(quiz.root(), "questiontext") {
+            let asked = field(asked, "text");
+            assert!(asked.contains(FIGURE) && asked.contains(typeset), "{asked}");
+        }
+    }
+    let exam = numbas(&exercise);
+    let asked = exam.matches(FIGURE).count();
+    assert_eq!(asked, exam.matches("\"statement\"").count());
+}
+
+/// What Numbas defines in a question: each variable with its values, one for every variant.
+fn defined(question: &serde_json::Value) -> BTreeMap<String, Vec<String>> {
+    let variables = question["variables"].as_object().expect("variables");
+    let each = variables.iter().map(|(name, held)| {
+        let text = held["definition"].as_str().expect("a definition");
+        let values = text.strip_suffix("][pick]").map(|t| &t[1..]);
+        let values = values.unwrap_or(text).split(", ").map(String::from);
+        (name.clone(), values.collect())
+    });
+    each.collect()
+}
+
+#[test]
+fn numbas_knows_every_variable_it_is_told_of() {
+    let value = |text: &str, known: &[(Symbol, f64)]| {
+        let text = text.replace("arccos", "acos");
+        let mut symbols = Symbols::strict();
+        known.iter().for_each(|(name, _)| symbols.declare(name));
+        let read = carom::formula::read(&text, &symbols).expect("a formula");
+        let mut at = Point::<f64>::default();
+        at.values.extend(known.iter().cloned());
+        let read = read.content.expr().expect("one expression");
+        read.evaluate(&at).expect("a number")
+    };
+    let mut seen = 0;
+    for name in SCENES {
+        let (_, exercise) = scene(name);
+        let exam = numbas(&exercise);
+        let (_, exam) = exam.split_once('\n').expect("a heading");
+        let exam: serde_json::Value = serde_json::from_str(exam).expect("JSON");
+        let quiz = moodle(&exercise).expect("exact values");
+        let quiz = Document::parse(&quiz).expect("XML");
+        let right = all(quiz.root(), "answer").filter(|a| a.attribute("fraction") == Some("100"));
+        let mut right = right.map(|a| field(a, "text").parse::<f64>().expect("a number"));
+        let questions = exam["question_groups"][0]["questions"].as_array();
+        for question in questions.expect("questions") {
+            let variables = defined(question);
+            let prompt = question["parts"][1]["prompt"].as_str().expect("a prompt");
+            for shown in prompt.split("\\var{").skip(1) {
+                let (shown, _) = shown.split_once('}').expect("an end");
+                assert!(
+                    variables.contains_key(shown),
+                    "{name}: {shown} is nowhere defined"
+                );
+            }
+            let held = |k: usize| {
+                let given = variables.iter().filter(|(n, _)| n.starts_with("val_"));
+                given.map(move |(n, values)| (Symbol::from(n.as_str()), value(&values[k], &[])))
+            };
+            let held_at = variables.iter().find(|(n, _)| n.starts_with("val_"));
+            for k in 0..held_at.expect("a value").1.len() {
+                let number = value(&variables["number"][0], &held(k).collect::<Vec<_>>());
+                let other = right.next().expect("the same variants");
+                assert!(
+                    (number - other).abs() <= 1e-12 * other.abs(),
+                    "{name}: {number}, {other}"
+                );
+                seen += 1;
+            }
+        }
+        assert_eq!(right.next(), None, "{name}");
+    }
+    assert!(seen >= 20, "{seen} variants");
+}
+
 /// A scene whose words try every format, and whose names mean something on the platforms.
 const HOSTILE: &str = r#"{
     "title": "]]></text><script>alert(1)</script> {@1@}",
@@ -259,6 +346,29 @@ fn words_of_a_scene_stay_words_and_names_keep_their_meaning() {
 }
 
 #[test]
+fn no_variable_of_the_question_is_a_symbol_of_the_scene() {
+    let (_, exercise) = opened(&HOSTILE.replace("gamma", "belief1"));
+    let quiz = stack(&exercise);
+    let quiz = Document::parse(&quiz).expect("XML");
+    let question = all(quiz.root(), "question").next().expect("a question");
+    let variables = all(question, "questionvariables").next();
+    let text = variables.map(|v| field(v, "text")).expect("variables");
+    let own: Vec<&str> = text
+        .lines()
+        .filter_map(|l| Some(l.split_once(": ")?.0))
+        .collect();
+    assert!(
+        own.contains(&"belief1") && own.contains(&"beliefn1"),
+        "{own:?}"
+    );
+    let right = text.lines().find(|l| l.starts_with("ta1"));
+    assert!(right.is_some_and(|r| r.contains("belief1_s")), "{right:?}");
+    // Students may type what STACK takes for no symbol by itself: names of more than two characters.
+    let input = all(question, "input").next().expect("an input");
+    assert_eq!(field(input, "allowwords"), "e_s,i_s,belief1_s");
+}
+
+#[test]
 fn a_scene_that_asks_for_no_formula_says_what_would_help() {
     let text = HOSTILE.replace(
         r#"{"velocity": "two", "along": [1, 0]}"#,
@@ -266,6 +376,6 @@ fn a_scene_that_asks_for_no_formula_says_what_would_help() {
     );
     let scene = command::scene("scene", &text, &[]).expect("a sound scene");
     let (sheet, _) = command::sheet(scene).expect("answers");
-    let refused = exercise(&sheet, String::new(), &[]).expect_err("nothing to ask");
+    let refused = exercise(&sheet, Shown::default(), &[]).expect_err("nothing to ask");
     assert!(refused.contains("hint: add a question"), "{refused}");
 }

@@ -438,3 +438,34 @@ fn code_with_such_titles_compiles() {
         }
     }
 }
+
+#[test]
+fn data_for_programs_carries_a_version() {
+    let stick = "derivations/book/falling-stick.json";
+    let values = ["--set=m=1", "--set=l=1", "--set=v=2", "--set=theta=1"];
+    let rod = "derivations/friction/rod-turns-its-slip-round.json";
+    let commands: [&[&str]; 12] = [
+        &["derive", stick],
+        &["derive", stick, "--matrix"],
+        &["derive", rod],
+        &[&["solve", stick], &values[..]].concat(),
+        &["grade", stick, "--quantity=omega", "--answer=v/l"],
+        &["grade", "--expected=a", "--answer=a +"],
+        &["verify", stick],
+        &["solution", stick],
+        &["compare", rod],
+        &["compare", "derivations/more/newtons-cradle.json"],
+        &["read", "x + 1"],
+        &["check-scene", stick],
+    ];
+    for command in commands {
+        let run = Command::new(env!("CARGO_BIN_EXE_carom"))
+            .args(command)
+            .arg("--format=json")
+            .output()
+            .expect("the program starts");
+        let told: serde_json::Value =
+            serde_json::from_slice(&run.stdout).unwrap_or_else(|e| panic!("{command:?}: {e}"));
+        assert_eq!(told["version"], 1, "{command:?}");
+    }
+}

@@ -304,6 +304,39 @@ fn a_film_has_the_strings_of_its_stages_with_what_carries_their_ends() {
 }
 
 #[test]
+fn laws_of_contact_are_compared_where_there_are_several() {
+    let server = server();
+    let described = |name: &str| server.post("describe", &json!({"name": name})).json();
+    assert_eq!(described(STICK)["has_laws"], false);
+    // Several smooth contacts at once.
+    let cradle = json!({"name": "more/newtons-cradle.json"});
+    assert_eq!(described("more/newtons-cradle.json")["has_laws"], true);
+    let several = server.post("compare", &cradle).json();
+    assert!(
+        several["candidates"]
+            .as_array()
+            .is_some_and(|c| c.len() > 1)
+    );
+    // Friction: of one impact, and of a stage.
+    let rod = "friction/rod-turns-its-slip-round.json";
+    assert_eq!(described(rod)["has_laws"], true);
+    let spun = "friction/ball-bounces-with-backspin.json";
+    let stages = described(spun)["stages"].clone();
+    let stages = stages.as_array().expect("stages");
+    let lawful = |s: &&Value| s["has_laws"] == true;
+    let impact = stages.iter().find(lawful).expect("an impact")["name"].clone();
+    assert!(stages.iter().all(|s| s["is_impact"] == s["has_laws"]));
+    for asked in [json!({"name": rod}), json!({"name": spun, "stage": impact})] {
+        let found = server.post("compare", &asked).json();
+        let plane = found["plane"].as_str().expect("a picture");
+        for words in ["friction cone", "sticking", "compression ends", "Poisson"] {
+            assert!(plane.contains(words), "{words} is not drawn");
+        }
+        assert!(found["laws"].as_array().is_some_and(|l| l.len() == 6));
+    }
+}
+
+#[test]
 fn routes_are_measured_and_their_code_is_written() {
     let server = server();
     let report = server.post("report", &json!({"name": STICK})).json();

@@ -457,21 +457,53 @@ fn bad_arguments_are_one_message_and_leave_no_file() {
 }
 
 #[test]
-fn the_figure_of_the_readme_is_the_one_that_is_drawn() {
-    let drawn = Path::new(env!("CARGO_TARGET_TMPDIR")).join("falling-stick.svg");
-    let shipped = "derivations/book/falling-stick.svg";
+fn in_a_document_each_figure_has_its_caption_and_no_other() {
+    let page = Path::new(env!("CARGO_TARGET_TMPDIR")).join("in-a-document.md");
+    let scene = "derivations/book/falling-stick.json";
     let status = Command::new(env!("CARGO_BIN_EXE_carom"))
-        .args(["draw", "derivations/book/falling-stick.json", "-o"])
-        .arg(&drawn)
+        .args(["solution", scene, "--figures", "-o"])
+        .arg(&page)
         .status();
     assert!(status.is_ok_and(|s| s.success()));
-    if std::env::var_os("UPDATE").is_some() {
-        fs::copy(&drawn, shipped).expect("a writable folder");
+    let text = fs::read_to_string(page).expect("a page");
+    let paragraphs: Vec<&str> = text.split("\n\n").collect();
+    let figures = paragraphs.iter().filter(|p| p.starts_with("!["));
+    let mut count = 0;
+    for figure in figures {
+        // Alone in its paragraph, a picture gets a second caption from Pandoc.
+        let (picture, caption) = figure.split_once("\\\n").expect("a caption below");
+        assert!(picture.ends_with(".svg)"), "{picture}");
+        assert!(
+            caption.starts_with('*') && caption.ends_with(".*"),
+            "{caption}"
+        );
+        count += 1;
     }
-    let read = |path: &Path| fs::read_to_string(path).expect("a figure");
-    assert_eq!(read(&drawn), read(Path::new(shipped)));
+    assert_eq!(count, 3);
+}
+
+#[test]
+fn the_figures_of_the_readme_are_those_that_are_drawn() {
     let readme = fs::read_to_string("README.md").expect("the README");
-    assert!(readme.contains(shipped));
+    for (command, name) in [
+        ("draw", "book/falling-stick"),
+        ("compare", "friction/rod-turns-its-slip-round"),
+    ] {
+        let drawn = Path::new(env!("CARGO_TARGET_TMPDIR")).join("of-the-readme.svg");
+        let shipped = format!("derivations/{name}.svg");
+        let status = Command::new(env!("CARGO_BIN_EXE_carom"))
+            .args([command, &format!("derivations/{name}.json"), "-o"])
+            .arg(&drawn)
+            .stdout(std::process::Stdio::null())
+            .status();
+        assert!(status.is_ok_and(|s| s.success()));
+        if std::env::var_os("UPDATE").is_some() {
+            fs::copy(&drawn, &shipped).expect("a writable folder");
+        }
+        let read = |path: &Path| fs::read_to_string(path).expect("a figure");
+        assert_eq!(read(&drawn), read(Path::new(&shipped)), "{name}");
+        assert!(readme.contains(&format!("src=\"{shipped}\"")), "{name}");
+    }
 }
 
 #[test]

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import json
+import numbers
 import os
 from collections.abc import Mapping
+from fractions import Fraction
 from typing import Any, Union
 
 from . import _carom
 
 Scene = Union[str, "os.PathLike[str]", Mapping[str, Any]]
-Values = Mapping[str, Union[str, int, float]]
+Values = Mapping[str, Union[str, int, float, Fraction]]
 
 
 def text(value: object, what: str) -> str:
@@ -54,15 +56,29 @@ def values(given: Values | None) -> list[str]:
         raise TypeError(f"set: expected a dict of names and values, got {type(given).__name__}")
     out = []
     for name, value in given.items():
-        if isinstance(value, bool) or not isinstance(value, (str, int, float)):
+        if isinstance(value, bool) or not isinstance(value, (str, numbers.Real)):
             raise TypeError(f"set: the value of {name!r} is to be a number or a formula, not {type(value).__name__}")
-        out.append(f"{text(name, 'set')}={text(value if isinstance(value, str) else repr(value), 'set')}")
+        out.append(f"{text(name, 'set')}={text(value if isinstance(value, str) else _written(value), 'set')}")
     return out
+
+
+def _written(value: numbers.Real) -> str:
+    """A number as Python writes its own: those of NumPy name their type in front. A fraction stays one."""
+    return str(value) if isinstance(value, numbers.Rational) else repr(float(value))
+
+
+def _own(value: object) -> int | float:
+    """A number of NumPy as one of Python's, which JSON knows."""
+    if isinstance(value, numbers.Integral):
+        return int(value)
+    if isinstance(value, numbers.Real):
+        return float(value)
+    raise TypeError(f"{type(value).__name__} is no text, number, list or dict")
 
 
 def dumps(value: object, what: str) -> str:
     """JSON text of a value."""
     try:
-        return text(json.dumps(value, ensure_ascii=False), what)
+        return text(json.dumps(value, ensure_ascii=False, default=_own), what)
     except (TypeError, ValueError, RecursionError) as e:
         raise _carom.CaromError(f"{what}: this is no JSON: {e}") from None

@@ -19,7 +19,7 @@ class Answer:
 
     @property
     def name(self) -> str:
-        return self.data["name"]
+        return str(self.data["name"])
 
     @property
     def formula(self) -> str | None:
@@ -32,7 +32,7 @@ class Answer:
 
     @property
     def unit(self) -> str:
-        return self.data["unit"]
+        return str(self.data["unit"])
 
     @property
     def value(self) -> float | None:
@@ -66,9 +66,9 @@ class Answer:
         missing = [f"{n} ({unit})" for n, unit, *_ in arguments if n not in values]
         if missing:
             raise TypeError(f"{self.name}: no value for {', '.join(missing)}")
-        columns = [np.asarray(values[n], dtype=np.float64) for n in names]
+        given = [np.asarray(values[n], dtype=np.float64) for n in names]
         # Those with a value of their own still have the shape of the others.
-        columns = np.broadcast_arrays(*columns) if columns else [np.zeros(())]
+        columns = list(np.broadcast_arrays(*given)) if given else [np.zeros(())]
         shape = columns[0].shape
         taken = [np.ascontiguousarray(c).tobytes() for c in columns][: len(names)]
         out = np.frombuffer(self._function.evaluate(taken, columns[0].size), dtype=np.float64).reshape(shape)
@@ -167,11 +167,12 @@ class Numbers(Mapping[str, Any]):
 
     def unit(self, name: str) -> str:
         """The unit of a value."""
-        return self._answers[name].get("unit", "")
+        return str(self._answers[name].get("unit", ""))
 
     def exact(self, name: str) -> str | None:
         """The value as a fraction, where it was asked for."""
-        return self._answers[name].get("value_exact")
+        exact: str | None = self._answers[name].get("value_exact")
+        return exact
 
     def _repr_html_(self) -> str:
         rows = "".join(

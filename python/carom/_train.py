@@ -68,8 +68,9 @@ def _text(given: Read, what: str) -> str | None:
     if isinstance(given, Formula):
         return given.text
     if isinstance(given, Sequence) and not isinstance(given, (bytes, bytearray)):
-        if all(isinstance(f, Formula) for f in given):
-            return given[0].text if given else None
+        read = [f for f in given if isinstance(f, Formula)]
+        if len(read) == len(given):
+            return read[0].text if read else None
     raise TypeError(f"{what}: expected a str or what parse() gave, got {type(given).__name__}")
 
 

@@ -93,7 +93,9 @@ fn printed(py: Python<'_>, name: &str, text: &str, answers: Option<&str>) -> PyR
         }
         let (findings, _) =
             command::printed(scene.clone()).map_err(|why| format!("{name}: {why}"))?;
-        Ok(render::pretty(&render::printed::json(&scene, &findings)))
+        Ok(render::json::versioned(&render::printed::json(
+            &scene, &findings,
+        )))
     })
 }
 

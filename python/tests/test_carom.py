@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 import threading
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -57,6 +58,15 @@ def test_numbers_in_doubles_fractions_and_rounded_for_sure():
     assert carom.solve(STICK, values)["omega"] == pytest.approx(1.8)
     assert carom.solve(STICK, values, exact=True).exact("omega") == "9/5"
     assert carom.solve(STICK, values, certify=True).complete
+
+
+def test_numbers_of_numpy_and_fractions_are_numbers():
+    plain = carom.solve(STICK, {"m": 1, "l": 1, "v": 2, "theta": 0.5})
+    numpys = {"m": np.float32(1), "l": np.int64(1), "v": Fraction(2), "theta": np.float64(0.5)}
+    assert dict(carom.solve(STICK, numpys)) == dict(plain)
+    assert carom.solve(STICK, {**numpys, "v": Fraction(4, 3), "theta": 0}, exact=True).exact("omega") == "2"
+    line = {"id": np.int64(7), "expected": "2", "answer": "2.01", "tolerance": np.float32(0.5)}
+    assert [(g.id, g.verdict) for g in carom.grade_many([line])] == [(7, "equivalent")]
 
 
 def test_a_grade_tells_the_point_and_the_belief():
@@ -161,6 +171,7 @@ HOSTILE = [
     (lambda: carom.derive("{" * 100_000), carom.CaromError, "scene:"),
     (lambda: carom.derive({"title": 1j}), carom.CaromError, "no JSON"),
     (lambda: carom.derive(STICK, {"v": None}), TypeError, "value of 'v'"),
+    (lambda: carom.derive(STICK, {"v": np.array([1.0])}), TypeError, "value of 'v'"),
     (lambda: carom.derive(STICK, [1]), TypeError, "set: expected a dict"),
     (lambda: carom.solve(STICK, {"v": float("nan")}), carom.CaromError, "v=nan"),
     (lambda: carom.solve(STICK), carom.CaromError, "no value"),

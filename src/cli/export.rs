@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use super::grade::open;
 use super::solution::pictures;
 use super::{Failure, complain, files, print, read_scene, refused, work_out};
-use carom::export::{exercise, moodle, numbas, stack};
+use carom::export::{Shown, exercise, moodle, numbas, stack};
 use carom::render::html;
 use carom::solution::Detail;
 
@@ -46,9 +46,11 @@ pub fn run(args: &ExportArgs) -> Result<u8, Failure> {
     }
     let pictures = pictures(&args.scene, &worked)?;
     let pictures: Vec<_> = pictures.iter().map(html::Picture::standalone).collect();
-    let solution = html::sections(&worked.solution(Detail::Normal), &pictures);
-    let assumed = worked.told.assumed();
-    let exercise = exercise(&sheet, solution, &assumed).map_err(refused)?;
+    let shown = Shown {
+        figure: pictures.first().map(|p| p.svg.clone()).unwrap_or_default(),
+        solution: html::sections(&worked.solution(Detail::Normal), &pictures),
+    };
+    let exercise = exercise(&sheet, shown, &worked.told.assumed()).map_err(refused)?;
     for left_out in &exercise.left_out {
         complain(&format!(
             "{}: no question for {left_out}",

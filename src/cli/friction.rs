@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Failure, Format, SceneArgs, files, impacts, only, pretty, print, refused};
+use super::{Failure, Format, SceneArgs, files, impacts, only, print, refused, versioned};
 use carom::scene::{ContactLaw, Scene};
 use carom::verify::compare::{NoComparison, compare};
 use carom::{numeric, plot, render};
@@ -42,7 +42,7 @@ pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
     }
     print(&match args.format {
         Format::Text => render::compare::text(&scene, &found),
-        Format::Json => pretty(&render::compare::json(&scene, &found)),
+        Format::Json => versioned(&render::compare::json(&scene, &found)),
     })?;
     Ok(0)
 }
@@ -77,7 +77,7 @@ fn several(
     let all = numeric::several::candidates(&given).map_err(|why| refused(why.to_string()))?;
     print(&match args.format {
         Format::Text => render::several::text(scene, &all),
-        Format::Json => pretty(&render::several::json(scene, &all)),
+        Format::Json => versioned(&render::several::json(scene, &all)),
     })?;
     Ok(0)
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
-use super::{Failure, Format, complain, files, pretty, print, read_scene, refused};
+use super::{Failure, Format, complain, files, print, read_scene, refused, versioned};
 use carom::grade::entry;
 use carom::grade::sheet::Sheet;
 use carom::grade::{Form, Given, Options, Question, Strength, Verdict};
@@ -137,7 +137,7 @@ pub fn run(args: &GradeArgs) -> Result<u8, Failure> {
     };
     print(&match args.format {
         Format::Text => render::grade::text(&grade, answer),
-        Format::Json => pretty(&render::grade::json(&grade, answer)),
+        Format::Json => versioned(&render::grade::json(&grade, answer)),
     })?;
     Ok(match grade.verdict {
         Verdict::Equivalent => 0,
@@ -177,7 +177,7 @@ fn steps(scene: &Path, file: &Path, args: &GradeArgs, options: &Options) -> Resu
     }
     print(&match args.format {
         Format::Text => render::grade::steps_text(&worked),
-        Format::Json => pretty(&render::grade::steps_json(&worked)),
+        Format::Json => versioned(&render::grade::steps_json(&worked)),
     })?;
     use grade::steps::{Line, Status};
     let wrong = |l: &Line| matches!(l.status, Status::Wrong | Status::Carried(_));
@@ -266,7 +266,7 @@ pub fn verify(args: &VerifyArgs) -> Result<u8, Failure> {
         }
     }
     if args.format == Format::Json {
-        print(&pretty(&match all.len() {
+        print(&versioned(&match all.len() {
             1 => all.remove(0),
             _ => Value::Array(all),
         }))?;

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::{Failure, Format, complain, files, only, pretty, print, read_scene, refused};
+use super::{Failure, Format, complain, files, only, print, read_scene, refused, versioned};
 use carom::derive::{self, Derivation};
 use carom::report::{Effort, Report, Row, measure};
 use carom::scene::Scene;
@@ -113,11 +113,11 @@ pub fn run(args: &ReportArgs) -> Result<u8, Failure> {
     }
     let interrupted = reports.iter().any(|r| r.interrupted);
     if args.format == Format::Json {
-        print(&pretty(&render::report::json(&reports)))?;
+        print(&versioned(&render::report::json(&reports)))?;
     }
     if let Some(path) = &args.output {
         let whole = match path.extension().and_then(|e| e.to_str()) {
-            Some("json") => pretty(&render::report::json(&reports)),
+            Some("json") => versioned(&render::report::json(&reports)),
             Some("txt") => reports.iter().map(render::report::text).collect(),
             _ => render::report::html(&reports),
         };

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Failure, SceneArgs, complain, files, pretty, print};
+use super::{Failure, SceneArgs, complain, files, print, versioned};
 use carom::{scene, serve};
 
 /// Arguments of `carom serve`.
@@ -89,8 +89,8 @@ pub fn describe(args: &DescribeArgs) -> Result<u8, Failure> {
         }),
     };
     match serve::describe(&text, &asked) {
-        Ok(description) => print(&pretty(&description)).map(|()| 0),
-        Err(serve::Wrong::Scene(faults)) => print(&pretty(&faults)).map(|()| 2),
+        Ok(description) => print(&versioned(&description)).map(|()| 0),
+        Err(serve::Wrong::Scene(faults)) => print(&versioned(&faults)).map(|()| 2),
         Err(serve::Wrong::Value(message)) => Err(Failure::Input(message)),
     }
 }

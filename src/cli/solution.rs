@@ -5,7 +5,7 @@ use std::process::Command;
 
 use clap::{Args, ValueEnum};
 
-use super::{Failure, SceneArgs, files, pretty, print, read_scene_text, refused};
+use super::{Failure, SceneArgs, files, print, read_scene_text, refused};
 use carom::figure::{self, Which};
 use carom::render::html::Picture;
 use carom::solution::{Detail, Slot};
@@ -78,7 +78,9 @@ pub fn run(args: &SolutionArgs) -> Result<u8, Failure> {
         FormatArg::Latex => render::latex_document::document(solution, &held()),
         FormatArg::LatexFragment => render::latex_document::fragment(solution, &held()),
         FormatArg::Html => render::html::page(solution, &held()),
-        FormatArg::Json => pretty(&render::steps::solution(solution, &text, &args.input.set)),
+        FormatArg::Json => {
+            render::pretty(&render::steps::solution(solution, &text, &args.input.set))
+        }
         FormatArg::Pdf => {
             let document = render::latex_document::document(solution, &held());
             let path = args.output.as_deref().unwrap_or(Path::new("solution.pdf"));

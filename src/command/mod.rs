@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use crate::derive::friction::table;
 use crate::expr::effort;
 use crate::render::friction::Shown;
-use crate::render::{self, pretty};
+use crate::render::{self, json::versioned};
 use crate::scene::{self, Scene};
 use crate::worked;
 use crate::{answer, numeric, story, verify};
@@ -94,7 +94,7 @@ pub fn derive(scene: &Scene, format: Format) -> Result<Output, String> {
     let worked = worked::out(scene)?;
     let text = match format {
         Format::Text => render::text::told(scene, &worked.told),
-        Format::Json => pretty(&render::json::told(scene, &worked.told)),
+        Format::Json => versioned(&render::json::told(scene, &worked.told)),
     };
     Ok(Output::new(text, worked.holds()))
 }
@@ -114,7 +114,7 @@ fn cases(scene: &Scene, format: Format) -> Result<Output, String> {
         .map_err(|reason| reason.to_string())?;
     let text = match format {
         Format::Text => render::friction::text(scene, &table, &judged, &shown, &about),
-        Format::Json => pretty(&render::friction::json(scene, &table, &judged, &shown)),
+        Format::Json => versioned(&render::friction::json(scene, &table, &judged, &shown)),
     };
     let holds = judged.supposed_holds != Some(false)
         && !shown.is_empty()
@@ -149,7 +149,7 @@ fn solve_impact(scene: &Scene, numbers: Numbers, format: Format) -> Result<Outpu
     let refusals = refusals(&scene.staged(worked::IMPACT));
     let text = match format {
         Format::Text => render::text::refused(&refusals) + &render::text::numbers(scene, &found),
-        Format::Json => pretty(&render::json::refused(
+        Format::Json => versioned(&render::json::refused(
             render::json::numbers(scene, &found),
             &refusals,
         )),
@@ -177,7 +177,7 @@ fn certified(scene: &Scene, format: Format) -> Result<Output, String> {
     let answers = numeric::correct(scene).map_err(|why| why.to_string())?;
     let text = match format {
         Format::Text => render::certified::text(scene, &answers),
-        Format::Json => pretty(&render::certified::json(scene, &answers)),
+        Format::Json => versioned(&render::certified::json(scene, &answers)),
     };
     // An answer that could not be rounded for sure is an undecided one.
     let status = if answers.is_complete() { 0 } else { 3 };
@@ -197,7 +197,7 @@ fn follow(scene: &Scene, format: Format) -> Result<Output, String> {
         }
         Format::Json => {
             let numbers = render::stages::json(scene, &followed, &point);
-            pretty(&render::json::refused(numbers, &refusals))
+            versioned(&render::json::refused(numbers, &refusals))
         }
     };
     let is_possible = |passed: &numeric::follow::Passed| passed.is_possible();

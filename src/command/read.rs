@@ -9,7 +9,7 @@ use crate::dimension;
 use crate::formula as reader;
 use crate::grade::sheet::Sheet;
 use crate::grade::{self, Question};
-use crate::render::{self, pretty};
+use crate::render::{self, json::versioned};
 
 /// How a formula is understood, with the symbols of a sheet where there is one. An unreadable formula is a refusal as text,
 /// and status 2 with its fault as JSON.
@@ -32,7 +32,7 @@ pub fn read(formula: &str, sheet: Option<&Sheet>, format: Format) -> Result<Outp
         Ok(reading) => reading,
         Err(fault) => {
             if format == Format::Json {
-                let text = pretty(&json!({"error": render::grade::error(&fault, formula)}));
+                let text = versioned(&json!({"error": render::grade::error(&fault, formula)}));
                 return Ok(Output { text, status: 2 });
             }
             return Err(fault.show(formula));
@@ -73,7 +73,7 @@ pub fn read(formula: &str, sheet: Option<&Sheet>, format: Format) -> Result<Outp
     };
     let names: Vec<String> = reading.symbols().iter().map(|s| s.to_string()).collect();
     if format == Format::Json {
-        let text = pretty(&json!({
+        let text = versioned(&json!({
             "plain": plain, "latex": latex, "symbols": names, "dimension": dimension, "notes": notes, "other_readings": others,
         }));
         return Ok(Output { text, status: 0 });

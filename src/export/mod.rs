@@ -16,6 +16,7 @@ use crate::figure::escape;
 use crate::formula::{Sentence, latex_name, write_plain};
 use crate::grade::believed::Believed;
 use crate::grade::sheet::{Entry, Sheet};
+use crate::render::{html, naming};
 use variant::{Exact, Variant};
 
 pub use moodle::moodle;
@@ -27,14 +28,24 @@ const LARGEST: usize = 400;
 /// Variants of a question.
 const VARIANTS: usize = 5;
 
+/// What questions show besides words, as HTML.
+#[derive(Clone, Debug, Default)]
+pub struct Shown {
+    /// The picture of how it begins.
+    pub figure: String,
+    /// The worked solution.
+    pub solution: String,
+}
+
 /// A scene as questions.
 #[derive(Clone, Debug)]
 pub struct Exercise {
     title: String,
     /// What is told, as plain text.
     statement: String,
-    /// The worked solution, as HTML.
-    solution: String,
+    /// The same with its symbols typeset, as HTML.
+    typeset: String,
+    shown: Shown,
     symbols: Vec<Given>,
     items: Vec<Item>,
     /// What became no question, and why.
@@ -47,6 +58,7 @@ struct Given {
     name: Symbol,
     latex: String,
     unit: String,
+    /// As HTML.
     meaning: String,
     /// Whether the symbol is never negative.
     is_positive: bool,
@@ -74,15 +86,17 @@ struct Wrong {
     answer: Expr,
 }
 
-/// The questions of a sheet; `solution` is the worked solution as HTML, and `assumed` what its stages suppose, to which the values
-/// of variants keep where they can. The words say why there are no questions, and what would help.
-pub fn exercise(sheet: &Sheet, solution: String, assumed: &[Sentence]) -> Result<Exercise, String> {
+/// The questions of a sheet; `assumed` is what its stages suppose, to which the values of variants keep where they can. The
+/// words say why there are no questions, and what would help.
+pub fn exercise(sheet: &Sheet, shown: Shown, assumed: &[Sentence]) -> Result<Exercise, String> {
     let scene = &sheet.scene;
+    let names = naming(scene);
+    let typeset = |text: &str| html::typeset(scene, &names, text);
     let symbols = scene.parameters.iter().map(|p| Given {
         name: p.name.clone(),
         latex: p.latex.clone().unwrap_or_else(|| latex_name(&p.name)),
         unit: no_one(p.unit.clone()),
-        meaning: p.meaning.clone(),
+        meaning: typeset(&p.meaning),
         is_positive: match scene.domains.symbols.get(&p.name) {
             Some(domain) => domain.low.as_ref().is_some_and(|l| l.approximate() >= 0.0),
             None => true,
@@ -91,7 +105,8 @@ pub fn exercise(sheet: &Sheet, solution: String, assumed: &[Sentence]) -> Result
     let mut exercise = Exercise {
         title: scene.title.clone(),
         statement: scene.statement.clone(),
-        solution,
+        typeset: typeset(&scene.statement),
+        shown,
         symbols: symbols.collect(),
         items: Vec::new(),
         left_out: Vec::new(),
@@ -203,21 +218,22 @@ impl Exercise {
         values.collect::<Vec<_>>().join(", ")
     }
 
-    /// What is told and what the symbols mean, as HTML: `words` brings words of the scene into it, `written` spells the
-    /// symbols as they are typed.
-    fn told(&self, words: fn(&str) -> String, written: &dyn Fn(&Symbol) -> String) -> String {
+    /// What is told and shown, and what the symbols mean, as HTML: `quiet` keeps what comes from the scene from meaning
+    /// something on the platform, `written` spells the symbols as they are typed.
+    fn told(&self, quiet: fn(&str) -> String, written: &dyn Fn(&Symbol) -> String) -> String {
         let rows = self.symbols.iter().map(|g| {
             format!(
                 "<tr><td>\\({}\\)</td><td><code>{}</code></td><td>{}</td><td>{}</td></tr>",
                 escape(&g.latex),
-                words(&written(&g.name)),
-                words(&g.meaning),
-                words(&g.unit)
+                quiet(&escape(&written(&g.name))),
+                quiet(&g.meaning),
+                quiet(&escape(&g.unit))
             )
         });
         format!(
-            "<p>{}</p><table><tr><th>symbol</th><th>typed as</th><th>meaning</th><th>unit</th></tr>{}</table>",
-            words(&self.statement),
+            "<p>{}</p>{}<table><tr><th>symbol</th><th>typed as</th><th>meaning</th><th>unit</th></tr>{}</table>",
+            quiet(&self.typeset),
+            quiet(&self.shown.figure),
             rows.collect::<String>()
         )
     }

@@ -40,7 +40,7 @@ fn question(out: &mut String, exercise: &Exercise, item: &Item, variant: &Varian
     };
     let asked = format!(
         "{}<p>In SI units {}. What is \\({}\\), {}{}?</p>",
-        exercise.told(words, &|s| s.to_string()),
+        exercise.told(quiet, &|s| s.to_string()),
         exercise.valued(variant, |_, v| escape(&v.latex())),
         escape(&item.latex),
         words(&item.words),
@@ -53,7 +53,7 @@ fn question(out: &mut String, exercise: &Exercise, item: &Item, variant: &Varian
          <defaultgrade>1</defaultgrade>\n<penalty>0.1</penalty>\n<hidden>0</hidden>",
         text(&name),
         text(&asked),
-        text(&quiet(&exercise.solution))
+        text(&quiet(&exercise.shown.solution))
     );
     answer(out, variant.right, 100, None);
     for (wrong, value) in item.wrong.iter().zip(&variant.wrong) {

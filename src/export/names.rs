@@ -16,12 +16,12 @@ impl Names {
     /// Spells symbols: a name in `taken`, or one that differs from another in `folded` alone, gets `_s` behind it.
     pub fn new<'a>(
         symbols: impl Iterator<Item = &'a Symbol>,
-        taken: &[&str],
+        taken: impl Iterator<Item = String>,
         folded: fn(&str) -> String,
         words: &'static [(&'static str, &'static str)],
     ) -> Names {
         let mut spelled: BTreeMap<Symbol, String> = BTreeMap::new();
-        let mut used: Vec<String> = taken.iter().map(|name| folded(name)).collect();
+        let mut used: Vec<String> = taken.map(|name| folded(&name)).collect();
         for symbol in symbols {
             let known = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
             let mut name: String = symbol.chars().map(known).collect();

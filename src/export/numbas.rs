@@ -55,8 +55,9 @@ fn plain(html: &str) -> String {
 
 fn question(exercise: &Exercise, item: &Item) -> Value {
     let all = exercise.symbols.iter().map(|g| &g.name);
+    let taken = TAKEN.iter().map(|name| name.to_string());
     // Names differ there in more than capitals.
-    let names = Names::new(all, TAKEN, str::to_lowercase, WORDS);
+    let names = Names::new(all, taken, str::to_lowercase, WORDS);
     let mut parts = vec![formula(item, &names)];
     let mut variables = Map::new();
     // The symbols themselves stay free in formulas.
@@ -75,7 +76,7 @@ fn question(exercise: &Exercise, item: &Item) -> Value {
             let values = item.variants.iter();
             let values = values.map(|v| v.values[i].1.written("arccos"));
             let values = values.collect::<Vec<_>>().join(", ");
-            define(&names.name(symbol), format!("[{values}][pick]"));
+            define(&held.name(symbol), format!("[{values}][pick]"));
         }
         define("number", held.written(&item.answer));
         parts.push(number(exercise, item, &held));
@@ -84,8 +85,8 @@ fn question(exercise: &Exercise, item: &Item) -> Value {
         "name": format!("{}: {}", exercise.title, item.words),
         "tags": [],
         "metadata": {"description": item.words, "licence": "None specified"},
-        "statement": exercise.told(|text| plain(&escape(text)), &|s| names.name(s)),
-        "advice": plain(&exercise.solution),
+        "statement": exercise.told(plain, &|s| names.name(s)),
+        "advice": plain(&exercise.shown.solution),
         "rulesets": {},
         "builtin_constants": {"e": false, "pi,\u{3c0}": true, "i": false},
         "constants": [],

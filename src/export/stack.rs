@@ -14,6 +14,7 @@ const TAKEN: &[&str] = &[
     "e", "i", "j", "pi", "inf", "minf", "ind", "und", "infinity", "true", "false", "if", "then",
     "else", "do", "for", "from", "in", "next", "step", "thru", "unless", "while", "and", "or",
     "not", "simp", "ev", "at", "diff", "lambda", "beta", "gamma", "psi", "vals", "ta1", "tn",
+    "ans1", "ans2",
 ];
 
 /// Functions and constants by their names in Maxima.
@@ -29,13 +30,21 @@ const SETTINGS: &str = "decimals=. scientificnotation=*10 multiplicationsign=dot
 /// The quiz.
 pub fn stack(exercise: &Exercise) -> String {
     let all = exercise.symbols.iter().map(|g| &g.name);
-    let names = Names::new(all, TAKEN, str::to_string, WORDS);
+    let most = exercise.items.iter().map(|i| i.wrong.len()).max();
+    let own = (1..=most.unwrap_or(0)).flat_map(own);
+    let taken = TAKEN.iter().map(|name| name.to_string()).chain(own);
+    let names = Names::new(all, taken, str::to_string, WORDS);
     let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<quiz>\n");
     for item in &exercise.items {
         question(&mut out, exercise, item, &names);
     }
     out.push_str("</quiz>\n");
     out
+}
+
+/// The variables of a wrong answer: the formula, and its number. Students may have symbols of short names for themselves.
+fn own(k: usize) -> [String; 2] {
+    [format!("belief{k}"), format!("beliefn{k}")]
 }
 
 /// A field with a text inside.
@@ -65,7 +74,7 @@ fn question(out: &mut String, exercise: &Exercise, item: &Item, names: &Names) {
     out.push_str(&format!(
         "<question type=\"stack\">\n<name><text>{name}</text></name>\n"
     ));
-    let mut asked = exercise.told(words, &spelled);
+    let mut asked = exercise.told(quiet, &spelled);
     let _ = write!(
         asked,
         "<p>As a formula, with * between factors: {}, \\({}\\) = [[input:ans1]] [[validation:ans1]]</p>",
@@ -80,7 +89,7 @@ fn question(out: &mut String, exercise: &Exercise, item: &Item, names: &Names) {
         );
     }
     text(out, "questiontext", &asked);
-    text(out, "generalfeedback", &quiet(&exercise.solution));
+    text(out, "generalfeedback", &quiet(&exercise.shown.solution));
     fields(out, "defaultgrade=1 penalty=0.1 hidden=0 idnumber=");
     let _ = writeln!(
         out,
@@ -106,10 +115,11 @@ fn question(out: &mut String, exercise: &Exercise, item: &Item, names: &Names) {
     text(out, "prtpartiallycorrect", "<p>Right in part.</p>");
     text(out, "prtincorrect", "<p>Not right.</p>");
     fields(out, SETTINGS);
-    input(out, "name=ans1 type=algebraic tans=ta1 boxsize=30", "1");
+    let own = "name=ans1 type=algebraic tans=ta1 boxsize=30";
+    input(out, own, "1", &unusual(exercise, names));
     if with_numbers {
         let own = "name=ans2 type=numerical tans=float(tn) boxsize=12";
-        input(out, own, "0");
+        input(out, own, "0", "");
     }
     tree(out, item, &FORMULA);
     if with_numbers {
@@ -136,9 +146,9 @@ fn variables(item: &Item, names: &Names) -> String {
     }
     let answers = item.wrong.iter().map(|w| &w.answer);
     for (k, answer) in std::iter::once(&item.answer).chain(answers).enumerate() {
-        let (own, number) = match k {
-            0 => (String::from("ta1"), String::from("tn")),
-            k => (format!("w{k}"), format!("wn{k}")),
+        let [own, number] = match k {
+            0 => ["ta1", "tn"].map(String::from),
+            k => self::own(k),
         };
         let _ = writeln!(out, "{own}: {};", names.written(answer));
         if !item.variants.is_empty() {
@@ -148,14 +158,21 @@ fn variables(item: &Item, names: &Names) -> String {
     out
 }
 
-fn input(out: &mut String, own: &str, check_type: &str) {
+/// Names that STACK takes from students only where it is told to: those of more than two characters.
+fn unusual(exercise: &Exercise, names: &Names) -> String {
+    let all = exercise.symbols.iter().map(|g| names.name(&g.name));
+    all.filter(|n| n.len() > 2).collect::<Vec<_>>().join(",")
+}
+
+fn input(out: &mut String, own: &str, check_type: &str, allowed: &str) {
     out.push_str("<input>\n");
     fields(out, own);
     fields(
         out,
-        "strictsyntax=1 insertstars=0 syntaxhint= syntaxattribute=0 forbidwords= allowwords= forbidfloat=0 \
-         requirelowestterms=0",
+        "strictsyntax=1 insertstars=0 syntaxhint= syntaxattribute=0 forbidwords=",
     );
+    field(out, "allowwords", allowed);
+    fields(out, "forbidfloat=0 requirelowestterms=0");
     field(out, "checkanswertype", check_type);
     fields(out, "mustverify=1 showvalidation=1 options=");
     out.push_str("</input>\n");
@@ -166,7 +183,6 @@ struct Tree {
     name: &'static str,
     input: &'static str,
     right: &'static str,
-    wrong: &'static str,
     test: &'static str,
     options: &'static str,
 }
@@ -176,7 +192,6 @@ const FORMULA: Tree = Tree {
     name: "prt1",
     input: "ans1",
     right: "ta1",
-    wrong: "w",
     test: "AlgEquiv",
     options: "",
 };
@@ -186,7 +201,6 @@ const NUMBER: Tree = Tree {
     name: "prt2",
     input: "ans2",
     right: "float(tn)",
-    wrong: "wn",
     test: "NumRelative",
     options: TOLERANCE,
 };
@@ -196,8 +210,8 @@ impl Tree {
     fn against(&self, k: usize) -> String {
         match (k, self.test) {
             (0, _) => self.right.to_string(),
-            (k, "NumRelative") => format!("float({}{k})", self.wrong),
-            (k, _) => format!("{}{k}", self.wrong),
+            (k, "NumRelative") => format!("float({})", own(k)[1]),
+            (k, _) => own(k)[0].clone(),
         }
     }
 

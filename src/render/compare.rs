@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::digits;
 use crate::figure::{Ink, Label};
-use crate::plot::{Axis, Curve, Mark, Plot};
+use crate::plot::{Axis, Curve, Mark, Plot, draw};
 use crate::scene::Scene;
 use crate::verify::compare::{Comparison, Outcome};
 
@@ -99,7 +99,7 @@ pub fn text(scene: &Scene, c: &Comparison) -> String {
     out
 }
 
-/// Laws side by side as data.
+/// Laws side by side as data, with the plane of impulses as SVG.
 pub fn json(scene: &Scene, c: &Comparison) -> Value {
     let outcome = |o: &Outcome| {
         let bodies = o.bodies.iter().map(|(i, [x, y, spin])| {
@@ -137,6 +137,7 @@ pub fn json(scene: &Scene, c: &Comparison) -> Value {
         "contact_space": {"a": s.a, "b": s.b, "c": s.c, "u_t": s.tangential, "u_n": s.normal},
         "mu": c.mu,
         "laws": rows.collect::<Vec<_>>(),
+        "plane": draw(&plane(scene, c)).ok().map(|p| p.svg),
     })
 }
 

@@ -12,6 +12,7 @@ use crate::grade::{Apart, Diagnosis, Grade, Proof, Verdict};
 struct Written<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     id: Option<&'a Value>,
+    version: u32,
     verdict: &'static str,
     reward: Option<u8>,
     proof: &'a Proof,
@@ -33,6 +34,7 @@ impl<'a> Written<'a> {
     fn of(id: Option<&'a Value>, grade: &'a Grade, text: &str) -> Written<'a> {
         Written {
             id,
+            version: super::VERSION,
             verdict: grade.verdict.word(),
             reward: grade.verdict.reward(),
             proof: &grade.proof,

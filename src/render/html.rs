@@ -6,7 +6,8 @@ use super::mathml::{escape, expr, formula, from_latex};
 use crate::answer::Matrix;
 use crate::expr::Expr;
 use crate::figure::Piece;
-use crate::solution::{Inline, Line, Math, Part, Slot, Solution};
+use crate::scene::Scene;
+use crate::solution::{Inline, Line, Math, Part, Slot, Solution, with_symbols};
 
 /// A picture that belongs to a solution.
 #[derive(Clone, Debug)]
@@ -243,6 +244,11 @@ fn caption(pieces: &[Piece]) -> String {
         }
     }
     out
+}
+
+/// Words of a scene as markup, its symbols typeset as `names` has them.
+pub fn typeset(scene: &Scene, names: &Solution, text: &str) -> String {
+    sentence(names, &with_symbols(scene, text))
 }
 
 /// A sentence as markup, its words escaped.

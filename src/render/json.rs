@@ -11,6 +11,19 @@ use crate::laws;
 use crate::scene::Scene;
 use crate::story::{Case, StageTold, Told};
 
+/// An object, or each of a list, as JSON with the version in front.
+pub fn versioned(value: &Value) -> String {
+    let with_version = |value: &Value| {
+        let mut out = Map::from_iter([("version".to_string(), super::VERSION.into())]);
+        out.extend(value.as_object().cloned().unwrap_or_default());
+        Value::Object(out)
+    };
+    super::pretty(&match value {
+        Value::Array(all) => all.iter().map(with_version).collect(),
+        one => with_version(one),
+    })
+}
+
 /// What was told as data: one impact with its equations, or answers with the stages beside them.
 pub fn told(scene: &Scene, told: &Told) -> Value {
     if let Some(impact) = told.alone() {

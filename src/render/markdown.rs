@@ -40,8 +40,10 @@ pub fn solution(s: &Solution, pictures: &[(Picture, String)]) -> String {
                 Part::Matrix(m) => blocks.push(format!("$$\n{}\n$$", matrix(s, m))),
                 Part::Figure(slot) => {
                     for (picture, file) in pictures.iter().filter(|(p, _)| p.slot == *slot) {
-                        blocks.push(format!("![{}]({file})", text(&picture.alternative)));
-                        blocks.push(format!("*{}*", text(&plain(&picture.caption))));
+                        let alternative = text(&picture.alternative);
+                        let caption = text(&plain(&picture.caption));
+                        // A picture alone in its paragraph would get its alternative as a caption from Pandoc and Quarto.
+                        blocks.push(format!("![{alternative}]({file})\\\n*{caption}*"));
                     }
                 }
             }

@@ -87,6 +87,9 @@ fn columns(rows: &[Vec<String>], is_number: impl Fn(usize) -> bool) -> Vec<Strin
     rows.iter().map(line).collect()
 }
 
+/// Version of the JSON that is written; it grows when a field changes its meaning or goes.
+pub const VERSION: u32 = 1;
+
 /// Data as JSON for people and programs; what would be hidden stands there by its number.
 pub fn pretty(value: &serde_json::Value) -> String {
     let text = serde_json::to_string_pretty(value).unwrap_or_default();

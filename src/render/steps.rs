@@ -14,7 +14,7 @@ use crate::solution::{Claim, Math, Meaning, Scope, Solution, Step};
 pub fn solution(s: &Solution, scene: &str, set: &[String]) -> Value {
     let mut out = json!({
         "format": "carom solution",
-        "version": 1,
+        "version": super::VERSION,
         "title": s.title,
         "source": s.source,
         "scene": scene,

@@ -60,10 +60,8 @@ pub(super) enum Kind {
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Gives {
-    /// JSON, to which the version is added.
+    /// JSON.
     Json,
-    /// JSON that tells its version itself.
-    OwnJson,
     /// Text of this type.
     Text(&'static str),
 }

@@ -8,9 +8,9 @@ use crate::expr::{Expr, Point, Symbol};
 use crate::figure;
 use crate::formula::{self, Content, latex_name};
 use crate::grade;
-use crate::render::{self, content, mathml, naming, symbols_of};
-use crate::scene::{self, Parameter, Scene, StageKind};
-use crate::solution::{self, Solution};
+use crate::render::{self, content, html, mathml, naming, symbols_of};
+use crate::scene::{self, Contact, ContactLaw, Parameter, Scene, Stage, StageKind};
+use crate::solution::Solution;
 
 /// What is asked about a scene.
 #[derive(Clone, Debug, Default)]
@@ -62,10 +62,11 @@ pub fn describe(text: &str, asked: &Asked) -> Result<Value, Wrong> {
         "title": scene.title,
         "source": scene.source,
         "statement": scene.statement,
-        "statement_html": typeset(&scene, &names, &scene.statement),
+        "statement_html": html::typeset(&scene, &names, &scene.statement),
         "parameters": parameters.map(|p| parameter(&scene, &names, p, &shown)).collect::<Vec<_>>(),
         "directions": scene.domains.unit_vectors.iter().map(|pair| pair.each_ref().map(ToString::to_string)).collect::<Vec<_>>(),
-        "stages": stages.map(|s| json!({"name": s.name, "is_impact": matches!(s.kind, StageKind::Impact { .. })})).collect::<Vec<_>>(),
+        "stages": stages.map(stage).collect::<Vec<_>>(),
+        "has_laws": has_laws(&scene),
         "plots": scene.plots.iter().map(|p| p.name.clone()).collect::<Vec<_>>(),
         "remarks": scene.remarks,
         "readings": readings.collect::<Vec<_>>(),
@@ -73,6 +74,18 @@ pub fn describe(text: &str, asked: &Asked) -> Result<Value, Wrong> {
         "outlines": outlines.map(|(b, lines)| json!({"body": b.name, "lines": lines})).collect::<Vec<_>>(),
         "film": film,
     }))
+}
+
+fn stage(stage: &Stage) -> Value {
+    let is_impact = matches!(stage.kind, StageKind::Impact { .. });
+    json!({"name": stage.name, "is_impact": is_impact, "has_laws": is_impact && has_laws(&stage.scene)})
+}
+
+/// Whether an impact has laws of contact to compare: friction, or several smooth contacts at once.
+fn has_laws(scene: &Scene) -> bool {
+    let smooth = |c: &Contact| matches!(c.law, ContactLaw::Frictionless { .. });
+    let several = scene.contacts.len() > 1 && scene.contacts.iter().all(smooth);
+    scene.friction().is_some() || several
 }
 
 /// How the bodies come to the first impact and go on after the last, with the right motion and with what somebody claims.
@@ -106,11 +119,6 @@ fn film(scene: &Scene, shown: &Point<f64>, filmed: &Filmed) -> Value {
     })
 }
 
-/// Words of a scene with its symbols typeset, as markup.
-fn typeset(scene: &Scene, names: &Solution, text: &str) -> String {
-    render::html::sentence(names, &solution::with_symbols(scene, text))
-}
-
 fn parameter(scene: &Scene, names: &Solution, p: &Parameter, shown: &Point<f64>) -> Value {
     let scale = p.scale().evaluate(&Point::<f64>::default()).unwrap_or(1.0);
     let value = shown.values.get(&p.name).copied().unwrap_or(1.0) / scale;
@@ -129,7 +137,7 @@ fn parameter(scene: &Scene, names: &Solution, p: &Parameter, shown: &Point<f64>)
         "unit": p.unit,
         "meaning": p.meaning,
         "domain": domain,
-        "about_html": typeset(scene, names, &about.join("; ")),
+        "about_html": html::typeset(scene, names, &about.join("; ")),
         "is_given": p.value.is_some(),
         "value": value,
         "min": min,

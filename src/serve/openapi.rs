@@ -31,7 +31,7 @@ pub(super) fn document() -> Value {
         "info": {
             "title": "carom",
             "version": env!("CARGO_PKG_VERSION"),
-            "description": "Collisions of rigid bodies in the plane. Each command gives what it prints with --format json, and a version.",
+            "description": "Collisions of rigid bodies in the plane. Each command gives what it prints with --format json.",
         },
         "paths": paths,
         "components": {"schemas": {"Error": error_schema()}},
@@ -57,7 +57,7 @@ fn post(command: &Command) -> Value {
     request["content"]["application/jsonl"] =
         json!({"schema": {"type": "string", "description": lines}});
     let media = match command.gives {
-        Gives::Json | Gives::OwnJson => "application/json",
+        Gives::Json => "application/json",
         Gives::Text(media) => media.split(';').next().unwrap_or(media),
     };
     let mut responses = responses(media);

@@ -18,10 +18,8 @@ use super::commands::{COMMANDS, Command, Gives};
 use super::request::{self, Bad};
 use super::work::{Done, Job, NoEnd};
 use super::{Shared, describe, openapi};
-use crate::render;
+use crate::render::{self, VERSION};
 
-/// Version of the JSON that comes back; it grows when a field changes its meaning or goes.
-const VERSION: u32 = 1;
 /// Largest body of a request, in bytes.
 const BODY: usize = 1 << 20;
 /// How long a request may take from its head to its answer, waiting for a turn included, against how long a command may.
@@ -38,6 +36,7 @@ const FILES: &[(&str, &str)] = &[
     ("/figure.js", include_str!("page/figure.js")),
     ("/answers.js", include_str!("page/answers.js")),
     ("/film.js", include_str!("page/film.js")),
+    ("/laws.js", include_str!("page/laws.js")),
     ("/accuracy.js", include_str!("page/accuracy.js")),
     ("/try.js", include_str!("page/try.js")),
     ("/solution.js", include_str!("page/solution.js")),
@@ -268,20 +267,18 @@ async fn answer(
     }
 }
 
-/// What a command printed; JSON gets the version, and the doubts that the command told beside it.
+/// What a command printed; JSON gets the doubts that the command told beside it.
 fn result(done: Done, gives: Gives) -> Response {
-    let rest = match gives {
-        Gives::Text(media) => return typed(media, done.out),
-        Gives::OwnJson => return typed(JSON, done.out),
-        Gives::Json => done.out.strip_prefix(b"{").unwrap_or_default(),
-    };
-    let mut out = format!("{{\n  \"version\": {VERSION},").into_bytes();
     let doubts: Vec<&str> = done.said.lines().map(without_place).collect();
-    if !doubts.is_empty() {
-        out.extend_from_slice(format!("\n  \"doubts\": {},", json!(doubts)).as_bytes());
+    match (gives, done.out.strip_prefix(b"{")) {
+        (Gives::Text(media), _) => typed(media, done.out),
+        (Gives::Json, Some(rest)) if !doubts.is_empty() => {
+            let mut out = format!("{{\n  \"doubts\": {},", json!(doubts)).into_bytes();
+            out.extend_from_slice(rest);
+            typed(JSON, out)
+        }
+        (Gives::Json, _) => typed(JSON, done.out),
     }
-    out.extend_from_slice(rest);
-    typed(JSON, out)
 }
 
 /// Why a request could not be carried out; if that is its scene, what is wrong with it and where.
@@ -301,8 +298,9 @@ async fn unusable(shared: &Shared, said: &str, scene: String) -> Response {
     if !job.input.is_empty()
         && let Ok(done) = shared.workshop.run(job, shared.folder.root()).await
         && done.status == Some(2)
-        && let Ok(Value::Object(faults)) = serde_json::from_slice(&done.out)
+        && let Ok(Value::Object(mut faults)) = serde_json::from_slice(&done.out)
     {
+        faults.remove("version");
         return error_with(status, "the scene cannot be read", faults);
     }
     error_with(status, without_place(message), more)

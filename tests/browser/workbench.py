@@ -92,7 +92,7 @@ window.before = document.querySelector('#figure svg');
 slider.stepUp(2);
 slider.dispatchEvent(new Event('input', { bubbles: true }));
 """
-PANELS = {"try": "#try form", "solution": "#solution button", "scene": "#scene textarea"}
+PANELS = {"try": "#try form", "solution": "#solution button", "laws": "#laws table", "scene": "#scene textarea"}
 
 
 def look(browser, base, scene, width, scheme, target):
@@ -106,6 +106,8 @@ def look(browser, base, scene, width, scheme, target):
         moved = "document.querySelector('#figure svg') !== window.before || document.querySelector('#values-note').textContent"
         browser.wait(moved, "the figure follows the slider")
     for panel, inside in PANELS.items():
+        if browser.run(f"return document.getElementById('tab-{panel}').hidden"):
+            continue
         browser.run(f"document.getElementById('tab-{panel}').click()")
         browser.wait(f"document.querySelector('{inside}')", panel)
         faults += [f"{panel}: {fault}" for fault in browser.run(FAULTS) if "it says" not in fault]

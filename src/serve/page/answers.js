@@ -109,7 +109,7 @@ async function draw(found) {
     parts.push(known(one, set));
   }
   if (common.length) parts.push(make("h3", {}, "In every case"), ...common.map((a) => answer(a, set, false)));
-  if (found.cases) parts.unshift(make("section", { id: "numbers" }), laws());
+  if (found.cases) parts.unshift(make("section", { id: "numbers" }));
   $("answers").replaceChildren(...parts.filter(Boolean));
   renumber();
 }
@@ -180,7 +180,7 @@ const number = (n) => (n.value === null ? (n.reason ?? "open") : `≈ ${digits(n
 const letter = (name) => (letters.get(name) ? markup(letters.get(name)) : name);
 
 // What a contact does, or where its impulse lies.
-const behaves = (mode) => mode.endsWith("the cone") ? `the impulse lies ${mode}`
+export const behaves = (mode) => mode.endsWith("the cone") ? `the impulse lies ${mode}`
   : mode === "given ratio" ? "the impulse has the given ratio" : `the contact ${mode}`;
 
 // The numbers at the values of the sliders, from the geometry alone.
@@ -211,25 +211,6 @@ const modeAtValues = quietly(async () => {
   const law = compared?.laws.find((l) => l.law === found?.hypothesis);
   if (law && $("mode")) $("mode").textContent = `At these values ${behaves(law.mode)}`;
 }, 250);
-
-// The laws of friction side by side, when they are asked for.
-function laws() {
-  const table = make("table", { class: "lines" });
-  const fold = make("details", {}, make("summary", {}, "Laws of friction side by side, at these values"), table);
-  fold.addEventListener("toggle", async () => {
-    if (!fold.open) return;
-    try {
-      const found = await ask("compare", { ...scene(), set: set() });
-      const head = ["law", "the contact", "impulse, tangential and normal", "energy"];
-      const rows = found.laws.map((l) => [l.law, l.mode, l.impulse?.map(digits).join(", ") ?? "", l.energy ?? ""]);
-      table.replaceChildren(make("tr", {}, ...head.map((h) => make("th", { scope: "col" }, h))),
-        ...rows.map((row) => make("tr", {}, ...row.map((cell) => make("td", {}, String(cell))))));
-    } catch (error) {
-      table.replaceChildren(make("caption", { class: "wrong" }, told(error)));
-    }
-  });
-  return fold;
-}
 
 // Answers about answers, such as a threshold, have their numbers from their closed forms, once the sliders rest.
 const revalue = quietly(async (missing) => {

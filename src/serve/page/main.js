@@ -8,10 +8,11 @@ import { showFilm } from "/film.js";
 import { showAnswers, renumber } from "/answers.js";
 import { showTry } from "/try.js";
 import { showSolution } from "/solution.js";
+import { lawful, showLaws } from "/laws.js";
 import { showAccuracy } from "/accuracy.js";
 import { showEditor } from "/editor.js";
 
-const PANELS = ["answers", "try", "solution", "accuracy", "scene"];
+const PANELS = ["answers", "try", "solution", "laws", "accuracy", "scene"];
 // Longest text of a changed scene that a link holds.
 const IN_LINK = 8000;
 
@@ -60,7 +61,10 @@ export async function valuesChanged() {
 }
 // Browsers stop a page that writes its address too often. The list of scenes has an address of its own.
 const link = quietly(() => $("bench").hidden || remember(), 200);
-const refilm = quietly(showFilm, 300);
+const refilm = quietly(() => {
+  showFilm();
+  refill("laws");
+}, 300);
 
 // Puts a scene on the bench, from its text where that was changed. A scene that cannot be read leaves the bench as it is.
 export async function load(text) {
@@ -79,6 +83,7 @@ export async function load(text) {
   showFilm();
   showAnswers();
   stale = new Set(Object.keys(FILL));
+  $("tab-laws").hidden = lawful() === undefined;
   openPanel(bench.panel);
   remember();
   return about;
@@ -86,10 +91,19 @@ export async function load(text) {
 
 // Panels that are filled when they are opened.
 let stale = new Set();
-const FILL = { try: showTry, solution: showSolution, accuracy: showAccuracy };
+const FILL = { try: showTry, solution: showSolution, laws: showLaws, accuracy: showAccuracy };
+
+// Fills a panel anew, now or when it is opened.
+function refill(panel) {
+  stale.add(panel);
+  if (bench.panel === panel) openPanel(panel);
+}
+
+// Panels of this scene: not every one has laws to compare.
+const panels = () => PANELS.filter((panel) => !$(`tab-${panel}`).hidden);
 
 function openPanel(name, focus) {
-  bench.panel = PANELS.includes(name) ? name : "answers";
+  bench.panel = panels().includes(name) ? name : "answers";
   for (const panel of PANELS) {
     const isOpen = panel === bench.panel;
     $(panel).hidden = !isOpen;
@@ -109,15 +123,16 @@ for (const panel of PANELS) {
   });
 }
 $("stage").addEventListener("change", () => {
-  stale.add("accuracy");
-  if (bench.panel === "accuracy") openPanel("accuracy");
+  refill("accuracy");
+  refill("laws");
 });
 $("tabs").addEventListener("keydown", (event) => {
-  const at = PANELS.indexOf(bench.panel);
+  const all = panels();
+  const at = all.indexOf(bench.panel);
   const to = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: -1 }[event.key];
   if (to === undefined) return;
   event.preventDefault();
-  openPanel(PANELS.at(to % PANELS.length), true);
+  openPanel(all.at(to % all.length), true);
   remember();
 });
 
