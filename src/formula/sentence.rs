@@ -5,10 +5,11 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
 use super::write_plain;
-use crate::expr::{Expr, Node, Rational, Symbol};
+use crate::expr::{Expr, Int, Node, Rational, Symbol};
 
 /// A sentence from a template, with words, formulas and other sentences in its gaps, in order:
 /// `sentence!("it holds for {} ≤ {}", &h, &limit)`.
@@ -302,19 +303,34 @@ fn beyond_zero(e: &Expr, [sign, turned]: [&str; 2]) -> Sentence {
     }
 }
 
-/// A sum with the symbols that stand in each of its terms in front: `μ + 3 μ sin²θ` as `μ (1 + 3 sin²θ)`.
+/// A sum with the symbols and the whole number that stand in each of its terms in front: `3 μ + 6 μ sin²θ` as
+/// `3 μ (1 + 2 sin²θ)`.
 fn gathered(side: &Expr) -> Expr {
     let Node::Sum(terms) = side.node() else {
         return side.clone();
     };
     let mut common = terms[0].factors().to_vec();
     common.retain(|f| f.as_symbol().is_some() && terms.iter().all(|t| t.factors().contains(f)));
-    let rest = |term: &Expr| {
-        let own = term.factors().iter().filter(|f| !common.contains(f));
-        Expr::product(own.cloned())
+    let (numbers, plain): (Vec<_>, Vec<_>) = terms.iter().map(Expr::split_number).unzip();
+    let whole = |all: &[Rational]| all.iter().all(Rational::is_integer);
+    let number = match whole(&numbers) {
+        true => numbers.iter().fold(Int::zero(), |g, n| g.gcd(n.numer())),
+        false => Int::one(),
     };
-    let rest = Expr::sum(terms.iter().map(rest));
-    Expr::product(common.iter().cloned().chain([rest]))
+    let number = Rational::from(number);
+    let rest = |(own, term): (&Rational, &Expr)| {
+        let factors = term.factors().iter().filter(|f| !common.contains(f));
+        let own = Expr::from(own / &number);
+        Expr::product([own].into_iter().chain(factors.cloned()))
+    };
+    let rest = Expr::sum(numbers.iter().zip(&plain).map(rest));
+    let number = Expr::from(number);
+    Expr::product(
+        [number]
+            .into_iter()
+            .chain(common.iter().cloned())
+            .chain([rest]),
+    )
 }
 
 impl From<&str> for Sentence {
