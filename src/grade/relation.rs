@@ -15,6 +15,7 @@ mod inside;
 mod least;
 mod listed;
 mod locus;
+mod normal;
 mod plain;
 mod points;
 mod solved;
@@ -30,41 +31,19 @@ use super::compare::{Context, scalars};
 use super::{Apart, Grade, Verdict};
 use crate::algebra::{self, Element, Field, Sign};
 use crate::domain::{Domain, Domains, roles};
-use crate::expr::{Expr, Function, Node, Symbol, ratio};
+use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{Content, Join, Relation, is_angle_name, write_plain};
 use crate::interval::{Big, Outcome, evaluate};
 pub(super) use bounds::at_bounds;
-use cells::Cases;
 use equations::{GAINED, LOST, alternatives, equations, told};
 use inequality::inequalities;
 pub(super) use inside::{angle_in, below_in, size_in, under_root};
 pub(super) use least::of_which;
-use num_traits::Signed;
+use normal::{Normal, cases, differences, equation, links, negated, rooted};
 use points::{apart_at_points, apart_in_cases, holding};
 pub(super) use solved::solve_for;
 use solved::{lies_in, solved_in, unknowns};
-use values::{cancelled, has_values, hole, main, may_lack_values};
-
-/// `left − right  rel  0`, turned so that the relation is one of =, ≠, <, ≤.
-#[derive(Clone, PartialEq, Debug)]
-struct Normal {
-    difference: Expr,
-    relation: Relation,
-}
-
-impl Normal {
-    fn new(difference: Expr, relation: Relation) -> Normal {
-        Normal {
-            difference,
-            relation,
-        }
-    }
-
-    /// The same relation of another difference.
-    fn of(&self, difference: Expr) -> Normal {
-        Normal::new(difference, self.relation)
-    }
-}
+use values::{hole, main, may_lack_values};
 
 /// Compares two systems of relations.
 pub(crate) fn compare(
@@ -72,17 +51,7 @@ pub(crate) fn compare(
     (sides, signs): (&[Content], &[Relation]),
     (mine, my_signs): (&[Content], &[Relation]),
 ) -> Grade {
-    if let Some([name, value]) = least::as_bound((sides, signs), (mine, my_signs)) {
-        let sign = match sides.first() == Some(&name) {
-            true => signs[0],
-            false => signs[0].turned(),
-        };
-        let mut found = compare(ctx, (sides, signs), (&[name, value], &[sign]));
-        if found.is_equivalent() {
-            let words =
-                "the bound is told as the least or largest value; whether it counts itself is not";
-            found.assume(vec![words.into()]);
-        }
+    if let Some(found) = least::compare(ctx, (sides, signs), (mine, my_signs)) {
         return found;
     }
     let (Some(expected), Some(answer)) = (links(sides, signs), links(mine, my_signs)) else {
@@ -244,32 +213,6 @@ pub(crate) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Gra
     }
 }
 
-/// What holds where none of several bounds does: nothing where a case has more than one, or some value may be missing.
-fn negated(cases: &Cases, domains: &Domains) -> Option<Vec<Normal>> {
-    let everywhere = |part: &Expr| match part.node() {
-        Node::Power(base, k) => k.as_number().is_some_and(|k| {
-            let whole = k.is_integer() || sign_of(base, domains).is_some_and(Sign::is_not_negative);
-            whole && !k.is_negative()
-        }),
-        Node::Call(function, _) => {
-            matches!(function, Function::Abs | Function::Sin | Function::Cos)
-        }
-        _ => true,
-    };
-    let turned = |case: &Vec<Normal>| match case.as_slice() {
-        [n] if n.difference.parts().all(everywhere) => {
-            let relation = match n.relation {
-                Relation::Less => Relation::LessEqual,
-                Relation::LessEqual => Relation::Less,
-                _ => return None,
-            };
-            Some(Normal::new(-&n.difference, relation))
-        }
-        _ => None,
-    };
-    cases.iter().map(turned).collect()
-}
-
 /// An answer with the solution of the expected equation in one symbol wherever its own number is near that; those beyond the
 /// domain as well, which an exact comparison rules out.
 pub(super) fn at_zeros(
@@ -295,133 +238,6 @@ pub(super) fn at_zeros(
         roots.find(|root| near(e, root)).unwrap_or(e).clone()
     };
     Some(answer.map(&exact))
-}
-
-/// The systems of which one holds.
-fn cases(content: &Content) -> Option<Vec<Vec<Normal>>> {
-    match content {
-        Content::Relations(sides, signs) => Some(vec![links(sides, signs)?]),
-        Content::Joined(join, parts) => {
-            let parts: Vec<_> = parts.iter().map(cases).collect::<Option<_>>()?;
-            match join {
-                // One of several equations holds where the product of their differences vanishes.
-                Join::Or => Some(match one_of(&parts).filter(has_values) {
-                    Some(product) => vec![vec![product]],
-                    None => parts.concat(),
-                }),
-                // Each case of one with each case of the others.
-                Join::And => {
-                    let first = vec![Vec::new()];
-                    parts.iter().try_fold(first, |all, part| {
-                        let with = |case: &Vec<Normal>| {
-                            let each = part.iter().map(|other| [&case[..], other].concat());
-                            each.collect::<Vec<_>>()
-                        };
-                        let all: Vec<_> = all.iter().flat_map(with).collect();
-                        (all.len() <= plain::MOST_CASES).then_some(all)
-                    })
-                }
-            }
-        }
-        _ => None,
-    }
-}
-
-/// The equation that holds where one of several does.
-fn one_of(parts: &[Vec<Vec<Normal>>]) -> Option<Normal> {
-    let alone = |cases: &Vec<Vec<Normal>>| match cases.as_slice() {
-        [system] => match system.as_slice() {
-            [n] if n.relation == Relation::Equal => Some(n.difference.clone()),
-            _ => None,
-        },
-        _ => None,
-    };
-    let differences: Vec<Expr> = parts.iter().map(alone).collect::<Option<_>>()?;
-    Some(Normal::new(Expr::product(differences), Relation::Equal))
-}
-
-/// The relations of a chain; an equation between vectors is one for each component, and with ± it is one that vanishes for
-/// either sign.
-fn links(sides: &[Content], signs: &[Relation]) -> Option<Vec<Normal>> {
-    let mut out = Vec::new();
-    for (pair, sign) in sides.windows(2).zip(signs) {
-        let equation = matches!(sign, Relation::Equal | Relation::NotEqual);
-        match pair {
-            [Content::Vector(a), Content::Vector(b)] if *sign == Relation::Equal => {
-                let parts = a.iter().zip(b).map(|(a, b)| normal(a, b, *sign));
-                out.extend(parts.filter(|n| !n.difference.is_zero()));
-            }
-            [Content::Vector(v), other] | [other, Content::Vector(v)]
-                if *sign == Relation::Equal && other.expr().is_some_and(Expr::is_zero) =>
-            {
-                out.extend(v.iter().map(|c| normal(c, &Expr::zero(), *sign)));
-            }
-            [Content::Either(a), Content::Either(b)] if equation && a.len() == b.len() => {
-                out.push(either(a.iter().zip(b), *sign));
-            }
-            [Content::Either(values), other] | [other, Content::Either(values)] if equation => {
-                let other = other.expr()?;
-                out.push(either(values.iter().map(|value| (other, value)), *sign));
-            }
-            [a, b] => {
-                let (a, b) = (a.expr()?, b.expr()?);
-                let n = normal(a, b, *sign);
-                let gone = cancelled([a, b], &n.difference);
-                match squares(&n) {
-                    Some(all) => out.extend(all),
-                    None => out.push(n),
-                }
-                out.extend(gone);
-            }
-            _ => return None,
-        }
-    }
-    (!out.is_empty()).then_some(out)
-}
-
-fn either<'e>(pairs: impl Iterator<Item = (&'e Expr, &'e Expr)>, relation: Relation) -> Normal {
-    let differences: Vec<Expr> = pairs.map(|(a, b)| a - b).collect();
-    Normal::new(Expr::product(differences), relation)
-}
-
-fn normal(left: &Expr, right: &Expr, relation: Relation) -> Normal {
-    let (difference, relation) = match relation {
-        Relation::Greater => (right - left, Relation::Less),
-        Relation::GreaterEqual => (right - left, Relation::LessEqual),
-        other => (left - right, other),
-    };
-    match relation {
-        Relation::Equal | Relation::NotEqual => Normal::new(rooted(difference), relation),
-        _ => Normal::new(difference, relation),
-    }
-}
-
-/// A sum of squares vanishes where each of them does.
-fn squares(n: &Normal) -> Option<Vec<Normal>> {
-    let terms = n.difference.terms();
-    let even = |k: &Expr| {
-        let half = k.as_number().map(|k| k / ratio(2, 1));
-        half.is_some_and(|half| half.is_integer() && half.is_positive())
-    };
-    let base = |term: &Expr| {
-        let (factor, rest) = term.split_number();
-        match rest.node() {
-            Node::Power(base, k) if even(k) => Some((factor.is_positive(), base.clone())),
-            _ => None,
-        }
-    };
-    let all: Vec<(bool, Expr)> = terms.iter().map(base).collect::<Option<_>>()?;
-    let alike = all.len() > 1 && all.iter().all(|(sign, _)| *sign == all[0].0);
-    let each = all.into_iter();
-    (alike && n.relation == Relation::Equal).then(|| each.map(|(_, base)| n.of(base)).collect())
-}
-
-/// A power vanishes where its base does.
-fn rooted(difference: Expr) -> Expr {
-    match difference.node() {
-        Node::Power(base, k) if k.as_number().is_some_and(Signed::is_positive) => base.clone(),
-        _ => difference,
-    }
 }
 
 /// Two relations as they are written, or else with the functions undone that stand around both sides.
@@ -632,11 +448,6 @@ pub(crate) fn proportional(f: &Expr, g: &Expr, domains: &Domains) -> bool {
     same_sign(&f, &g, domains).is_some() && same_sign(&g, &f, domains).is_some()
 }
 
-/// `e = 0`.
-fn equation(e: &Expr) -> Normal {
-    Normal::new(e.clone(), Relation::Equal)
-}
-
 /// The sign of a formula on the domain.
 pub(super) fn sign_of(e: &Expr, domains: &Domains) -> Option<Sign> {
     algebra::sign(e, &domains.of(&[e]))
@@ -696,13 +507,4 @@ fn sought_of(ctx: &Context, all: BTreeSet<Symbol>) -> BTreeSet<Symbol> {
 /// The assumption that a formula is not zero.
 fn not_zero(e: &Expr) -> String {
     format!("{} ≠ 0", write_plain(e))
-}
-
-/// The differences of all sides of two systems.
-fn differences<'n>(
-    expected: impl IntoIterator<Item = &'n Normal>,
-    answer: impl IntoIterator<Item = &'n Normal>,
-) -> Vec<&'n Expr> {
-    let all = expected.into_iter().chain(answer);
-    all.map(|n| &n.difference).collect()
 }

@@ -332,22 +332,20 @@ fn of_impact<'s>(scene: &'s Scene, out: &mut Vec<Use<'s>>) {
 }
 
 fn of_motion<'s>(scene: &'s Scene, stage: usize, out: &mut Vec<Use<'s>>) {
-    let name = |b: usize| Some(scene.bodies[b].name.as_str());
+    let mut push = |what, body: Option<usize>, e: &Expr| {
+        out.push((what, body.map(|b| scene.bodies[b].name.as_str()), e.clone()));
+    };
     match &scene.stages[stage].kind {
         StageKind::Turn(turn) => {
+            let body = Some(turn.body);
             match &turn.until {
-                Until::By(angle) => out.push((
-                    "angle through which {} turns",
-                    name(turn.body),
-                    angle.clone(),
-                )),
-                Until::For(time) => {
-                    out.push(("time for which {} turns", name(turn.body), time.clone()))
-                }
+                Until::By(angle) => push("angle through which {} turns", body, angle),
+                Until::For(time) => push("time for which {} turns", body, time),
                 _ => {}
             }
-            let moment = turn.torque.iter();
-            out.extend(moment.map(|moment| ("moment on {}", name(turn.body), moment.clone())));
+            if let Some(moment) = &turn.torque {
+                push("moment on {}", body, moment);
+            }
             let arm = minus(&scene.bodies[turn.body].center, &turn.about);
             let stays =
                 |stage: &Stage| !matches!(stage.kind, StageKind::Fall(_) | StageKind::Slide(_));
@@ -355,50 +353,48 @@ fn of_motion<'s>(scene: &'s Scene, stage: usize, out: &mut Vec<Use<'s>>) {
                 && let Some((size, angle)) = polar(&arm)
             {
                 let about = "distance of {} from the point about which it turns";
-                out.push((about, name(turn.body), size.clone()));
-                out.extend(angle.map(|(axis, angle)| (FROM[axis], name(turn.body), angle.clone())));
+                push(about, body, size);
+                if let Some((axis, angle)) = angle {
+                    push(FROM[axis], body, angle);
+                }
             }
         }
         StageKind::Slide(slide) => {
-            let friction = slide.friction.iter();
-            out.extend(friction.map(|mu| ("coefficient of sliding friction", None, mu.clone())));
-            let spring = slide.spring.iter();
-            out.extend(
-                spring.map(|spring| ("stiffness of the spring", None, spring.stiffness.clone())),
-            );
-            let slope = inclination(&slide.along);
-            out.extend(slope.map(|(axis, angle)| (SLOPE[axis], name(slide.body), angle.clone())));
-            let force = slide.force.iter();
-            out.extend(force.map(|force| ("force along the line", None, force.clone())));
+            let body = Some(slide.body);
+            if let Some(mu) = &slide.friction {
+                push("coefficient of sliding friction", None, mu);
+            }
+            if let Some(spring) = &slide.spring {
+                push("stiffness of the spring", None, &spring.stiffness);
+            }
+            if let Some((axis, angle)) = inclination(&slide.along) {
+                push(SLOPE[axis], body, angle);
+            }
+            if let Some(force) = &slide.force {
+                push("force along the line", None, force);
+            }
             match &slide.until {
-                SlideEnd::Distance(way) => {
-                    out.push(("distance that {} goes", name(slide.body), way.clone()))
-                }
-                SlideEnd::Time(time) => {
-                    out.push(("time for which {} moves", name(slide.body), time.clone()))
-                }
+                SlideEnd::Distance(way) => push("distance that {} goes", body, way),
+                SlideEnd::Time(time) => push("time for which {} moves", body, time),
                 _ => {}
             }
         }
-        StageKind::Fall(fall) => match &fall.until {
-            FallEnd::Drop(height) => {
-                let what = if fall.rising || height.as_symbol().is_none() {
-                    "height of the rise of {}"
-                } else {
-                    "height of the fall of {}"
-                };
-                out.push((what, name(fall.body), height.clone()));
+        StageKind::Fall(fall) => {
+            let body = Some(fall.body);
+            match &fall.until {
+                FallEnd::Drop(height) => {
+                    let what = if fall.rising || height.as_symbol().is_none() {
+                        "height of the rise of {}"
+                    } else {
+                        "height of the fall of {}"
+                    };
+                    push(what, body, height);
+                }
+                FallEnd::Range(range) => push("horizontal distance that {} flies", body, range),
+                FallEnd::Time(time) => push("time for which {} flies", body, time),
+                _ => {}
             }
-            FallEnd::Range(range) => out.push((
-                "horizontal distance that {} flies",
-                name(fall.body),
-                range.clone(),
-            )),
-            FallEnd::Time(time) => {
-                out.push(("time for which {} flies", name(fall.body), time.clone()))
-            }
-            _ => {}
-        },
+        }
         _ => {}
     }
 }

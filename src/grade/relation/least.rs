@@ -1,5 +1,7 @@
 //! Least and largest values under names of their own: `h_min = B` for `h ≥ B`, and `μ ≥ B` for μ_min.
 
+use super::super::Grade;
+use super::super::compare::Context;
 use crate::expr::Symbol;
 use crate::formula::{Content, Relation};
 
@@ -20,23 +22,32 @@ pub(crate) fn of_which(name: &str) -> Option<(Symbol, Relation)> {
     ENDS.iter().find_map(found)
 }
 
-/// `h_min = B` as the bound that `h ≥ B`, or `h > B`, sets.
-pub(super) fn as_bound(
+/// Compares `h_min = B` as the bound that `h ≥ B`, or `h > B`, sets; `None` where this is not what is told.
+pub(super) fn compare(
+    ctx: &Context,
     (sides, signs): (&[Content], &[Relation]),
     (mine, my_signs): (&[Content], &[Relation]),
-) -> Option<[Content; 2]> {
+) -> Option<Grade> {
     let ([left, right], [sign], [name, value], [Relation::Equal]) = (sides, signs, mine, my_signs)
     else {
         return None;
     };
     let (of, relation) = of_which(name.name()?)?;
     let is_of = |side: &Content| side.name() == Some(&of);
-    let sign = match (is_of(left), is_of(right)) {
-        (true, false) => *sign,
-        (false, true) => sign.turned(),
+    let (of, sign) = match (is_of(left), is_of(right)) {
+        (true, false) => (left, *sign),
+        (false, true) => (right, sign.turned()),
         _ => return None,
     };
-    let along = sign.is_order() && sign.is_below() == relation.is_below();
-    let of = if is_of(left) { left } else { right };
-    along.then(|| [of.clone(), value.clone()])
+    if !sign.is_order() || sign.is_below() != relation.is_below() {
+        return None;
+    }
+    let bound = [of.clone(), value.clone()];
+    let mut found = super::compare(ctx, (sides, signs), (&bound, &[sign]));
+    if found.is_equivalent() {
+        let words =
+            "the bound is told as the least or largest value; whether it counts itself is not";
+        found.assume(vec![words.into()]);
+    }
+    Some(found)
 }
