@@ -18,7 +18,7 @@ use carom::expr::{Expr, Point, Rational, ratio};
 use carom::grade::Options;
 use carom::interval::{Interval, Outcome, evaluate};
 use carom::numeric::{self, Motion};
-use carom::scene::{self, Ask, Scene, Shape};
+use carom::scene::{self, Ask, Extremum, Scene, Shape};
 use carom::verify::{Trust, prove, trust};
 use carom::{check, command, render, solution, story, worked};
 use rayon::prelude::*;
@@ -373,7 +373,7 @@ fn a_falsified_answer_is_refused_by_the_scene_followed_in_numbers() {
     let about = |ask: &Ask| {
         matches!(
             ask,
-            Ask::Maximum { .. } | Ask::Limit { .. } | Ask::Approximate { .. } | Ask::Turn { .. }
+            Ask::Extremum { .. } | Ask::Limit { .. } | Ask::Approximate { .. } | Ask::Turn { .. }
         )
     };
     let (refused, passed) = over_shipped(|tried, k, path, _, scene| {
@@ -405,7 +405,10 @@ fn a_falsified_answer_is_refused_by_the_scene_followed_in_numbers() {
                 let question = scene.questions.iter().find(|q| q.name == answer.question);
                 let kind = match &question.expect("a question").ask {
                     Ask::Condition { .. } => "threshold",
-                    Ask::Maximum { .. } => "largest value",
+                    Ask::Extremum { which, .. } => match which {
+                        Extremum::Largest => "largest value",
+                        Extremum::Least => "least value",
+                    },
                     Ask::Turn { .. } => "turn",
                     Ask::Limit { .. } | Ask::Approximate { .. } => "limit",
                     // Its sides are those of the file.
@@ -425,6 +428,7 @@ fn a_falsified_answer_is_refused_by_the_scene_followed_in_numbers() {
     for kind in [
         "threshold",
         "largest value",
+        "least value",
         "limit",
         "turn",
         "value",

@@ -20,7 +20,7 @@ use crate::equality::{self, Equality, How};
 use crate::expr::{Expr, Function, Node, Symbol, effort};
 use crate::formula::{Relation, write_plain};
 use crate::formula::{Sentence, sentence};
-use crate::scene::{Ask, Question, Scene};
+use crate::scene::{Ask, Extremum, Question, Scene};
 
 /// Answers questions about formulas alone, in their order; `known` holds the answers found before. A question about a stage is
 /// refused.
@@ -70,7 +70,7 @@ pub fn formulas(
     let of = match &question.ask {
         Ask::Value { formula, .. } => Some(formula),
         Ask::Limit { of, .. } | Ask::Approximate { of, .. } => Some(of),
-        Ask::Condition { .. } | Ask::Maximum { .. } | Ask::Show { .. } => None,
+        Ask::Condition { .. } | Ask::Extremum { .. } | Ask::Show { .. } => None,
         Ask::Friction { .. } => return Ok(Some(vec![no_coefficient(question)])),
         _ => return Ok(None),
     };
@@ -256,7 +256,7 @@ impl Work<'_> {
     /// The answers, of `of` in place of what the question names where a component is asked; a maximum also tells its place.
     fn answers(&self, of: Option<&Expr>) -> Result<Vec<Answer>, Refused> {
         let asked = &self.question.ask;
-        let is_search = matches!(asked, Ask::Condition { .. } | Ask::Maximum { .. });
+        let is_search = matches!(asked, Ask::Condition { .. } | Ask::Extremum { .. });
         if is_search && effort::spent() {
             let mut out = self.blank("");
             let why = "not looked for: the work of the scene is used up";
@@ -284,7 +284,7 @@ impl Work<'_> {
                 right,
                 with,
             } => self.condition(parameter, (left, *relation, right), with),
-            Ask::Maximum { of, over } => return self.maximum(of, over),
+            Ask::Extremum { which, of, over } => return self.extremum(*which, of, over),
             Ask::Limit {
                 of: whole,
                 parameter,
@@ -389,11 +389,16 @@ impl Work<'_> {
         Check::new("identity", words, holds)
     }
 
-    fn maximum(&self, of: &Expr, over: &[Symbol]) -> Result<Vec<Answer>, Refused> {
+    fn extremum(
+        &self,
+        which: Extremum,
+        of: &Expr,
+        over: &[Symbol],
+    ) -> Result<Vec<Answer>, Refused> {
         let value = self.put(of, &[])?;
-        let mut open = self.blank(format!("largest value of {}", write_plain(of)));
+        let mut open = self.blank(format!("{} value of {}", which.word(), write_plain(of)));
         open.dimension = self.dimension_of_value(of, &value)?;
-        let found = optimum::maximum(self.scene, open.clone(), &value, over);
+        let found = optimum::extremum(self.scene, open.clone(), which, (&value, over));
         Ok(found.unwrap_or_else(|why| {
             // Not found is an answer too, and leaves the others alone.
             let why = match why.hint.as_str() {
@@ -402,7 +407,7 @@ impl Work<'_> {
             };
             open.text.push(sentence!("not found: {}", why));
             open.checks
-                .push(Check::new("maximum", super::NOT_FOUND, None));
+                .push(Check::new(which.kind(), super::NOT_FOUND, None));
             vec![open]
         }))
     }

@@ -1,4 +1,4 @@
-//! Largest values over one or two parameters.
+//! Largest and least values over one or two parameters.
 //!
 //! Two parameters are looked at together first: where only one combination p·qᵏ of them matters, its best value is a curve
 //! of maximisers and is told as such. Square roots of the parameter are taken away by p = x², so that the derivative becomes
@@ -14,13 +14,13 @@ use crate::domain::{Domain, Domains, Limit};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{Relation, write_plain};
 use crate::formula::{Sentence, sentence};
-use crate::scene::Scene;
+use crate::scene::{Extremum, Scene};
 
 /// The combination of two parameters.
 const JOINT: &str = "\u{1}joint";
 /// What a refusal says of the way.
 const ONE_VARIABLE: &str =
-    "the largest value is found over one parameter, or two of which one combination matters";
+    "such a value is found over one parameter, or two of which one combination matters";
 
 /// A formula of one variable in the place of its parameters.
 struct Reduced {
@@ -32,12 +32,12 @@ struct Reduced {
     pair: Option<[Symbol; 2]>,
 }
 
-/// The largest value of a formula over parameters.
-pub(super) fn maximum(
+/// The largest or least value of a formula over parameters.
+pub(super) fn extremum(
     scene: &Scene,
     mut out: Answer,
-    of: &Expr,
-    over: &[Symbol],
+    which: Extremum,
+    (of, over): (&Expr, &[Symbol]),
 ) -> Result<Vec<Answer>, Refused> {
     let mut domains = scene.domains.clone();
     let plays = |s: &Symbol| !tidy(&of.derivative(s), &domains).is_ok_and(|d| d.is_zero());
@@ -62,9 +62,9 @@ pub(super) fn maximum(
     let is_positive = range.is_none_or(|d| *d == Domain::positive() || *d == Domain::nonnegative());
     let related = |r: &crate::domain::Relation| r.excess.symbols().contains(&reduced.variable);
     if !is_positive || domains.relations.iter().any(related) {
-        return bounded(scene, out, &reduced.of, &reduced.variable);
+        return bounded(scene, out, which, (&reduced.of, &reduced.variable));
     }
-    over_positive(scene, out, &reduced, domains)
+    over_positive(scene, out, which, &reduced, domains)
 }
 
 /// The formula through one variable, whose domain is entered where it is new; an error tells why there is none.
@@ -104,10 +104,11 @@ fn reduced(of: &Expr, free: &[Symbol], domains: &mut Domains) -> Result<Reduced,
 /// Said where a derivative vanishes at what cannot be written.
 const NO_FORM: &str = "where the derivative vanishes has no closed form here";
 
-/// The largest value over one variable that may be any positive number, and where it is.
+/// The largest or least value over one variable that may be any positive number, and where it is.
 fn over_positive(
     scene: &Scene,
     mut out: Answer,
+    which: Extremum,
     reduced: &Reduced,
     mut domains: Domains,
 ) -> Result<Vec<Answer>, Refused> {
@@ -130,7 +131,7 @@ fn over_positive(
     let roots = match solve(&slope, &root, &domains) {
         Ok(roots) if roots.open.is_empty() => roots,
         Err(Unsolved::Absent) => {
-            return Ok(vec![at_the_rim(out, &slope, &words, &domains)]);
+            return Ok(vec![at_the_rim(out, which, &slope, &words, &domains)]);
         }
         Ok(_) | Err(Unsolved::Inside) => {
             return Err(refused(NO_FORM.into()));
@@ -144,27 +145,30 @@ fn over_positive(
     let discarded: Vec<Sentence> = roots.discarded.iter().map(|d| d.put_in(&named)).collect();
     if roots.inside.is_empty() {
         out.discarded = discarded;
-        return Ok(vec![at_the_rim(out, &slope, &words, &domains)]);
+        return Ok(vec![at_the_rim(out, which, &slope, &words, &domains)]);
     }
     let [best] = roots.inside.as_slice() else {
-        return Err(elsewhere(&name, &reduced.variable, &roots.inside));
+        return Err(elsewhere(&name, which, &reduced.variable, &roots.inside));
     };
     out.assumptions.extend(best.given.iter().cloned());
     let side = |factor: Expr| {
         let e = put(&slope, &factor * &best.value);
-        sign(&essential(&e, &domains), &domains)
+        sign(&which.merit(&essential(&e, &domains)), &domains)
     };
     let (before, after) = (side(Expr::ratio(1, 2)), side(Expr::from(2)));
     if !(before.is_positive() && after.is_negative()) {
-        return Err(elsewhere(&name, &reduced.variable, &roots.inside));
+        return Err(elsewhere(&name, which, &reduced.variable, &roots.inside));
     }
     let value = tidy(&put(&f, best.value.clone()))?;
     let value = super::calc::shorter(&value, &domains);
     let place = tidy(&best.value.powi(power))?;
     out.discarded = discarded;
     out.checks.push(by_signs(
-        "maximum",
-        "the derivative vanishes there and nowhere else; the value rises before and falls after ({how})",
+        which.kind(),
+        match which {
+            Extremum::Largest => "the derivative vanishes there and nowhere else; the value rises before and falls after ({how})",
+            Extremum::Least => "the derivative vanishes there and nowhere else; the value falls before and rises after ({how})",
+        },
         before.is_proved() && after.is_proved(),
     ));
     out.checks.push(Check::new(
@@ -181,7 +185,7 @@ fn over_positive(
     let mut at = out.clone();
     at.name = format!("{name}_at");
     at.latex = format!("\\arg {}", out.latex);
-    at.words = format!("{words} for which it is largest");
+    at.words = format!("{words} for which it is {}", which.word());
     let there = Expr::symbol(&at.name).power(Expr::ratio(1, power));
     at.put_in = vec![(put(&slope, there), Expr::zero(), flat)];
     // How it was found is told with the value.
@@ -190,7 +194,7 @@ fn over_positive(
     if let Some([p, q]) = &reduced.pair {
         let pair = sentence!("every pair {}, {} with this ", p, q);
         at.text.push(sentence!(
-            "{}{} does it: the maximisers form a curve",
+            "{}{} does it: the best pairs form a curve",
             pair,
             &reduced.combination
         ));
@@ -203,10 +207,18 @@ fn over_positive(
     Ok(vec![out, at])
 }
 
-/// Told where the derivative vanishes more than once, or where there is no maximum: only an interval decides then.
-fn elsewhere(name: &str, variable: &Symbol, roots: &[super::solve::Root]) -> Refused {
+/// Told where the derivative vanishes more than once, or not where it is sought: only an interval decides then.
+fn elsewhere(
+    name: &str,
+    which: Extremum,
+    variable: &Symbol,
+    roots: &[super::solve::Root],
+) -> Refused {
     let reason = match roots.len() {
-        1 => String::from("where the derivative vanishes there is no maximum"),
+        1 => format!(
+            "where the derivative vanishes the value is not {}",
+            which.word()
+        ),
         count => format!("the derivative vanishes at {count} values of {variable}"),
     };
     let hint = format!(
@@ -215,8 +227,13 @@ fn elsewhere(name: &str, variable: &Symbol, roots: &[super::solve::Root]) -> Ref
     Refused::question(name, reason, hint)
 }
 
-/// The largest value over one parameter in an interval: where the derivative vanishes once, or at an end.
-fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<Answer>, Refused> {
+/// The largest or least value over one parameter in an interval: where the derivative vanishes once, or at an end.
+fn bounded(
+    scene: &Scene,
+    mut out: Answer,
+    which: Extremum,
+    (f, p): (&Expr, &Symbol),
+) -> Result<Vec<Answer>, Refused> {
     let domains = &scene.domains;
     let name = out.name.clone();
     let refused = |reason: String| Refused::question(&name, reason, "");
@@ -226,6 +243,7 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
     }
     let search = Search {
         name: &name,
+        which,
         f,
         slope: tidy(&of_square(f, p, domains).derivative(p), domains)
             .map_err(|s| refused(s.to_string()))?,
@@ -241,32 +259,34 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
         [only] => Some(search.at(&only.value, &search.slope.derivative(p))?),
         _ => None,
     };
-    let bends = bends.map(|bends| sign(&bends, domains));
+    let bends = bends.map(|bends| sign(&which.merit(&bends), domains));
     let place = match (inside.as_slice(), bends) {
         ([only], Some(bends)) if bends.is_negative() => {
             let holds = bends.is_proved().then_some(true);
             out.assumptions.extend(only.given.iter().cloned());
             match search.beyond(only, scene, &mut out)? {
                 Some(end) => {
-                    let words = "the derivative vanishes beyond that end and nowhere else, and the second derivative is negative there";
-                    out.checks.push(Check::new("maximum", words, holds));
+                    let words = "the derivative vanishes beyond that end and nowhere else, and the second derivative is {} there";
+                    let words = words.replace("{}", which.bend());
+                    out.checks.push(Check::new(which.kind(), words, holds));
                     end
                 }
                 None => {
-                    let words = "the derivative vanishes there and nowhere else in the interval, and the second derivative is negative";
-                    out.checks.push(Check::new("maximum", words, holds));
+                    let words = "the derivative vanishes there and nowhere else in the interval, and the second derivative is {}";
+                    let words = words.replace("{}", which.bend());
+                    out.checks.push(Check::new(which.kind(), words, holds));
                     only.value.clone()
                 }
             }
         }
         ([], _) => match search.at_an_end(&mut out)? {
             Some(place) => place,
-            None => return Ok(vec![at_the_rim(out, &search.slope, p, domains)]),
+            None => return Ok(vec![at_the_rim(out, which, &search.slope, p, domains)]),
         },
         (several, _) => {
             let values: Vec<Expr> = several.iter().map(|root| root.value.clone()).collect();
             let place = search.compared(&values, &mut out)?;
-            // That it is larger than at the others rests on nothing that these rest on.
+            // That it is better than at the others rests on nothing that these rest on.
             let there = several.iter().filter(|root| root.value == place);
             out.assumptions
                 .extend(there.flat_map(|root| root.given.clone()));
@@ -282,10 +302,11 @@ fn bounded(scene: &Scene, mut out: Answer, f: &Expr, p: &Symbol) -> Result<Vec<A
     Ok(vec![out])
 }
 
-/// A search for the largest value over one parameter in an interval.
+/// A search for the largest or least value over one parameter in an interval.
 struct Search<'a> {
     /// The question.
     name: &'a str,
+    which: Extremum,
     f: &'a Expr,
     /// Its derivative, or that of its square where that has no root and the same sign.
     slope: Expr,
@@ -326,8 +347,8 @@ impl Search<'_> {
         }
     }
 
-    /// The only place where the derivative vanishes, and where it falls, may lie beyond one end of the range: then the value is
-    /// largest at that end. Gives the end where the values of the scene say so; says so of all others otherwise.
+    /// The only place where the derivative vanishes, and where the value is best, may lie beyond one end of the range: then it
+    /// is best at that end. Gives the end where the values of the scene say so; says so of all others otherwise.
     fn beyond(
         &self,
         root: &Root,
@@ -370,13 +391,14 @@ impl Search<'_> {
             return Ok(Some(end));
         }
         let value = self.at(&end, self.f)?;
-        let words = "where {} instead, the largest value is {}, at the end {} of the range of {}";
-        let parts = [needed, (&value).into(), (&end).into(), self.p.into()];
+        let words = "where {} instead, the {} value is {}, at the end {} of the range of {}";
+        let best = Sentence::words(self.which.word());
+        let parts = [needed, best, (&value).into(), (&end).into(), self.p.into()];
         out.text.push(Sentence::filled(words, parts));
         Ok(None)
     }
 
-    /// The end towards which the value grows all the way; `None` where the interval does not end there.
+    /// The end towards which the value grows, or falls, all the way; `None` where the interval does not end there.
     fn at_an_end(&self, out: &mut Answer) -> Result<Option<Expr>, Refused> {
         let p = self.p;
         let rising = sign(&self.slope, self.domains);
@@ -388,17 +410,18 @@ impl Search<'_> {
         } else {
             return Err(self.refused(format!("whether it grows with {p} could not be decided")));
         };
-        let end = self.end(grows)?;
+        let end = self.end(grows == (self.which == Extremum::Largest))?;
         let Some((value, open)) = end else {
             return Ok(None);
         };
         let words = "the derivative has one sign inside the interval ({how})";
         out.checks
-            .push(by_signs("maximum", words, rising.is_proved()));
+            .push(by_signs(self.which.kind(), words, rising.is_proved()));
         let bound = self.bound(&value, open);
+        let best = self.which.word();
         out.text.push(match grows {
-            true => sentence!("it grows with {}: the largest value is {}", p, bound),
-            false => sentence!("it falls as {} grows: the largest value is {}", p, bound),
+            true => sentence!("it grows with {}: the {} value is {}", p, best, bound),
+            false => sentence!("it falls as {} grows: the {} value is {}", p, best, bound),
         });
         Ok(Some(value))
     }
@@ -425,7 +448,8 @@ impl Search<'_> {
         for r in bearing.filter(|r| r.excess.symbols().contains(p)) {
             let Some((end, is_upper)) = end_of(p, r, domains) else {
                 return Err(self.refused(format!(
-                    "it is largest at an end of the range of {p}, which {} does not give alone",
+                    "it is {} at an end of the range of {p}, which {} does not give alone",
+                    self.which.word(),
                     stated(r)
                 )));
             };
@@ -475,7 +499,8 @@ impl Search<'_> {
         }
         let [Some(low), Some(high)] = ends else {
             let why = format!(
-                "the derivative with respect to {p} vanishes where the value is not largest, and the interval does not end"
+                "the derivative with respect to {p} vanishes where the value is not {}, and the interval does not end",
+                self.which.word()
             );
             let hint = format!(
                 "give {p} a \"domain\" with `min` and `max`: the ends are then compared too"
@@ -492,7 +517,7 @@ impl Search<'_> {
         // How each value stands to the others.
         let above = |i: usize| -> Vec<Seen> {
             let others = found.iter().enumerate().filter(|(j, _)| *j != i);
-            let over = |other: &Expr| sign(&(&found[i].2 - other), self.domains);
+            let over = |other: &Expr| sign(&self.which.merit(&(&found[i].2 - other)), self.domains);
             others.map(|(_, (.., other))| over(other)).collect()
         };
         let is_above =
@@ -501,21 +526,26 @@ impl Search<'_> {
         let best = all.find(|(_, above)| above.iter().all(is_above));
         let Some(((place, end, _), above)) = best else {
             return Err(self.refused(format!(
-                "which of the values where the derivative with respect to {p} vanishes and at the ends is largest depends on the other parameters"
+                "which of the values where the derivative with respect to {p} vanishes and at the ends is {} depends on the other parameters",
+                self.which.word()
             )));
         };
-        let words = "of the places where the derivative vanishes and the two ends it is largest there ({how})";
+        let words =
+            "of the places where the derivative vanishes and the two ends it is {} there ({how})";
+        let words = words.replace("{}", self.which.word());
         let is_proved = above.iter().all(|s| s.is_proved());
-        out.checks.push(by_signs("maximum", words, is_proved));
+        out.checks
+            .push(by_signs(self.which.kind(), &words, is_proved));
         if *end == Some(true) {
             let bound = self.bound(place, true);
-            out.text.push(sentence!("the largest value is {}", bound));
+            let best = self.which.word();
+            out.text.push(sentence!("the {} value is {}", best, bound));
         }
         let others = found.iter().filter(|(x, ..)| x != place).zip(&above);
         let equal = others.filter(|(_, seen)| **seen == Seen::Proved(Sign::Zero));
         out.text.extend(equal.map(|((x, end, _), _)| match end {
             Some(true) => sentence!("as close to that it comes near {} = {}", p, x),
-            _ => sentence!("it is as large at {} = {}", p, x),
+            _ => sentence!("it has the same value at {} = {}", p, x),
         }));
         Ok(place.clone())
     }
@@ -565,33 +595,41 @@ fn joint(of: &Expr, p: &Symbol, q: &Symbol, domains: &Domains) -> Option<Expr> {
     Some(ratio)
 }
 
-/// No place inside: the largest value is approached at an end.
-fn at_the_rim(mut out: Answer, slope: &Expr, words: &str, domains: &Domains) -> Answer {
+/// No place inside: the largest or least value is approached at an end.
+fn at_the_rim(
+    mut out: Answer,
+    which: Extremum,
+    slope: &Expr,
+    words: &str,
+    domains: &Domains,
+) -> Answer {
     let s = sign(slope, domains);
     let how = match s.is_proved() {
         true => "proved",
         false => "seen at points",
     };
-    out.text.push(if s.is_positive() {
-        let grows = sentence!(
-            "there is no largest value: it grows with {} throughout ({})",
-            words,
-            how
-        );
-        sentence!("{}, and the end, {} → ∞, is never reached", grows, words)
-    } else if s.is_negative() {
-        let falls = sentence!(
-            "there is no largest value inside: it falls as {} grows ({})",
-            words,
-            how
-        );
-        sentence!(
-            "{}, so it is approached as {} → 0 and not reached there",
-            falls,
-            words
-        )
+    let best = which.word();
+    out.text.push(if !s.is_positive() && !s.is_negative() {
+        sentence!("whether there is a {} value could not be decided", best)
     } else {
-        Sentence::words("whether there is a largest value could not be decided")
+        let grows = match s.is_positive() {
+            true => sentence!("it grows with {} throughout ({})", words, how),
+            false => sentence!("it falls as {} grows ({})", words, how),
+        };
+        match s.is_positive() == (which == Extremum::Largest) {
+            true => {
+                let none = sentence!("there is no {} value: {}", best, grows);
+                sentence!("{}, and the end, {} → ∞, is never reached", none, words)
+            }
+            false => {
+                let none = sentence!("there is no {} value inside: {}", best, grows);
+                sentence!(
+                    "{}, so it is approached as {} → 0 and not reached there",
+                    none,
+                    words
+                )
+            }
+        }
     });
     out
 }

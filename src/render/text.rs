@@ -167,7 +167,7 @@ pub(super) fn says(scene: &Scene, alone: Option<&Derivation>, a: &Answer) -> Str
     let is_it = |q: &&Question| q.name == a.question;
     let asked = scene.questions.iter().find(is_it).map(|q| &q.ask);
     // Its place is an answer of its own, which says no more.
-    let is_largest = *name == a.question && matches!(asked, Some(Ask::Maximum { .. }));
+    let is_extreme = *name == a.question && matches!(asked, Some(Ask::Extremum { .. }));
     let text = |e: &Expr| unicode(scene, e);
     let value = match &a.form {
         Form::Value { short, .. } => Some(text(short)),
@@ -185,8 +185,8 @@ pub(super) fn says(scene: &Scene, alone: Option<&Derivation>, a: &Answer) -> Str
     }
     let number = number.map_or(String::new(), |number| format!(" ≈ {number}"));
     match (&value, a.range.as_slice()) {
-        // A largest value, and where it is.
-        (Some(value), [(s, Relation::Equal, e)]) if is_largest || *value != text(e) => {
+        // A largest or least value, and where it is.
+        (Some(value), [(s, Relation::Equal, e)]) if is_extreme || *value != text(e) => {
             format!("{name} = {value}{number}, at {} = {}", text(s), text(e))
         }
         (_, [(s, relation, e)]) => {

@@ -184,9 +184,11 @@ pub enum Ask {
         /// Parameters and what stands for them.
         with: Vec<(Symbol, Expr)>,
     },
-    /// The largest value over parameters within their domains.
-    Maximum {
-        /// What is to be largest.
+    /// The largest or the least value over parameters within their domains.
+    Extremum {
+        /// Which of the two.
+        which: Extremum,
+        /// What is to be largest, or least.
         of: Expr,
         /// The parameters.
         over: Vec<Symbol>,
@@ -319,7 +321,7 @@ impl Ask {
             Ask::Condition { left, right, .. } | Ask::Show { left, right, .. } => {
                 vec![left, right]
             }
-            Ask::Maximum { of, .. } => vec![of],
+            Ask::Extremum { of, .. } => vec![of],
             Ask::Limit { of, to, .. } => std::iter::once(of).chain(to).collect(),
             Ask::Approximate { of, to, .. } => vec![of, to],
             _ => Vec::new(),
@@ -419,6 +421,49 @@ impl Ask {
             | Ask::PointAcceleration { along, .. } => vec![along],
             Ask::AngularMomentum { about, .. } => vec![about],
             _ => Vec::new(),
+        }
+    }
+}
+
+/// Which of its values a formula is to have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extremum {
+    /// The largest.
+    Largest,
+    /// The least.
+    Least,
+}
+
+impl Extremum {
+    /// Its name.
+    pub fn word(self) -> &'static str {
+        match self {
+            Extremum::Largest => "largest",
+            Extremum::Least => "least",
+        }
+    }
+
+    /// The kind of a question and of a check.
+    pub fn kind(self) -> &'static str {
+        match self {
+            Extremum::Largest => "maximum",
+            Extremum::Least => "minimum",
+        }
+    }
+
+    /// The sign of the second derivative, in words.
+    pub fn bend(self) -> &'static str {
+        match self {
+            Extremum::Largest => "negative",
+            Extremum::Least => "positive",
+        }
+    }
+
+    /// What is the larger, the better a value is: the value, or its negative.
+    pub fn merit(self, value: &Expr) -> Expr {
+        match self {
+            Extremum::Largest => value.clone(),
+            Extremum::Least => -value,
         }
     }
 }

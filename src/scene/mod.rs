@@ -49,7 +49,7 @@ use crate::expr::{Expr, Point, Scalar, Symbol, Vector, minus};
 use crate::formula::Symbols;
 use crate::formula::near::nearest;
 
-pub use ask::{Ask, ImpulseAt, PlotAsk, Question};
+pub use ask::{Ask, Extremum, ImpulseAt, PlotAsk, Question};
 pub use drawing::{Drawn, Outline};
 pub use elements::{
     Blow, BlowImpulse, Body, Contact, ContactLaw, Force, Hinge, Known, KnownQuantity, NamedPoint,

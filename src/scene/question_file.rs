@@ -26,7 +26,7 @@ choice! {
 
 record! {
     /// Something asked: exactly one of velocity, spin, impulse, energy, balance and matrix, with what belongs to it; or one of
-    /// value, solve, threshold, maximum, limit, approximate and show, about the answers to those.
+    /// value, solve, threshold, maximum, minimum, limit, approximate and show, about the answers to those.
     QuestionFile {
         /// How the answer's name is typeset.
         latex: Option<Text>,
@@ -109,6 +109,8 @@ record! {
         holds: Option<Text>,
         /// A formula to be made as large as possible.
         maximum: Option<Formula>,
+        /// A formula to be made as small as possible.
+        minimum: Option<Formula>,
         /// The parameters that may be chosen for it.
         over: Option<Vec<Text>>,
         /// A formula whose limit is asked.

@@ -16,7 +16,7 @@ use crate::answer::{Answer, Form};
 use crate::expr::{Expr, Point, Symbol};
 use crate::formula::Relation;
 use crate::formula::{Piece, Sentence};
-use crate::scene::{Ask, Scene, without_case};
+use crate::scene::{Ask, Extremum, Scene, without_case};
 
 /// Largest formula, in nodes, that is worth a line on the way to an identity.
 const READABLE: usize = 120;
@@ -85,8 +85,8 @@ pub(super) fn beyond_motion(solution: &mut Solution, scene: &Scene, answers: &[A
         {
             solution.say(reason);
         }
-        if let Ask::Maximum { of, over } = ask
-            && slope(solution, scene, answers, (of, over), &mine)
+        if let Ask::Extremum { which, of, over } = ask
+            && slope(solution, scene, answers, (*which, of, over), &mine)
         {
             // The place comes out of that equation, and the value after it.
             mine.sort_by_key(|a| a.range.is_empty());
@@ -109,13 +109,13 @@ fn as_it_stands(scene: &Scene, ask: &Ask, answers: &[Answer], condition: &mut An
     }
 }
 
-/// Where a value is largest: inside its range its derivative vanishes, and at an end it has one sign all the way. Whether there
+/// Where a value is largest or least: inside its range its derivative vanishes, and at an end it has one sign all the way. Whether there
 /// was anything to say.
 fn slope(
     solution: &mut Solution,
     scene: &Scene,
     answers: &[Answer],
-    (of, over): (&Expr, &[Symbol]),
+    (which, of, over): (Extremum, &Expr, &[Symbol]),
     mine: &[Answer],
 ) -> bool {
     let place = mine.iter().find_map(|a| a.range.first());
@@ -134,10 +134,15 @@ fn slope(
         Some(Sign::Positive | Sign::NotNegative) => {
             ("It nowhere falls with {}, since its derivative is", "≥")
         }
-        _ if vanishes => (
-            "It is largest where its derivative with respect to {} vanishes:",
-            "=",
-        ),
+        _ if vanishes => {
+            let form = match which {
+                Extremum::Largest => {
+                    "It is largest where its derivative with respect to {} vanishes:"
+                }
+                Extremum::Least => "It is least where its derivative with respect to {} vanishes:",
+            };
+            (form, "=")
+        }
         _ => return false,
     };
     if at.as_symbol() != Some(p) || slope.size() > READABLE {
@@ -206,7 +211,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     // Of a parameter that is solved for, the number is its own.
     let of = match answer.range.as_slice() {
         [(solved, Relation::Equal, _)]
-            if solved.as_symbol().is_some() && !is_largest(ask, answer) =>
+            if solved.as_symbol().is_some() && !is_extreme(ask, answer) =>
         {
             solved.clone()
         }
@@ -424,7 +429,7 @@ fn found(
         found.push(whole);
     }
     if let Some(formula) = answer.formula()
-        && (answer.range.is_empty() || is_largest(ask, answer))
+        && (answer.range.is_empty() || is_extreme(ask, answer))
     {
         let (left, op) = match stands_for(ask, answer) {
             Some((of, op)) => (of, op),
@@ -466,10 +471,10 @@ fn found(
     found
 }
 
-/// Whether an answer is a largest value beside the place where it is reached.
-fn is_largest(ask: &Ask, answer: &Answer) -> bool {
+/// Whether an answer is a largest or least value beside the place where it is reached.
+fn is_extreme(ask: &Ask, answer: &Answer) -> bool {
     let place = answer.range.first().map(|(_, _, place)| place);
-    matches!(ask, Ask::Maximum { .. }) && answer.formula() != place
+    matches!(ask, Ask::Extremum { .. }) && answer.formula() != place
 }
 
 /// What is said of an answer in sentences.
@@ -525,7 +530,7 @@ fn is_used(scene: &Scene, name: &crate::expr::Symbol) -> bool {
         | Ask::Show {
             left, right, with, ..
         } => has(left) || has(right) || with.iter().any(|(_, e)| has(e)),
-        Ask::Maximum { of, .. } | Ask::Limit { of, .. } | Ask::Approximate { of, .. } => has(of),
+        Ask::Extremum { of, .. } | Ask::Limit { of, .. } | Ask::Approximate { of, .. } => has(of),
         _ => false,
     })
 }

@@ -6,7 +6,7 @@ use super::{Inline, Math, Solution};
 use crate::answer::Answer;
 use crate::expr::Expr;
 use crate::formula::Relation;
-use crate::scene::{Ask, INSTANTANEOUS_CENTER, Scene};
+use crate::scene::{Ask, Extremum, INSTANTANEOUS_CENTER, Scene};
 
 /// Why a coefficient of friction is the least or the largest with which something happens.
 pub(super) fn because(meaning: &str) -> Option<&'static str> {
@@ -106,8 +106,12 @@ pub(super) fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> 
             let of = math(&Expr::symbol(parameter));
             fill(form, [of, related(left, *relation, right)])
         }
-        Ask::Maximum { of, over } => {
-            let lead = fill("Largest value of {} over ", [math(of)]);
+        Ask::Extremum { which, of, over } => {
+            let form = match which {
+                Extremum::Largest => "Largest value of {} over ",
+                Extremum::Least => "Least value of {} over ",
+            };
+            let lead = fill(form, [math(of)]);
             [lead, words::symbols(over, " and ")].concat()
         }
         Ask::Limit { of, parameter, to } => {

@@ -66,7 +66,7 @@ impl Desk<'_> {
             let known = self.sought.iter().any(|s| s.parameter == *name);
             !known
                 && questions
-                    .any(|q| matches!(&q.ask, Ask::Maximum { over, .. } if over.contains(name)))
+                    .any(|q| matches!(&q.ask, Ask::Extremum { over, .. } if over.contains(name)))
         };
         let given = |name: &Symbol| self.is_given(name);
         used.iter().all(given) && used.iter().any(is_open)

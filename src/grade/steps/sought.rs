@@ -42,7 +42,7 @@ pub(super) fn sought(sheet: &Sheet) -> Vec<Sought> {
         let mut answers = sheet.derivation.answers.iter();
         let answer = answers.find(|a| *a.name == q.name);
         // In another case something may be largest elsewhere.
-        if way > 0 && !matches!(q.ask, Ask::Maximum { .. }) {
+        if way > 0 && !matches!(q.ask, Ask::Extremum { .. }) {
             return None;
         }
         let (parameter, condition, value) = match &q.ask {
@@ -55,7 +55,7 @@ pub(super) fn sought(sheet: &Sheet) -> Vec<Sought> {
                 let value = answer.and_then(Answer::formula);
                 (parameter.clone(), Some(left - right), value)
             }
-            Ask::Maximum { .. } => match answer?.range.as_slice() {
+            Ask::Extremum { .. } => match answer?.range.as_slice() {
                 [(of, _, place)] => (of.as_symbol()?.clone(), None, Some(place)),
                 _ => return None,
             },

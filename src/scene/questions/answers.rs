@@ -1,6 +1,6 @@
 //! Questions about formulas of answers: what the file says becomes an [`Ask`].
 //!
-//! Scenes of one impact and scenes with stages ask these alike: values, thresholds, equations to be solved, largest values,
+//! Scenes of one impact and scenes with stages ask these alike: values, thresholds, equations to be solved, largest and least values,
 //! limits, forms for a small parameter, identities. Nothing is worked out here.
 
 use crate::expr::{Expr, Symbol};
@@ -13,7 +13,7 @@ use crate::scene::formulas::Symbols;
 use crate::scene::question_file::QuestionFile;
 use crate::scene::record::{Formula, Map, Text};
 use crate::scene::resolve::{Resolver, entries};
-use crate::scene::{Ask, FrictionEvent};
+use crate::scene::{Ask, Extremum, FrictionEvent};
 
 /// Highest power of a small parameter that may be asked for.
 const ORDER: u32 = 6;
@@ -37,15 +37,23 @@ impl Reader<'_, '_> {
                 polar: None,
             });
         }
-        if let Some(of) = &q.maximum {
+        let extremum = [
+            (Extremum::Largest, &q.maximum),
+            (Extremum::Least, &q.minimum),
+        ];
+        for (which, of) in extremum {
+            let Some(of) = of else { continue };
             let over = q.over.iter().flatten();
             let over: Vec<Symbol> = over.filter_map(|t| self.parameter(t)).collect();
             if over.is_empty() {
-                let message = "a maximum needs the parameters that may be chosen, `over`";
+                let message = format!(
+                    "the {} value needs the parameters that may be chosen, `over`",
+                    which.word()
+                );
                 return Fault::new(name.span, message).add_to(&mut self.base.faults);
             }
             let of = self.formula(of)?;
-            return Some(Ask::Maximum { of, over });
+            return Some(Ask::Extremum { which, of, over });
         }
         if let Some(of) = &q.limit {
             return self.limit(name, q, of);

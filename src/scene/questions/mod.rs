@@ -83,6 +83,7 @@ static KINDS: &[Kind] = kinds! {
         solve(holds with),
         threshold(holds with at),
         maximum(over),
+        minimum(over),
         limit(tends to),
         approximate(tends to order),
         show(with unless claim),
@@ -487,14 +488,14 @@ fn name_is_free(r: &mut Resolver<'_>, name: &Text, q: &QuestionFile) {
     r.report(span, message, hint);
 }
 
-/// The names that the components of an answer get, or the place of a largest value, are no names of parameters or of other
+/// The names that the components of an answer get, or the place of a largest or least value, are no names of parameters or of other
 /// answers.
 fn parts_are_free(r: &mut Resolver<'_>, name: &Text, q: &QuestionFile) {
     let parts = |name: &Text, q: &QuestionFile| {
         let suffixes: &[&str] = match kinds(q).next().map(|kind| kind.name) {
             Some("velocity" | "impulse" | "position") if q.along.is_none() => &["_x", "_y"],
             Some("instantaneous_center") => &["_x", "_y"],
-            Some("maximum") => &["_at"],
+            Some("maximum" | "minimum") => &["_at"],
             _ => &[],
         };
         let each = suffixes.iter();

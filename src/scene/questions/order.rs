@@ -57,8 +57,9 @@ pub(in crate::scene) fn order(file: &mut SceneFile) {
 fn formulas(q: &QuestionFile) -> impl Iterator<Item = &str> {
     let with = q.with.iter().flat_map(|m| &m.0);
     let with = with.filter_map(|(_, formula)| formula.as_ref());
-    let alone = [&q.value, &q.maximum, &q.limit, &q.to, &q.approximate];
-    let formulas = alone.into_iter().flatten().chain(with).map(|f| &*f.text);
+    let alone = [&q.value, &q.limit, &q.to, &q.approximate];
+    let alone = alone.into_iter().chain([&q.maximum, &q.minimum]);
+    let formulas = alone.flatten().chain(with).map(|f| &*f.text);
     let relations = [&q.holds, &q.show].into_iter().flatten();
     formulas.chain(relations.map(|t| &*t.text))
 }

@@ -149,7 +149,7 @@ pub(in crate::story) fn leave_to_cases<'a>(
     let is_given = |name: &&Symbol| scene.parameter(name).is_some_and(|p| p.value.is_some());
     let varied = match &question.ask {
         Ask::Condition { parameter, .. } => std::slice::from_ref(parameter),
-        Ask::Maximum { over, .. } => over,
+        Ask::Extremum { over, .. } => over,
         _ => &[],
     };
     let mut varied = varied.iter().filter(is_given);
@@ -321,7 +321,7 @@ pub(super) fn gripped(led: Led<'_>, question: &Question, answer: &mut Answer) {
     // A bound holds for all values beyond it.
     let is_value = match &question.ask {
         Ask::Condition { relation, .. } => *relation == formula::Relation::Equal,
-        _ => matches!(question.ask, Ask::Maximum { .. }),
+        _ => matches!(question.ask, Ask::Extremum { .. }),
     };
     let found = answer.range.iter().filter(|_| is_value);
     with.extend(found.filter_map(|(of, _, value)| Some((of.as_symbol()?.clone(), value.clone()))));
@@ -421,7 +421,7 @@ fn besides<'a>(answer: &mut Answer, all: impl Iterator<Item = &'a Sentence>) {
 pub(in crate::story) fn tell(scene: &Scene, ask: &Ask, needs: &[Need], answer: &mut Answer) {
     // A largest value needs what holds at its place, a limit what holds as it is come to.
     let place = match ask {
-        Ask::Maximum { .. } => answer.range.iter(),
+        Ask::Extremum { .. } => answer.range.iter(),
         _ => [].iter(),
     };
     let place = place.map(|(of, _, value)| Some((of.as_symbol()?.clone(), value.clone())));

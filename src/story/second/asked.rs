@@ -1,7 +1,7 @@
 //! Answers held against the scene followed in numbers: what a motion is asked for, and what is asked about answers.
 //!
 //! In: questions with their answers in closed form, and the points at which the scene was followed. Out: checks. A threshold is
-//! looked at on both sides, a largest value beside its place and far from it, a limit and an approximation closer and closer.
+//! looked at on both sides, a largest or least value beside its place and far from it, a limit and an approximation closer and closer.
 
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
@@ -14,11 +14,11 @@ use crate::answer::{Answer, Check};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Relation;
 use crate::numeric::follow::{self, OfTurn};
-use crate::scene::{Ask, FrictionEvent, Question, Scene, without_case};
+use crate::scene::{Ask, Extremum, FrictionEvent, Question, Scene, without_case};
 
-/// How far from a threshold or a largest value its sides are looked at, in parts of it.
+/// How far from a threshold, a largest or a least value its sides are looked at, in parts of it.
 const ASIDE: f64 = 1e-3;
-/// Other values of the parameter at which something that is largest is looked at.
+/// Other values of the parameter at which something that is largest or least is looked at.
 const OTHERS: usize = 6;
 /// How much closer, three times over, a parameter comes to what it tends to, and to that near which something stands for a
 /// formula.
@@ -91,7 +91,7 @@ impl Asked<'_> {
                 Ask::Friction { contact, event } => {
                     self.turns(seen, question, (*contact, *event), answer)
                 }
-                Ask::Maximum { of, over } => self.is_largest(seen, (of, over), answer),
+                Ask::Extremum { which, of, over } => self.is_best(seen, (*which, of, over), answer),
                 Ask::Limit { of, .. } | Ask::Approximate { of, .. } => self.nears(seen, of, answer),
                 Ask::Show {
                     left,
@@ -341,11 +341,11 @@ impl Asked<'_> {
         Some(turns().map_or(Held::Unseen, |turns| Held::So(turns, otherwise())))
     }
 
-    /// Whether a formula is as large as told where it is told to be largest, and nowhere larger.
-    fn is_largest(
+    /// Whether a formula has the value told where it is told to be largest or least, and is nowhere larger or less.
+    fn is_best(
         &self,
         seen: &Seen,
-        (of, over): (&Expr, &[Symbol]),
+        (which, of, over): (Extremum, &Expr, &[Symbol]),
         answer: &Answer,
     ) -> Option<Held> {
         let told = answer.formula()?;
@@ -369,7 +369,7 @@ impl Asked<'_> {
             return values.map(|(told, found)| Held::Same([told, found], size));
         };
         let of_at = |values: &[(Symbol, f64)]| self.formula(seen, of, &[], values);
-        let largest = || {
+        let there = || {
             let symbol = over.iter().find(|p| combination.symbols().contains(*p))?;
             let here = seen.point.values.get(symbol)?;
             let at = place.evaluate(&seen.point)?;
@@ -381,7 +381,7 @@ impl Asked<'_> {
             let best = of_at(&[(symbol.clone(), at)])?;
             Some((symbol, at, best))
         };
-        let Some((symbol, at, best)) = largest() else {
+        let Some((symbol, at, best)) = there() else {
             return Some(Held::Unseen);
         };
         let scale = self.scale(seen, symbol, at);
@@ -389,13 +389,20 @@ impl Asked<'_> {
         let names = [symbol.clone()].into_iter().collect();
         let far = points_of(names, &self.scene.domains, OTHERS);
         others.extend(far.filter_map(|p| p.values.get(symbol).copied()));
-        // Elsewhere the scene may go another way through its cases, where something else is largest.
+        // Elsewhere the scene may go another way through its cases, where something else is best.
         others.retain(|value| {
             self.admits(seen, symbol, *value) && self.stays(seen, answer, symbol, *value)
         });
+        let beyond = |other: f64, best: f64| {
+            let more = match which {
+                Extremum::Largest => other - best,
+                Extremum::Least => best - other,
+            };
+            more > NOISE * best.abs()
+        };
         for value in others {
             let other = of_at(&[(symbol.clone(), value)]);
-            if let Some(other) = other.filter(|o| o - best > NOISE * best.abs()) {
+            if let Some(other) = other.filter(|o| beyond(*o, best)) {
                 let how = format!(
                     "with {symbol} = {value:.6} it is {other:.9}, at the place told {best:.9}"
                 );

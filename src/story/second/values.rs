@@ -113,8 +113,8 @@ impl Asked<'_> {
                 Ask::Value { formula, with, .. } => self
                     .formula_at(point, formula, with, nudge)
                     .map(Found::Scalar),
-                // Where sides meet and what is largest are held against it by themselves.
-                Ask::Condition { .. } | Ask::Maximum { .. } | Ask::Friction { .. } => {
+                // Where sides meet and what is largest or least are held against it by themselves.
+                Ask::Condition { .. } | Ask::Extremum { .. } | Ask::Friction { .. } => {
                     let mut told = self.answers.iter().filter(|a| a.name == name);
                     let told = told.next().filter(|a| a.worlds.is_empty());
                     let value = told.and_then(|a| a.formula()?.evaluate(point));

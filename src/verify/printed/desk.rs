@@ -126,7 +126,7 @@ impl<'a> Desk<'a> {
             if let [bound] = answer.range.as_slice() {
                 let name = Symbol::from(answer.name.as_str());
                 bounds.insert(name.clone(), bound.clone());
-                // The place of a largest value is printed under its own name, or under that of the value.
+                // The place of a largest or least value is printed under its own name, or under that of the value.
                 if answer.name == format!("{}_at", answer.question) {
                     bounds.insert(Symbol::from(answer.question.as_str()), bound.clone());
                     closed.insert(name, bound.2.clone());

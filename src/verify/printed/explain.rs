@@ -49,14 +49,14 @@ impl Desk<'_> {
         matches!(found, Equality::Same { .. })
     }
 
-    /// The place of a largest value, printed as the value.
+    /// The place of a largest or least value, printed as the value.
     pub(super) fn place(&self, item: &str, pairs: &[(Expr, Expr)]) -> Option<String> {
         let (of, relation, place) = self.bounds.get(item)?;
         let [(_, value)] = pairs else { return None };
         let is_place = *relation == Relation::Equal && self.is_same(place, value);
         let of = self.say(of);
         is_place
-            .then(|| format!("it is the {of} at which `{item}` is largest: print it as {of} = …"))
+            .then(|| format!("it is the {of} at which `{item}` is reached: print it as {of} = …"))
     }
 
     /// Sides that agree when two parameters of one kind are exchanged in one of them.

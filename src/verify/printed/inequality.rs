@@ -27,7 +27,7 @@ impl Desk<'_> {
             return None;
         }
         let (left, right) = (left.expr()?, right.expr()?);
-        // Of a largest value the name is that of the value, and not of its place.
+        // Of a largest or least value the name is that of the value, and not of its place.
         let is_bounded = |e: &Expr| e == of || !is_place && *e == Expr::symbol(item);
         match (is_bounded(left), is_bounded(right)) {
             (true, false) => Some((*sign, right.clone(), value.clone())),
