@@ -6,6 +6,8 @@ use carom::expr::{Point, Symbol};
 use carom::formula::Symbols;
 use carom::grade::sheet::Sheet;
 use carom::grade::{Options, Verdict};
+use carom::render::html;
+use carom::solution::Detail;
 use carom::{command, worked};
 use roxmltree::{Document, Node};
 use std::collections::BTreeMap;
@@ -178,6 +180,22 @@ fn a_question_shows_how_it_begins_with_its_symbols_typeset() {
     let exam = numbas(&exercise);
     let asked = exam.matches(FIGURE).count();
     assert_eq!(asked, exam.matches("\"statement\"").count());
+}
+
+#[test]
+fn a_solution_in_somebody_else_s_page_needs_no_style() {
+    let text = std::fs::read_to_string("derivations/book/falling-stick.json").expect("a scene");
+    let scene = command::scene("scene", &text, &[]).expect("a sound scene");
+    let worked = worked::out(&scene).expect("a worked scene");
+    let solution = worked.solution(Detail::Normal);
+    // A page has a second form for narrow windows, of which its style shows one.
+    assert!(html::page(&solution, &[]).contains(" phone\""));
+    let fragment = html::fragment(&solution, &[]);
+    assert!(!fragment.contains(" phone"), "an equation stands twice");
+    assert!(
+        !fragment.contains("class=\"l\""),
+        "left sides are aligned by their class"
+    );
 }
 
 /// What Numbas defines in a question: each variable with its values, one for every variant.

@@ -182,29 +182,42 @@ fn over_positive(
         (at_best(&slope), Expr::zero(), flat),
         (at_best(&f), value.clone(), "the value there"),
     ];
-    let mut at = out.clone();
-    at.name = format!("{name}_at");
-    at.latex = format!("\\arg {}", out.latex);
-    at.words = format!("{words} for which it is {}", which.word());
-    let there = Expr::symbol(&at.name).power(Expr::ratio(1, power));
+    let there = Expr::symbol(format!("{name}_at").as_str()).power(Expr::ratio(1, power));
+    let mut at = place_of(scene, &out, which, reduced, place)?;
     at.put_in = vec![(put(&slope, there), Expr::zero(), flat)];
-    // How it was found is told with the value.
-    at.discarded = Vec::new();
-    at.text = Vec::new();
-    if let Some([p, q]) = &reduced.pair {
-        let pair = sentence!("every pair {}, {} with this ", p, q);
-        at.text.push(sentence!(
-            "{}{} does it: the best pairs form a curve",
-            pair,
-            &reduced.combination
-        ));
-    }
-    let combination = reduced.combination.clone();
-    at.dimension = super::dimension_of(scene, &combination, &name)?;
-    at.range.push((combination, Relation::Equal, place.clone()));
-    at.form = Form::value(place);
     out.form = Form::value(value);
     Ok(vec![out, at])
+}
+
+/// Where a value is largest or least, as an answer of its own.
+fn place_of(
+    scene: &Scene,
+    value: &Answer,
+    which: Extremum,
+    reduced: &Reduced,
+    place: Expr,
+) -> Result<Answer, Refused> {
+    let combination = reduced.combination.clone();
+    let words = write_plain(&combination);
+    let mut at = Answer {
+        name: format!("{}_at", value.name),
+        latex: format!("\\arg {}", value.latex),
+        words: format!("{words} for which it is {}", which.word()),
+        dimension: super::dimension_of(scene, &combination, &value.name)?,
+        form: Form::value(place.clone()),
+        // How it was found is told with the value.
+        discarded: Vec::new(),
+        text: Vec::new(),
+        ..value.clone()
+    };
+    if let Some([p, q]) = &reduced.pair {
+        let pair = sentence!("every pair {}, {} with this ", p, q);
+        let does = "{}{} does it: the best pairs form a curve";
+        let parts = [pair, (&combination).into()];
+        at.text.push(Sentence::filled(does, parts));
+    }
+    at.range.push((combination, Relation::Equal, place));
+    Ok(at)
 }
 
 /// Told where the derivative vanishes more than once, or not where it is sought: only an interval decides then.

@@ -48,7 +48,7 @@ pub fn run(args: &ExportArgs) -> Result<u8, Failure> {
     let pictures: Vec<_> = pictures.iter().map(html::Picture::standalone).collect();
     let shown = Shown {
         figure: pictures.first().map(|p| p.svg.clone()).unwrap_or_default(),
-        solution: html::sections(&worked.solution(Detail::Normal), &pictures),
+        solution: html::fragment(&worked.solution(Detail::Normal), &pictures),
     };
     let exercise = exercise(&sheet, shown, &worked.told.assumed()).map_err(refused)?;
     for left_out in &exercise.left_out {

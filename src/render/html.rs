@@ -46,6 +46,15 @@ const DESK: usize = 80;
 /// The same in a narrow window.
 const PHONE: usize = 38;
 
+/// The windows a display is written for.
+#[derive(Clone, Copy)]
+enum Windows {
+    /// Narrow and wide ones: the style shows one of two forms.
+    Any,
+    /// Wide ones alone, in cells that are aligned without a style.
+    Wide,
+}
+
 const STYLE: &str = "
 :root{color-scheme:light dark}
 *{box-sizing:border-box}
@@ -92,7 +101,7 @@ pub fn page_among(s: &Solution, pictures: &[Picture], above: &str, below: &str) 
     if !s.source.is_empty() {
         body.push_str(&format!("<p class=\"source\">{}</p>\n", escape(&s.source)));
     }
-    body.push_str(&sections(s, pictures));
+    body.push_str(&sections(s, pictures, Windows::Any));
     body.push_str(below);
     shell(title, above, &body, None)
 }
@@ -117,8 +126,12 @@ pub fn shell(title: &str, above: &str, body: &str, script: Option<&str>) -> Stri
     )
 }
 
-/// What stands below the title, to be put into a page of somebody else.
-pub fn sections(s: &Solution, pictures: &[Picture]) -> String {
+/// What stands below the title, to be put into a page of somebody else, which has no style for it.
+pub fn fragment(s: &Solution, pictures: &[Picture]) -> String {
+    sections(s, pictures, Windows::Wide)
+}
+
+fn sections(s: &Solution, pictures: &[Picture], windows: Windows) -> String {
     let mut out = String::new();
     for section in &s.sections {
         out.push_str("<section>\n");
@@ -130,14 +143,14 @@ pub fn sections(s: &Solution, pictures: &[Picture]) -> String {
             ));
         }
         for part in &section.parts {
-            out.push_str(&self::part(s, part, pictures));
+            out.push_str(&self::part(s, part, pictures, windows));
         }
         out.push_str("</section>\n");
     }
     out
 }
 
-fn part(s: &Solution, part: &Part, pictures: &[Picture]) -> String {
+fn part(s: &Solution, part: &Part, pictures: &[Picture], windows: Windows) -> String {
     match part {
         Part::Text(words) => format!("<p>{}</p>\n", sentence(s, words)),
         Part::List(items) => {
@@ -149,9 +162,9 @@ fn part(s: &Solution, part: &Part, pictures: &[Picture]) -> String {
         }
         Part::Display(lines) => {
             let parts = apart(s, lines).into_iter();
-            parts.map(|lines| display(s, lines, "")).collect()
+            parts.map(|lines| display(s, lines, "", windows)).collect()
         }
-        Part::Result(lines) => display(s, lines, " result"),
+        Part::Result(lines) => display(s, lines, " result", windows),
         Part::Matrix(m) => matrix(s, m),
         Part::Figure(slot) => {
             let figures: Vec<String> = pictures
@@ -174,8 +187,24 @@ fn part(s: &Solution, part: &Part, pictures: &[Picture]) -> String {
 }
 
 /// Equations in rows, once for wide windows and, where they need more breaks, once for narrow ones.
-fn display(s: &Solution, lines: &[Line], class: &str) -> String {
+fn display(s: &Solution, lines: &[Line], class: &str, windows: Windows) -> String {
     let desk = rows(s, lines);
+    if let Windows::Wide = windows {
+        let aligned = [
+            (
+                "class=\"l\"",
+                "style=\"text-align:right;text-align:-webkit-right\"",
+            ),
+            ("<mtd>", "<mtd style=\"text-align:left\">"),
+            (
+                "class=\"display result\"",
+                "style=\"border:1px solid;padding:0 1em;width:fit-content;margin:auto\"",
+            ),
+        ];
+        let table = table(s, &desk, class, DESK);
+        let each = aligned.iter();
+        return each.fold(table, |table, (class, style)| table.replace(class, style));
+    }
     let phone = rows_within(s, lines, PHONE);
     let same = |a: &[Cells], b: &[Cells]| {
         let wide = |rows: &[Cells]| span(s, rows);

@@ -551,8 +551,16 @@ impl Page<'_> {
         let mut fresh: Vec<(Symbol, Expr)> = all.collect();
         fresh.retain(|(name, value)| self.is_new(&words::related(&Expr::symbol(name), "=", value)));
         if !fresh.is_empty() {
-            let mut text = vec![say("From the stage before, ")];
-            text.extend(words::values(&fresh));
+            let mut text = Vec::new();
+            for (i, (name, value)) in fresh.iter().enumerate() {
+                text.push(say(match i {
+                    0 => "From the stage before, ",
+                    _ => ", and ",
+                }));
+                text.push(words::equation(&Expr::symbol(name), value));
+                let of = speeds::handed_on(&case.scene, name);
+                text.extend(of.map(|of| say(format!(", {of}"))));
+            }
             text.push(say("."));
             self.solution.text(text);
         }

@@ -4,7 +4,7 @@ use super::Page;
 use super::motion::{driven, pulley};
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol};
-use crate::scene::{Ask, StageKind};
+use crate::scene::{Ask, Body, Scene, StageKind};
 use crate::solution::neat::tidied;
 use crate::solution::words::{self, name, set, vector};
 use crate::solution::{Line, Math};
@@ -140,4 +140,21 @@ impl Page<'_> {
 fn is_kinetic(energy: Expr) -> Line {
     let energies = [energy.into(), words::kinetic("", "+")];
     Line::plain(set("{} = {}", energies))
+}
+
+/// Of which bodies a symbol is the speed or the rate of turning with which they come into an impact; `None` where it is a part of
+/// such.
+pub(super) fn handed_on(scene: &Scene, name: &Symbol) -> Option<String> {
+    let is_it = |e: &Expr| e.as_symbol() == Some(name) || (-e).as_symbol() == Some(name);
+    let what = |body: &Body| match &body.velocity {
+        _ if is_it(&body.spin) => Some("the angular speed"),
+        [x, y] if is_it(x) && y.is_zero() || x.is_zero() && is_it(y) => Some("the speed"),
+        [x, _] if is_it(x) => Some("the horizontal speed"),
+        [_, y] if is_it(y) => Some("the vertical speed"),
+        _ => None,
+    };
+    let of = scene.bodies.iter().find_map(what)?;
+    let alike = (0..scene.bodies.len()).filter(|b| what(&scene.bodies[*b]) == Some(of));
+    let alike: Vec<usize> = alike.collect();
+    Some(format!("{of} of {}", words::bodies(scene, &alike)))
 }

@@ -14,7 +14,7 @@ use crate::equality::{self, Equality};
 use crate::expr::{Expr, Point, Rational, Symbol, ratio};
 use crate::formula::{Content, Reading, Relation};
 use crate::numeric;
-use crate::scene::{Print, Printed};
+use crate::scene::{Ask, Print, Printed};
 use crate::verify::rounding::ten_to;
 use crate::verify::slip;
 
@@ -54,9 +54,14 @@ impl Desk<'_> {
         let (of, relation, place) = self.bounds.get(item)?;
         let [(_, value)] = pairs else { return None };
         let is_place = *relation == Relation::Equal && self.is_same(place, value);
-        let of = self.say(of);
+        let mut asks = self.scene.questions.iter().map(|q| (&q.name, &q.ask));
+        let which = asks.find_map(|(name, ask)| match ask {
+            Ask::Extremum { which, .. } if *name == item => Some(which.word()),
+            _ => None,
+        });
+        let (of, which) = (self.say(of), which?);
         is_place
-            .then(|| format!("it is the {of} at which `{item}` is reached: print it as {of} = …"))
+            .then(|| format!("it is the {of} at which `{item}` is {which}: print it as {of} = …"))
     }
 
     /// Sides that agree when two parameters of one kind are exchanged in one of them.
