@@ -3,7 +3,6 @@
 //! Results go to standard output, everything else to standard error. Exit status: 0 done and everything held; 1 a check
 //! failed or an answer was refuted; 2 unusable input; 3 undecided; 70 a fault of carom itself; 74 no room for the output.
 
-mod batch;
 mod draw;
 mod emit;
 mod export;

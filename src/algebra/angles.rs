@@ -5,7 +5,7 @@ use num_traits::{One, Zero};
 
 use super::Stop;
 use super::element::Element;
-use super::field::{AngleOf, Base, Field, Kind, handy};
+use super::field::{AngleOf, Base, Field, Kind, MOST_ANGLES, handy};
 use super::mono::mono_variables;
 use super::poly::Poly;
 use crate::expr::angle::angle;
@@ -13,8 +13,7 @@ use crate::expr::{Expr, Function, Int, Rational, Symbol, ratio};
 
 /// Largest multiple of a base angle.
 const MOST_TURNS: i64 = 100;
-/// Most different angles in one argument.
-pub(super) const MOST_ANGLES: usize = 24;
+
 /// Most of them whose sum is written out: each one doubles the terms.
 const MOST_DOUBLED: usize = 12;
 

@@ -4,11 +4,73 @@
 
 use num_traits::{One, Zero};
 
-use super::gcd::{Fuel, content_in, gcd};
-use super::mono::{exponent, mono_is_one, mono_variables};
-use super::parts::Parts;
+use super::element::Den;
+use super::fuel::Fuel;
+use super::gcd::{content_in, gcd};
+use super::mono::{exponent, mono_is_one, mono_variables, powers};
 use super::poly::Poly;
 use crate::expr::Int;
+
+/// content · ∏ factorᵏ; single generators are factors of one term.
+#[derive(Clone, Debug)]
+pub(crate) struct Parts {
+    pub content: Int,
+    pub factors: Vec<(Poly, u32)>,
+}
+
+impl Parts {
+    pub fn one() -> Parts {
+        Parts::monomial(Int::one(), &[])
+    }
+
+    pub fn monomial(content: Int, mono: &[u64]) -> Parts {
+        Parts {
+            content,
+            factors: powers(mono).map(|(v, k)| (Poly::var(v), k)).collect(),
+        }
+    }
+
+    /// Of a denominator.
+    pub fn below(den: &Den) -> Parts {
+        let mut out = Parts::monomial(den.int.clone(), &den.mono);
+        out.factors.extend(den.factors.iter().cloned());
+        out
+    }
+
+    pub fn note(&mut self, p: Poly, times: u32) {
+        match self.factors.iter_mut().find(|(f, _)| *f == p) {
+            Some((_, k)) => *k += times,
+            None => self.factors.push((p, times)),
+        }
+    }
+
+    /// Multiplies by a power of another product.
+    pub fn take(&mut self, other: Parts, k: u32) {
+        self.content *= other.content.pow(k);
+        for (f, e) in other.factors {
+            self.note(f, e * k);
+        }
+    }
+
+    /// Joins (x − y)(x + y) to x² − y², which is shorter.
+    pub fn join_conjugates(&mut self) {
+        let mut i = 0;
+        while i < self.factors.len() {
+            let (f, k) = self.factors[i].clone();
+            let partner = (i + 1..self.factors.len()).find_map(|j| {
+                let (g, l) = &self.factors[j];
+                Some((j, conjugates(&f, g).filter(|_| k == *l)?))
+            });
+            match partner {
+                Some((j, product)) => {
+                    self.factors.remove(j);
+                    self.factors[i].0 = product;
+                }
+                None => i += 1,
+            }
+        }
+    }
+}
 
 /// Contents with respect to every variable, squarefree parts, and quadratics split by their discriminant: the variables of a
 /// common monomial first, then pairwise different, primitive factors with positive leading coefficients, sorted.
@@ -255,4 +317,10 @@ fn take_out(rest: &mut Int, factor: &Int) -> u32 {
         *rest /= factor;
     }
     1 + 2 * pairs + u32::from(odd)
+}
+
+/// The product x² − y² of x − y and x + y, which is shorter.
+pub(super) fn conjugates(f: &Poly, g: &Poly) -> Option<Poly> {
+    let product = (f.len() == 2 && g.len() == 2).then(|| f.mul(g).ok())??;
+    (product.len() == 2).then_some(product)
 }

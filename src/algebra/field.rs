@@ -8,16 +8,18 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use rustc_hash::FxHashMap;
 
 use super::Stop;
-use super::angles::MOST_ANGLES;
 use super::element::{Den, Element};
-use super::gcd::Fuel;
+use super::fuel::Fuel;
 use super::mono::{Mono, exponent, mono_max, mono_of};
+use super::points::Held;
 use super::poly::Poly;
-use super::sampled::Held;
-use super::substitution;
+use super::range;
 use crate::domain::Domains;
 use crate::expr::angle::angle;
 use crate::expr::{Expr, Function, Int, Node, Rational, Symbol, Table};
+
+/// Most different angles in one argument.
+pub(super) const MOST_ANGLES: usize = 24;
 
 /// Highest multiple of an angle that is written out where no other multiple asks for it.
 const MOST_WRITTEN_OUT: i64 = 8;
@@ -97,7 +99,7 @@ pub struct Field {
     /// At which of these points what is supposed holds, found when first needed.
     pub(super) held: OnceCell<Held>,
     /// What halving the domain has told of signs.
-    pub(super) halved: RefCell<BTreeMap<Poly, substitution::Found>>,
+    pub(super) halved: RefCell<BTreeMap<Poly, range::Found>>,
     /// Whether a root is known to be positive, of those whose radicand's sign has been looked for.
     pub(super) roots: RefCell<BTreeMap<usize, bool>>,
     /// Roots whose radicand's sign is being looked for.

@@ -9,7 +9,15 @@ use std::collections::BTreeMap;
 use super::Stop;
 use super::element::Element;
 use super::field::Field;
-use super::solve::Row;
+
+/// One equation Σ coeff·x = rhs.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Unknown and its coefficient; an unknown appears at most once.
+    pub coeffs: Vec<(usize, Element)>,
+    /// Right-hand side.
+    pub rhs: Element,
+}
 
 /// Minors of some columns by the set of their rows, as bits; those that vanish are left out.
 type Minors = BTreeMap<u32, Element>;

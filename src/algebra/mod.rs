@@ -14,15 +14,18 @@ mod differences;
 mod element;
 mod factor;
 mod field;
+mod fuel;
 mod gcd;
 mod image;
 mod minors;
 pub(crate) mod mono;
 mod parts;
+mod points;
 pub(crate) mod poly;
 mod powers;
 pub(crate) mod prime;
 mod product;
+mod range;
 mod read;
 mod related;
 mod roots;
@@ -40,9 +43,10 @@ use crate::expr::Expr;
 
 pub use element::Element;
 pub use field::{Assumption, Field};
+pub use minors::Row;
 pub use minors::determinant;
 pub use powers::Powers;
-pub use solve::{Row, Solution, solve};
+pub use solve::{Solution, solve};
 pub use zeros::Cell;
 
 /// Why a computation ended without a result.

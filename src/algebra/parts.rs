@@ -2,83 +2,16 @@
 
 use num_traits::{One, Signed};
 
-use super::element::Den;
-use super::factor::factor;
+use super::factor::{Parts, factor};
 use super::field::{Field, Kind};
-use super::gcd::{Fuel, gcd};
+use super::fuel::Fuel;
+use super::gcd::gcd;
 use super::mono::powers;
 use super::poly::Poly;
 use crate::expr::Int;
 
 /// Terms of a polynomial that is not factored without a prospect.
 const LONG: usize = 16;
-
-/// content · ∏ factorᵏ; single generators are factors of one term.
-#[derive(Clone, Debug)]
-pub(crate) struct Parts {
-    pub content: Int,
-    pub factors: Vec<(Poly, u32)>,
-}
-
-impl Parts {
-    pub fn one() -> Parts {
-        Parts::monomial(Int::one(), &[])
-    }
-
-    pub fn monomial(content: Int, mono: &[u64]) -> Parts {
-        Parts {
-            content,
-            factors: powers(mono).map(|(v, k)| (Poly::var(v), k)).collect(),
-        }
-    }
-
-    /// Of a denominator.
-    pub fn below(den: &Den) -> Parts {
-        let mut out = Parts::monomial(den.int.clone(), &den.mono);
-        out.factors.extend(den.factors.iter().cloned());
-        out
-    }
-
-    pub fn note(&mut self, p: Poly, times: u32) {
-        match self.factors.iter_mut().find(|(f, _)| *f == p) {
-            Some((_, k)) => *k += times,
-            None => self.factors.push((p, times)),
-        }
-    }
-
-    /// Multiplies by a power of another product.
-    pub fn take(&mut self, other: Parts, k: u32) {
-        self.content *= other.content.pow(k);
-        for (f, e) in other.factors {
-            self.note(f, e * k);
-        }
-    }
-
-    /// Joins (x − y)(x + y) to x² − y², which is shorter.
-    pub fn join_conjugates(&mut self) {
-        let mut i = 0;
-        while i < self.factors.len() {
-            let (f, k) = self.factors[i].clone();
-            let partner = (i + 1..self.factors.len()).find_map(|j| {
-                let (g, l) = &self.factors[j];
-                Some((j, conjugates(&f, g).filter(|_| k == *l)?))
-            });
-            match partner {
-                Some((j, product)) => {
-                    self.factors.remove(j);
-                    self.factors[i].0 = product;
-                }
-                None => i += 1,
-            }
-        }
-    }
-}
-
-/// The product x² − y² of x − y and x + y, which is shorter.
-pub(super) fn conjugates(f: &Poly, g: &Poly) -> Option<Poly> {
-    let product = (f.len() == 2 && g.len() == 2).then(|| f.mul(g).ok())??;
-    (product.len() == 2).then_some(product)
-}
 
 impl Field {
     /// Factors of the shorter of the forms without sin² and without cos².

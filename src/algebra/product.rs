@@ -5,8 +5,8 @@ use num_traits::{One, Signed, Zero};
 
 use super::Sign;
 use super::element::Element;
+use super::factor::{Parts, conjugates};
 use super::field::{Field, Kind};
-use super::parts::{Parts, conjugates};
 use super::poly::Poly;
 use crate::expr::{Expr, Int, Node, Rational, ratio};
 

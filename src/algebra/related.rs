@@ -6,8 +6,8 @@ use std::collections::BTreeSet;
 
 use super::Sign;
 use super::field::{Field, Kind};
+use super::points::Points;
 use super::poly::Poly;
-use super::sampled::Points;
 use super::substitution::MOST_TERMS;
 use crate::domain::{Domain, Relation};
 use crate::expr::{Expr, Rational, Symbol, effort, ratio};

@@ -9,12 +9,12 @@ use std::collections::BTreeSet;
 use num_traits::{One, Signed};
 
 use super::element::Element;
+use super::factor::Parts;
 use super::factor::{factor, primes_with_powers, square_part};
 use super::field::{Field, Generator, Kind};
 use super::image;
-use super::parts::Parts;
 use super::poly::{MOST_UNDER_ROOT, Poly};
-use super::substitution::Found;
+use super::range::Found;
 use super::{Sign, Stop};
 use crate::expr::Int;
 

@@ -12,49 +12,12 @@ use super::factor::factor;
 use super::field::{AngleOf, Field, Kind};
 use super::mono::{exponent, mono_variables};
 use super::poly::Poly;
-use super::substitution::Found;
+use super::range::{End, Found, Interval};
 use crate::domain::Limit;
 use crate::expr::{Function, Int, Rational, Symbol, effort, ratio};
 
 /// Most terms of a quadratic whose discriminant, with as many terms squared, is looked at.
 const MOST_QUADRATIC: usize = 40;
-
-/// Ends of an interval; `None` is infinite.
-#[derive(Clone, Debug)]
-pub(crate) struct Interval {
-    pub low: Option<(Rational, bool)>,
-    pub high: Option<(Rational, bool)>,
-}
-
-impl Interval {
-    /// The open interval between two fractions.
-    fn open(low: Rational, high: Rational) -> Interval {
-        let [low, high] = [low, high].map(|end| Some((end, true)));
-        Interval { low, high }
-    }
-
-    /// Whether it lies between two fractions.
-    pub fn is_within(&self, low: &Rational, high: &Rational) -> bool {
-        let is_low = self.low.as_ref().is_some_and(|(end, _)| end >= low);
-        is_low && self.high.as_ref().is_some_and(|(end, _)| end <= high)
-    }
-
-    /// Everything above zero.
-    pub fn above_zero(open: bool) -> Interval {
-        let low = Some((ratio(0, 1), open));
-        Interval { low, high: None }
-    }
-}
-
-/// What a variable that stands for another one may also be.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct End {
-    pub v: usize,
-    /// It may be 0.
-    pub zero: bool,
-    /// It may be infinite, where only terms of this degree in it count.
-    pub infinite: Option<u32>,
-}
 
 /// What is known of a variable's sign without work.
 #[derive(Clone, Copy, PartialEq, Eq)]

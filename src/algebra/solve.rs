@@ -7,19 +7,10 @@
 use super::Stop;
 use super::element::Element;
 use super::field::{Field, Kind};
-use super::minors;
+use super::minors::{self, Row};
 
 /// Most unknowns of a system that is solved by determinants; their number of terms grows like 2ⁿ.
 const MOST_BY_MINORS: usize = 6;
-
-/// One equation Σ coeff·x = rhs.
-#[derive(Clone, Debug)]
-pub struct Row {
-    /// Unknown and its coefficient; an unknown appears at most once.
-    pub coeffs: Vec<(usize, Element)>,
-    /// Right-hand side.
-    pub rhs: Element,
-}
 
 /// One division of the elimination: the equation, the unknown it was solved for, and its coefficient.
 struct Pivot {

@@ -7,7 +7,7 @@ use super::field::Field;
 use super::field::Kind;
 use super::mono::{exponent, mono_of};
 use super::poly::Poly;
-use super::sign::{End, Interval};
+use super::range::{End, Found, Interval};
 use super::{Sign, Stop};
 use crate::expr::number::{self, to_f64};
 use crate::expr::{Int, Rational, ratio};
@@ -24,15 +24,6 @@ struct Axis {
     high: Option<(Rational, bool)>,
     /// Where an infinite end belongs to the interval: the degree of the terms that count there.
     at_infinity: Option<u32>,
-}
-
-/// What is known of the sign of a polynomial on a domain.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Found {
-    Proved(Sign),
-    /// Both signs occur.
-    Mixed,
-    Unknown,
 }
 
 /// Work for one sign: parts of the domain, times terms, times degrees.

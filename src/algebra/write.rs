@@ -6,10 +6,11 @@ use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 use super::element::{Den, Element};
+use super::factor::Parts;
 use super::factor::factor;
 use super::field::{AngleOf, Field, Kind};
 use super::mono::{Mono, exponent, mono_add, mono_div, mono_divides, mono_is_one, mono_of, powers};
-use super::parts::{Parts, letters, strike};
+use super::parts::{letters, strike};
 use super::poly::Poly;
 use super::product::{MOST_SIGNED, turned_inside};
 use crate::expr::{Expr, Function, Int, Node, Rational, ratio};

@@ -9,10 +9,10 @@ use num_traits::{One, Signed, Zero};
 
 use super::Stop;
 use super::element::Element;
+use super::factor::Parts;
 use super::factor::factor;
 use super::field::{Field, Kind};
 use super::gcd::gcd;
-use super::parts::Parts;
 use super::poly::Poly;
 use crate::expr::{Int, Rational, Symbol, ratio};
 

@@ -400,3 +400,14 @@ fn squared(e: &Expr, domains: &Domains) -> Option<Expr> {
     let without = essential(&difference, domains);
     (!has_root(&&without) && (has_sum(root) || without.size() < e.size())).then_some(without)
 }
+
+/// What can make a product vanish: its factors above the line, without their powers.
+pub(super) fn bases(e: &Expr) -> Vec<Expr> {
+    let factors = e.factors();
+    let base = |factor: &Expr| match factor.node() {
+        Node::Power(_, k) if k.as_number().is_some_and(num_traits::Signed::is_negative) => None,
+        Node::Power(base, k) if k.as_number().is_some() => Some(base.clone()),
+        _ => Some(factor.clone()),
+    };
+    factors.iter().filter_map(base).collect()
+}

@@ -2,8 +2,7 @@
 
 use num_traits::Signed;
 
-use super::formulas::Work;
-use super::{Known, Refused};
+use super::{Known, Refused, Work};
 use crate::dimension::{self, Dimension};
 use crate::expr::number::Int;
 use crate::expr::{Expr, Node, Symbol};

@@ -1,7 +1,7 @@
 //! The direction of a velocity: its angle from the x axis, in the quarter that the signs of its components tell.
 
+use super::Work;
 use super::calc::{Seen, above_zero, sign, tidy};
-use super::formulas::Work;
 use super::{Answer, Check, Form, Refused};
 use crate::algebra::Sign;
 use crate::domain::Domains;

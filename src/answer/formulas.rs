@@ -11,7 +11,7 @@ use super::calc::{Seen, beyond_zero, essential, is_zero, keeps_to, sign, tidy};
 use super::dimensions::kind_of;
 use super::powers::not_zero;
 use super::{
-    Answer, Check, Form, Known, Refused, inequality, limit, optimum, solve, threshold, zeros,
+    Answer, Check, Form, Known, Refused, Work, inequality, limit, optimum, solve, threshold, zeros,
 };
 use crate::algebra::Sign;
 use crate::dimension::{self, Dimension};
@@ -237,16 +237,6 @@ pub(super) fn put(
     } else {
         own
     })
-}
-
-/// A question about formulas on its way to an answer.
-pub(super) struct Work<'a> {
-    pub scene: &'a Scene,
-    pub question: &'a Question,
-    /// Name of the answer.
-    pub name: &'a str,
-    /// What earlier answers stand for.
-    pub known: &'a Known,
 }
 
 /// An equation or inequality, as it is asked.

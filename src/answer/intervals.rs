@@ -8,10 +8,9 @@ use std::cmp::Ordering;
 
 use super::Answer;
 use super::calc::{Seen, by_signs, essential, sign};
-use super::solve::Root;
-use super::threshold::beside;
+use super::solve::{Root, end_of};
 use crate::algebra::Sign;
-use crate::domain::{Domain, Domains};
+use crate::domain::{Domain, Domains, Limit};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Relation;
 use crate::formula::{Sentence, sentence};
@@ -152,4 +151,68 @@ fn pieces(parameter: &Symbol, zeros: &[Expr], holds: &[bool], strict: bool) -> V
         out.push(words(from, None));
     }
     out
+}
+
+/// A step away from a value, of any size.
+const STEP: &str = "\u{1}step";
+
+/// The sign of the difference at a place between its zero and the end of the domain on one side; zero where there is none.
+pub(super) fn beside(
+    gap: &Expr,
+    parameter: &Symbol,
+    value: &Expr,
+    end: Option<&Limit>,
+    way: i64,
+    domains: &Domains,
+) -> Seen {
+    let mut domains = domains.clone();
+    domains.symbols.insert(STEP.into(), Domain::positive());
+    // Any distance does: there is no other zero on this side.
+    let at_any = value + &(Expr::from(way) * Expr::symbol(STEP));
+    let end = end.map(Limit::expr);
+    // A relation counts where it leaves less than the domain.
+    let stated = stated(parameter, way, &domains).filter(|stated| {
+        let less =
+            |end: &Expr| sign(&(Expr::from(way) * (end - stated)), &domains).side() == Some(true);
+        end.as_ref().is_none_or(less)
+    });
+    let place = match stated.or(end) {
+        Some(number) => {
+            // Where the value lies at the end or beyond, there is nothing on this side of it.
+            let inside = essential(&(Expr::from(way) * (&number - value)), &domains);
+            if inside.is_zero() {
+                return Seen::Proved(Sign::Zero);
+            }
+            if sign(&inside, &domains) == Seen::Mixed {
+                domains = domains.given(&inside, false);
+            }
+            &(&Expr::ratio(1, 2) * &(value + &number))
+        }
+        None if way > 0 && sign(value, &domains).is_positive() => &(Expr::from(2) * value.clone()),
+        None => &at_any,
+    };
+    let seen_at = |place: &Expr| {
+        let e = gap.put(parameter, place);
+        sign(&essential(&e, &domains), &domains)
+    };
+    match seen_at(place) {
+        seen if seen.is_proved() || *place == at_any => seen,
+        // What holds at every distance holds up to the end.
+        seen => Some(seen_at(&at_any))
+            .filter(|s| s.is_proved())
+            .unwrap_or(seen),
+    }
+}
+
+/// The one end that relations put to a parameter on one side.
+fn stated(parameter: &Symbol, way: i64, domains: &Domains) -> Option<Expr> {
+    let ends = domains.relations.iter().filter_map(|relation| {
+        let (end, is_upper) = end_of(parameter, relation, domains)?;
+        (is_upper == (way > 0)).then_some(end)
+    });
+    let ends: Vec<Expr> = ends.collect();
+    match ends.as_slice() {
+        [only] => Some(only.clone()),
+        _ => None,
+    }
 }

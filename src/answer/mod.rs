@@ -449,3 +449,13 @@ impl Refused {
         Refused::question(name, format!("not calculated: {stop}"), TOO_LONG)
     }
 }
+
+/// A question about formulas on its way to an answer.
+pub(super) struct Work<'a> {
+    pub scene: &'a Scene,
+    pub question: &'a Question,
+    /// Name of the answer.
+    pub name: &'a str,
+    /// What earlier answers stand for.
+    pub known: &'a Known,
+}

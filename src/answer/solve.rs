@@ -3,6 +3,8 @@
 //! In: an expression, the symbol, domains. Out: closed forms of the values within the domain, each with what must hold for it,
 //! and the reason why others were discarded.
 
+mod angle;
+
 use num_integer::{Integer, Roots as _};
 
 use super::calc::{Seen, decisive, essential, in_bars, is_zero, seen, sign, tidy};
@@ -243,7 +245,7 @@ fn within_interval(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots
         squared,
     }) = field.powers(&x, symbol)?
     else {
-        return super::zeros::angle(e, symbol, domains);
+        return angle::zeros(e, symbol, domains);
     };
     if factors.is_empty() && !has_zero {
         return Err(Unsolved::Absent);

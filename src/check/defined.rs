@@ -8,7 +8,6 @@ use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use super::replay::holds;
 use super::{Claim, Report};
 use crate::expr::{Expr, Point, Symbol};
 use crate::numeric::follow::{self, Followed};
@@ -236,4 +235,10 @@ pub(super) fn in_cases(scene: &Scene, needed: &Needed, claims: &[&Claim], report
             report.fail(&claim.step, &claim.text, why.clone());
         }
     }
+}
+
+/// Whether nothing that has to be ≥ 0 is negative at a point.
+pub(super) fn holds(needs: &[Expr], at: &Point<f64>) -> bool {
+    let mut values = needs.iter().filter_map(|e| e.evaluate(at));
+    values.all(|value| value >= 0.0)
 }

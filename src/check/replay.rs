@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use super::defined::{Defined, Here, is_of_a_case};
+use super::defined::{Defined, Here, holds, is_of_a_case};
 use super::impacts::Impact;
 use super::{Claim, Meaning, POINTS, Report};
 use crate::expr::{Expr, Point, Rational, Symbol};
@@ -64,12 +64,6 @@ pub(super) fn replay(impact: &Impact, claims: &[&Claim], report: &mut Report) {
         (point, doubles)
     });
     compare(points.collect(), (scene, meanings), claims, report);
-}
-
-/// Whether nothing that has to be ≥ 0 is negative at a point.
-pub(super) fn holds(needs: &[Expr], at: &Point<f64>) -> bool {
-    let mut values = needs.iter().filter_map(|e| e.evaluate(at));
-    values.all(|value| value >= 0.0)
 }
 
 /// What the contact with friction does at a point, followed in fractions, or in doubles where a root is no fraction.

@@ -6,8 +6,8 @@
 
 use std::collections::BTreeMap;
 
+use super::defined::holds;
 use super::impacts::Impact;
-use super::replay::holds;
 use super::{Claim, Meaning, POINTS, Report};
 use crate::expr::{Expr, Point, Symbol};
 use crate::numeric;

@@ -1,5 +1,7 @@
 //! `carom grade` and `carom read`: one answer, a batch of answers, or how a formula is understood.
 
+mod batch;
+
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -103,7 +105,7 @@ enum SlashArg {
 pub fn run(args: &GradeArgs) -> Result<u8, Failure> {
     let options = options(args)?;
     if args.batch {
-        return super::batch::batch(args, options);
+        return batch::batch(args, options);
     }
     if let (Some(scene), Some(file)) = (&args.scene, &args.steps) {
         return steps(scene, file, args, &options);

@@ -12,7 +12,6 @@ mod count;
 pub mod friction;
 mod left_out;
 mod names;
-mod offered;
 mod plan;
 mod steps;
 mod work;

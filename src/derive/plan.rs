@@ -4,11 +4,12 @@
 //! point in general position. Nothing found here is trusted: the chosen laws are written and solved symbolically
 //! afterwards, and a plan that does not close there is given up for the full system.
 
+mod offered;
+
 use std::ops::RangeInclusive;
 
 use rustc_hash::FxHashSet;
 
-use super::offered;
 use crate::expr::arithmetic::Number;
 use crate::expr::{Expr, Vector};
 use crate::laws::{self, Direction, Geometry, Kinematics, Law, Place, Unknown};

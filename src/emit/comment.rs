@@ -2,8 +2,18 @@
 
 use super::dialect::Language;
 use super::function::{Function, LIBRARY};
-use super::write::Heading;
 use crate::formula::visible;
+
+/// What stands at the head of a file.
+#[derive(Clone, Debug, Default)]
+pub struct Heading {
+    /// Title of the scene.
+    pub title: String,
+    /// Where it comes from.
+    pub source: String,
+    /// What all functions take for granted.
+    pub assumptions: Vec<String>,
+}
 
 /// What stands at the head of a file.
 pub(super) fn head(heading: &Heading, functions: &[Function]) -> Vec<String> {

@@ -164,3 +164,26 @@ impl Dialect {
         filled(self.call, at, own.map_or(name, |(_, own)| own))
     }
 }
+
+/// How a file is written.
+#[derive(Clone, Debug)]
+pub struct Style {
+    /// Its language.
+    pub language: Language,
+    /// What stands before the name of every function and type.
+    pub prefix: String,
+    /// Whether one function more takes all arguments in one struct and gives all values in another; in C the file is a
+    /// header then.
+    pub record: bool,
+}
+
+impl Style {
+    /// Functions alone, under the names of the answers.
+    pub fn of(language: Language) -> Style {
+        Style {
+            language,
+            prefix: String::new(),
+            record: false,
+        }
+    }
+}

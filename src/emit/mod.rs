@@ -18,7 +18,9 @@ pub mod units;
 pub mod write;
 
 pub use arrange::{Atoms, Signs, arranged, as_derived, signs, without_angles};
+pub use comment::Heading;
 pub use dialect::Language;
+pub use dialect::Style;
 pub use function::{Function, functions};
 pub use program::{Bound, Op, Program, Step};
-pub use write::{Heading, Style, file};
+pub use write::file;

@@ -2,10 +2,9 @@
 //!
 //! In: functions with the names they were given. Out: two types and a function in each language, and the guard of a header.
 
-use super::dialect::Language;
+use super::dialect::{Language, Style};
 use super::function::Function;
 use super::names::Names;
-use super::write::Style;
 
 /// The two types, and the function from one to the other.
 pub(super) fn record(

@@ -5,49 +5,15 @@
 
 use std::collections::BTreeSet;
 
-use super::comment::{comment, documentation, head};
+use super::comment::{Heading, comment, documentation, head};
 use super::dd::Dd;
-use super::dialect::{Dialect, Language, filled};
+use super::dialect::{Dialect, Language, Style, filled};
 use super::function::{Function, Turn};
 use super::helpers::{self, Helper};
 use super::names::{C_LIBRARY, Names};
 use super::program::{Op, Step};
 use super::record;
 use super::units::{self, Units};
-
-/// What stands at the head of a file.
-#[derive(Clone, Debug, Default)]
-pub struct Heading {
-    /// Title of the scene.
-    pub title: String,
-    /// Where it comes from.
-    pub source: String,
-    /// What all functions take for granted.
-    pub assumptions: Vec<String>,
-}
-
-/// How a file is written.
-#[derive(Clone, Debug)]
-pub struct Style {
-    /// Its language.
-    pub language: Language,
-    /// What stands before the name of every function and type.
-    pub prefix: String,
-    /// Whether one function more takes all arguments in one struct and gives all values in another; in C the file is a
-    /// header then.
-    pub record: bool,
-}
-
-impl Style {
-    /// Functions alone, under the names of the answers.
-    pub fn of(language: Language) -> Style {
-        Style {
-            language,
-            prefix: String::new(),
-            record: false,
-        }
-    }
-}
 
 /// The functions with what they need, as one file.
 pub fn file(style: &Style, heading: &Heading, functions: &[Function]) -> String {

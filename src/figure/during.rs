@@ -5,12 +5,11 @@
 
 use super::label::{Label, Level};
 use super::marks::{centers, names};
-use super::picture::arrow_length;
 use super::place::Spot;
 use super::plane::{Pair, ahead, dot, minus, opposite, size, unit};
 use super::pose::Look;
 use super::quantity::{magnitude, vector_name};
-use super::sheet::{Ink, SIZE, Sheet};
+use super::sheet::{Ink, SIZE, Sheet, arrow_length};
 use super::stage::{DOT, Moment, Stage};
 use crate::expr::Vector;
 use crate::numeric::Motion;

@@ -3,7 +3,9 @@
 //! In: names, LaTeX spellings, expressions. Out: runs that say what is italic, lowered or raised, with an estimate of
 //! their size. Knows nothing of where a label goes. Whatever LaTeX it does not know it shows as text.
 
-use super::{inline, latex};
+mod inline;
+pub(crate) mod latex;
+
 use crate::expr::Expr;
 use crate::formula::{is_hidden, latex_name};
 use crate::scene::Scene;
@@ -254,6 +256,13 @@ fn raised(c: char) -> char {
         '−' | '-' => '⁻',
         _ => c,
     }
+}
+
+/// The room a label takes: width and height.
+pub fn extent(label: &Label, size: f64) -> [f64; 2] {
+    let (raised, lowered) = label.reach();
+    let height = 0.95 + if raised { 0.3 } else { 0.0 } + if lowered { 0.17 } else { 0.0 };
+    [label.width(size) + 2.0, height * size]
 }
 
 #[cfg(test)]

@@ -7,9 +7,7 @@
 mod during;
 mod film;
 mod fixture;
-mod inline;
-mod label;
-pub(crate) mod latex;
+pub(crate) mod label;
 mod marks;
 mod measure;
 mod motion;

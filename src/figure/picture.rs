@@ -8,17 +8,12 @@ use super::marks::{axes, centers, masses, names, turning, velocity, wall_point};
 use super::measure;
 use super::plane::{Pair, ahead, apart, dot, left, minus, plus, size};
 use super::quantity::{LEGIBLE, speed, spin_before, spin_name, vector_name, velocity_name};
-use super::sheet::Sheet;
+use super::sheet::{LONG, Sheet, arrow_length};
 use super::stage::{DOT, Moment, Stage};
 use crate::expr::{Expr, Point};
 use crate::numeric::system::Unknown;
 use crate::numeric::{Motion, motion_of, solve_f64, solved};
 use crate::scene::Ask;
-
-/// Longest arrow in pixels.
-pub(super) const LONG: f64 = 62.0;
-/// Shortest arrow in pixels.
-const SHORT: f64 = 24.0;
 
 /// The motion after at the values the scene is drawn at; `None` where the equations contradict each other.
 pub fn outcome(stage: &Stage) -> Option<Motion<f64>> {
@@ -27,14 +22,6 @@ pub fn outcome(stage: &Stage) -> Option<Motion<f64>> {
     let rates = found.motion.velocity.iter().flatten();
     let mut rates = rates.chain(&found.motion.spin);
     rates.all(|v| v.is_finite()).then_some(found.motion)
-}
-
-pub(super) fn arrow_length(value: f64, most: f64) -> f64 {
-    if most > 0.0 {
-        (LONG * value / most).max(SHORT)
-    } else {
-        SHORT
-    }
 }
 
 fn fastest(stage: &Stage, after: Option<&Motion<f64>>) -> f64 {

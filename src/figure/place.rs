@@ -2,9 +2,8 @@
 //!
 //! In: labels with what they belong to, segments and rooms to keep off. Out: one room per label; no two of them overlap.
 
-use super::label::Label;
+use super::label::{Label, extent};
 use super::plane::{Pair, ahead, apart, between, dot, left, minus, plus, size, times};
-use super::sheet::extent;
 
 /// An upright rectangle.
 #[derive(Clone, Copy, PartialEq, Debug)]

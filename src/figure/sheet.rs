@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use super::label::Label;
+use super::label::{Label, extent};
 use super::place::{self, Room, Spot, Wish};
 use super::plane::{Pair, ahead, minus, polar, times};
 
@@ -414,9 +414,16 @@ pub fn arc(center: Pair, radius: f64, from: f64, to: f64) -> Vec<Pair> {
         .collect()
 }
 
-/// The room a label takes: width and height.
-pub fn extent(label: &Label, size: f64) -> [f64; 2] {
-    let (raised, lowered) = label.reach();
-    let height = 0.95 + if raised { 0.3 } else { 0.0 } + if lowered { 0.17 } else { 0.0 };
-    [label.width(size) + 2.0, height * size]
+/// Longest arrow in pixels.
+pub(super) const LONG: f64 = 62.0;
+/// Shortest arrow in pixels.
+const SHORT: f64 = 24.0;
+
+/// The length of the arrow of a value in pixels, beside the largest of its kind.
+pub(super) fn arrow_length(value: f64, most: f64) -> f64 {
+    if most > 0.0 {
+        (LONG * value / most).max(SHORT)
+    } else {
+        SHORT
+    }
 }

@@ -3,8 +3,8 @@
 //! In: what is drawn. Out: a `tikzpicture`. A label becomes a formula made of known commands and escaped letters only, so that
 //! nothing a scene says is obeyed.
 
+use super::label::latex::command;
 use super::label::{Label, Level, Run};
-use super::latex::command;
 use super::plane::Pair;
 use super::sheet::{Ink, Item, Paint};
 use super::svg::number;

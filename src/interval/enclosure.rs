@@ -340,8 +340,3 @@ impl<const BITS: u32> Certified for Big<BITS> {
         series::call(&self.0, function, BITS).then(|e| known(e.clone()))
     }
 }
-
-/// The exact fraction 1, as an enclosure.
-pub(super) fn unit() -> Enclosure {
-    Enclosure::point(Dyadic::from_int(1))
-}

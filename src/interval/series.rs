@@ -10,7 +10,6 @@ use num_bigint::BigInt;
 use num_traits::{One, ToPrimitive, Zero};
 
 use super::dyadic::{Dyadic, Round};
-use super::enclosure::unit;
 use super::{Enclosure, Outcome};
 use crate::expr::{Function, effort};
 use Outcome::{Undefined, Unknown, Value};
@@ -405,4 +404,9 @@ fn hyperbolic(x: &Enclosure, function: Function, bits: u32) -> Outcome<Enclosure
             Value(monotone(x, at).rounded(bits))
         }),
     }
+}
+
+/// The exact fraction 1, as an enclosure.
+fn unit() -> Enclosure {
+    Enclosure::point(Dyadic::from_int(1))
 }

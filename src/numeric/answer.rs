@@ -4,14 +4,11 @@
 //! itself brings (points and directions).
 
 use super::energy::{energy_after, energy_before, energy_lost, velocity_after};
-use std::fmt;
-
 use super::friction::{Followed, settle};
-use super::given::{Given, GivenImpulse, GivenLaw, Reason, Undefined, given, vector};
-use super::path::NoPath;
+use super::given::{Given, GivenImpulse, GivenLaw, Undefined, given, vector};
+use super::no_answer::NoAnswer;
 use super::solution::{Contradiction, Motion, Solution, motion};
-use super::system::{Law, System, Unknown, assemble, motion_of};
-use super::values::NoPoint;
+use super::system::{System, Unknown, assemble, motion_of};
 use crate::expr::arithmetic::{Number, dot};
 use crate::expr::{Point, Vector};
 use crate::scene::{Ask, EnergyWhen, ImpulseAt, Scene};
@@ -50,50 +47,6 @@ impl<T> Answer<T> {
         }
     }
 }
-
-/// Why a question has no number.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum NoAnswer {
-    /// The equations leave it open.
-    NotDetermined(Vec<Unknown>),
-    /// A point or direction in the question has no value.
-    Undefined(Undefined),
-    /// The question asks for equations rather than numbers.
-    NotANumber,
-    /// These laws contradict each other, so there is no motion at all.
-    Contradiction(Vec<Law>),
-    /// The impact with friction has no end.
-    NoPath(NoPath),
-    /// A parameter has no value, or none in fractions.
-    NoPoint(NoPoint),
-    /// No enclosure tells the equations apart from singular ones; at irrational values that cannot be decided.
-    Undecided,
-}
-
-impl NoAnswer {
-    /// Whether it is wanting in this number type alone.
-    pub fn is_of_number_type(&self) -> bool {
-        matches!(self, NoAnswer::Undefined(undefined) if undefined.reason == Reason::NotANumber)
-    }
-}
-
-impl fmt::Display for NoAnswer {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            NoAnswer::NotDetermined(_) => f.write_str("not determined by the laws"),
-            NoAnswer::Undefined(undefined) => write!(f, "{undefined}"),
-            NoAnswer::NotANumber => f.write_str("asks for an equation, not for a number"),
-            NoAnswer::Contradiction(_) => f.write_str("the laws contradict each other"),
-            NoAnswer::NoPath(why) => write!(f, "{why}"),
-            NoAnswer::NoPoint(why) => write!(f, "{why}"),
-            NoAnswer::Undecided => f.write_str(
-                "the values are irrational and the equations cannot be told from singular ones\nhint: take angles with rational cosine and sine, such as acos(3/5)",
-            ),
-        }
-    }
-}
-
-impl std::error::Error for NoAnswer {}
 
 /// A scene's questions, each with its number or the reason why it has none.
 pub type Answered<T> = Vec<(String, Result<Answer<T>, NoAnswer>)>;

@@ -4,10 +4,11 @@
 //! every unknown the double nearest to the true value, and what told: exact fractions rounded once, or enclosures of more
 //! and more bits where a value is irrational.
 
-use super::answer::{NoAnswer, answer};
+use super::answer::answer;
 use super::exact::solve_exact;
 use super::field::eliminate;
 use super::given::{Given, Reason, given};
+use super::no_answer::NoAnswer;
 use super::points::needed;
 use super::redundant::{Part, regular_part, solve_part};
 use super::solution::{Contradiction, Solution, motion};

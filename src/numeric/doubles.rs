@@ -5,10 +5,11 @@
 //! Plain elimination alone would not do: a mass of 1e−15 beside one of 1 looks like a missing equation to it, and m l²
 //! may underflow before there is any equation.
 
-use super::answer::{Answer, Answered, NoAnswer, answers};
+use super::answer::{Answer, Answered, answers};
 use super::correct::{Correct, correct};
 use super::exact::solve_exact;
 use super::float::solve_f64;
+use super::no_answer::NoAnswer;
 use super::values::{exact_values, values};
 use crate::expr::Rational;
 use crate::expr::number::to_f64;

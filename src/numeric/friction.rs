@@ -3,9 +3,9 @@
 //!
 //! In: the numbers of a scene and a solver. Out: the same numbers with the impulse known, and the path.
 
-use super::answer::NoAnswer;
 use super::energy::relative_velocities;
 use super::given::{Given, GivenLaw, Joint};
+use super::no_answer::NoAnswer;
 use super::path::{Corner, Event, NoPath, Path, follow};
 use super::solution::{Contradiction, Solution, motion};
 use super::system::{System, Unknown, assemble};

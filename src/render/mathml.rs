@@ -6,7 +6,7 @@ use num_traits::Signed;
 use super::math::{Style, is_plain, needs_brackets, vector_of};
 use crate::expr::{Expr, Function, Node, ratio};
 use crate::figure::Level;
-use crate::figure::latex::{Glyph, glyphs};
+use crate::figure::label::latex::{Glyph, glyphs};
 use crate::formula::Quotient;
 use crate::solution::{Math, Name, Solution};
 

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::mathml::{self, escape};
-use super::report_pareto::{At, ink, plot};
+use super::report_pareto::{At, ink, level, plot};
 use super::{fonts, naming, symbols_of};
 use crate::figure::{Ink, Label, color};
 use crate::formula;
@@ -259,11 +259,6 @@ fn routes_table(out: &mut String, report: &Report) {
         let _ = write!(out, "<dt>{}<dd>{}", r.words, r.route.how());
     }
     out.push_str("</dl></details>");
-}
-
-/// Where an error stands on a logarithmic axis that ends at 10¹⁷ for ∞.
-pub(super) fn level(ulps: f64) -> f64 {
-    ulps.clamp(0.1, 1e17).log10()
 }
 
 /// Curves of routes that lie on each other are drawn once.

@@ -1,6 +1,5 @@
 //! Error against run time of every route, at usual values or at the extremes: the best joined by a line, no label on another.
 
-use super::report::level;
 use crate::figure::{Ink, Label};
 use crate::plot::{Axis, Curve, Mark, Plot, draw};
 use crate::report::verdict::{nanoseconds, short};
@@ -105,4 +104,9 @@ fn decade(log: i32) -> String {
         v if v < 1.0 => format!("{v:.1} {unit}"),
         v => format!("{v:.0} {unit}"),
     }
+}
+
+/// Where an error stands on a logarithmic axis that ends at 10¹⁷ for ∞.
+pub(super) fn level(ulps: f64) -> f64 {
+    ulps.clamp(0.1, 1e17).log10()
 }

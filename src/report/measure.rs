@@ -11,7 +11,6 @@ use serde::Serialize;
 use super::errors::{Errors, digits_lost, ulps};
 use super::routes::{Place, Prepared, Quantity, Route};
 use super::sample::{Family, RANGES, Sampler, flags};
-use super::verdict;
 use crate::answer::Form;
 use crate::derive::Derivation;
 use crate::emit::{self, Heading, Language, Style};
@@ -200,7 +199,7 @@ impl std::fmt::Display for NoReport {
 impl std::error::Error for NoReport {}
 
 /// Measures a scene. `row` is told of every row as it finishes and says whether to go on.
-pub fn measure(
+pub(super) fn measured(
     scene: &Scene,
     derivation: Option<&Derivation>,
     effort: Effort,
@@ -276,7 +275,7 @@ pub fn measure(
             d.assumptions.iter().map(ToString::to_string).collect()
         }),
     };
-    let mut report = Report {
+    Ok(Report {
         title: scene.title.clone(),
         source: scene.source.clone(),
         machine: Machine::here(),
@@ -294,9 +293,7 @@ pub fn measure(
         },
         left_out: bench.left_out,
         interrupted,
-    };
-    verdict::judge(&mut report);
-    Ok(report)
+    })
 }
 
 /// Names of the quantities that the laws leave open.

@@ -6,7 +6,8 @@ use num_traits::{One, Zero};
 use proptest::prelude::*;
 
 use crate::algebra::factor::factor;
-use crate::algebra::gcd::{Fuel, gcd};
+use crate::algebra::fuel::Fuel;
+use crate::algebra::gcd::gcd;
 use crate::algebra::mono::{exponent, mono_variables};
 use crate::algebra::poly::Poly;
 use crate::algebra::{Element, Field, Row, Stop, determinant, solve};

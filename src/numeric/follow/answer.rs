@@ -3,12 +3,16 @@
 //! In: a scene, what was followed, a question. Out: a number or a vector, or why there is none. Questions about formulas
 //! (limits, thresholds, …) are not answered here.
 
+mod turns;
+
+pub use turns::OfTurn;
+
 use std::fmt;
 
 use super::impact::velocity_at;
 use super::{
-    BodyState, Component, Course, Driven, Followed, Impact, Impulse, Lost, Moved, OfTurn, Open,
-    Passed, Solid, State, What, kinetic, turns,
+    BodyState, Component, Course, Driven, Followed, Impact, Impulse, Lost, Moved, Open, Passed,
+    Solid, State, What, kinetic,
 };
 use crate::expr::arithmetic::{cross, dot};
 use crate::expr::{Point, Symbol, Vector};

@@ -39,7 +39,6 @@ mod outline;
 mod passage;
 mod state;
 mod tips;
-mod turns;
 mod wind;
 
 #[cfg(test)]
@@ -53,6 +52,7 @@ use super::points::{self, Needed, needed, with_angles};
 use crate::expr::{Expr, Point, Symbol, Vector};
 use crate::scene::{Scene, Stage, StageKind};
 
+pub use answer::OfTurn;
 pub use answer::{Unanswered, answer, named, of_a_turn};
 pub use impact::{Breach, Impact, Impulse, Opening};
 pub use lost::{Loss, Lost};
@@ -61,7 +61,6 @@ pub use motion::{Driven, Moved, Sample};
 pub use outline::Solid;
 pub use state::{BodyState, Component, Open, State, Why, kinetic};
 pub use tips::tips;
-pub use turns::OfTurn;
 
 /// A stage that was followed to its end.
 #[derive(Clone, Debug)]

@@ -4,7 +4,7 @@
 //! there. Friction of that size times its coefficient acts on either body against its motion over the other, and on the lower
 //! one against its motion over the floor, for as long as these last. A belt is a lower body whose velocity is held.
 
-use super::slide::rub;
+use super::rub;
 use super::strings::{across, fixed};
 use super::{Driven, Moved, Movers, REST, ROUNDING, Units, stopped, unsolved};
 use crate::expr::arithmetic::{cross, dot};

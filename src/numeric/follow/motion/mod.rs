@@ -19,7 +19,7 @@ pub(super) use turn::turn;
 use super::super::given::Freedom;
 use super::mechanism::{Asked, Constraint, Mechanism, Run, Stop};
 use super::{Component, Course, Lost, Open, Passed, State, Why};
-use crate::expr::arithmetic::difference;
+use crate::expr::arithmetic::{cross, difference};
 
 /// Differences below this share of what is at hand are rounding.
 const ROUNDING: f64 = 1e-9;
@@ -391,5 +391,21 @@ fn drifted(
         (Err(_), Ok(0.0)) => Ok(start),
         (Err(_), _) => Err(course.open(Why::Needed)),
         (Ok(_), Err(_)) => Err(course.open(Why::Time)),
+    }
+}
+
+/// Adds a force of this size along a line, in units of force, at an arm from the center of a body.
+pub(super) fn rub(
+    mechanism: &mut Mechanism,
+    body: usize,
+    along: [f64; 2],
+    arm: [f64; 2],
+    size: f64,
+) {
+    let force = along.map(|u| size * u);
+    let moment = cross(&arm, &force);
+    let all = &mut mechanism.forces[body];
+    for (total, part) in all.iter_mut().zip([force[0], force[1], moment]) {
+        *total += part;
     }
 }

@@ -5,7 +5,7 @@
 
 use super::carried::carried;
 use super::strings::{Ropes, across, fixed};
-use super::{Driven, Moved, Movers, REST, ROUNDING, Units, all_open, stopped, unsolved};
+use super::{Driven, Moved, Movers, REST, ROUNDING, Units, all_open, rub, stopped, unsolved};
 use crate::expr::arithmetic::{cross, dot};
 use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism, Mobile, Run, Sprung};
 use crate::numeric::follow::{Course, Lost, Passed, State, Why};
@@ -514,22 +514,6 @@ fn on_line(
         acting.force / units.force(),
     );
     out
-}
-
-/// Adds a force of this size along a line, in units of force, at an arm from the center of a body.
-pub(super) fn rub(
-    mechanism: &mut Mechanism,
-    body: usize,
-    along: [f64; 2],
-    arm: [f64; 2],
-    size: f64,
-) {
-    let force = along.map(|u| size * u);
-    let moment = cross(&arm, &force);
-    let all = &mut mechanism.forces[body];
-    for (total, part) in all.iter_mut().zip([force[0], force[1], moment]) {
-        *total += part;
-    }
 }
 
 /// The slip of a state in the units \[m/s\].

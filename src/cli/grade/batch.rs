@@ -12,9 +12,9 @@ use std::time::Duration;
 
 use rayon::prelude::*;
 
-use super::Failure;
-use super::files::Held;
-use super::grade::{GradeArgs, open};
+use super::{GradeArgs, open};
+use crate::cli::Failure;
+use crate::cli::files::Held;
 use carom::command::{Lines, refuse};
 use carom::grade::Options;
 use carom::grade::entry::{self, Keys};

@@ -5,7 +5,7 @@
 use std::iter::Peekable;
 use std::str::Chars;
 
-use super::label::{Label, Level, Run, visible};
+use super::{Label, Level, Run, visible};
 use crate::formula::{letter, letters};
 
 /// Deepest nesting that is followed.

@@ -2,7 +2,7 @@
 //!
 //! In: a scene and what its joints leave free, in numbers. Out: laws, the simpler first.
 
-use super::plan::{Reduction, ZERO};
+use super::{Reduction, ZERO};
 use crate::laws::{Direction, Geometry, Law, Place};
 use crate::scene::{ContactLaw, Scene};
 

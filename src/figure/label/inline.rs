@@ -4,7 +4,7 @@
 
 use num_traits::Signed;
 
-use super::label::{LONGEST, Label, Level};
+use super::{LONGEST, Label, Level};
 use crate::expr::{Expr, Node, ratio};
 use crate::formula::Quotient;
 use crate::scene::Scene;

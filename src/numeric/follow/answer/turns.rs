@@ -1,8 +1,8 @@
 //! The turn of any number of a repeated group: one turn followed after the other, however many the file writes out.
 
-use super::answer::named;
-use super::{Followed, Unanswered, through, with_angles};
+use super::named;
 use crate::expr::{Expr, Point, Symbol};
+use crate::numeric::follow::{Followed, Unanswered, through, with_angles};
 use crate::scene::{Ask, Scene, Turns};
 
 /// Most turns that are followed.
@@ -33,7 +33,7 @@ pub(super) fn answer(
     let last = number.filter(whole).ok_or(Unanswered::NotANumber)? as usize;
     let values = with_angles(values);
     let one = scene.turn(turns);
-    let lost = |lost: &super::Lost| Unanswered::Lost(lost.clone());
+    let lost = |lost: &crate::numeric::follow::Lost| Unanswered::Lost(lost.clone());
     let first = followed.stages[turns.first].as_ref().map_err(lost)?;
     let mut state = first.before.clone();
     let [mut sum, mut now] = [OfTurn::default(); 2];
