@@ -36,6 +36,9 @@ impl Field {
                 {
                     self.take(p, relation.closed);
                 }
+                if !relation.closed {
+                    self.part_from_zero(excess);
+                }
             }
         }
     }
@@ -78,6 +81,19 @@ impl Field {
         }
     }
 
+    /// Supposes of what is above or below zero as a whole that no factor is zero: those that are known not to be negative are
+    /// positive.
+    fn part_from_zero(&mut self, e: &Expr) {
+        let Ok(x) = self.element(e) else { return };
+        for (f, _) in self.powers_of_parts(&x).1 {
+            match self.sign_poly(&f) {
+                Some(Sign::NotNegative) => self.take(f, false),
+                Some(Sign::NotPositive) => self.take(f.neg(), false),
+                _ => {}
+            }
+        }
+    }
+
     /// The one factor of odd power whose sign is not known, turned so that it has the sign of the whole; and whether any of
     /// the others may vanish.
     pub(super) fn undecided_part(&mut self, e: &Expr) -> Option<(Poly, bool)> {
@@ -114,16 +130,26 @@ impl Field {
         })
     }
 
+    /// The sign of a polynomial of which just this, or its opposite, is supposed.
+    fn stated(&self, p: &Poly) -> Option<Sign> {
+        let stated = |p: &Poly| {
+            let found = self.supposed.iter().find(|(q, _)| q == p);
+            found.map(|(_, closed)| Sign::made(true, !closed))
+        };
+        stated(p).or_else(|| stated(&p.neg()).map(Sign::flip))
+    }
+
+    /// The same where it is supposed not to vanish.
+    pub(super) fn strictly_stated(&self, p: &Poly) -> Option<Sign> {
+        self.stated(p).filter(|sign| sign.is_strict())
+    }
+
     /// The sign of a polynomial by what is supposed.
     pub(crate) fn by_relations(&self, p: &Poly) -> Option<Sign> {
         if self.supposed.is_empty() || p.len() > MOST_TERMS {
             return None;
         }
-        let stated = |p: &Poly| {
-            let found = self.supposed.iter().find(|(q, _)| q == p);
-            found.map(|(_, closed)| Sign::made(true, !closed))
-        };
-        let known = stated(p).or_else(|| stated(&p.neg()).map(Sign::flip));
+        let known = self.stated(p);
         if known.is_some() {
             return known;
         }
@@ -350,8 +376,10 @@ mod tests {
             words: String::new(),
             origin: crate::domain::Origin::Stated,
         });
+        let restitution = Domain::between(ratio(0, 1), ratio(1, 1));
         Domains {
             relations: relations.collect(),
+            symbols: [("e".into(), restitution)].into_iter().collect(),
             ..Domains::default()
         }
     }
@@ -374,7 +402,18 @@ mod tests {
         let half = [(s("c"), s("L") / two(), false)];
         let steep = [(s("b"), s("a") * s("theta").cos(), false)];
         let closed = [(s("m"), s("M"), true)];
-        let table: [(&[Granted], Expr, Option<Sign>); 14] = [
+        let rebounds = [(s("e"), Expr::one(), false)];
+        let may_rebound = [(s("e"), Expr::one(), true)];
+        let table: [(&[Granted], Expr, Option<Sign>); 18] = [
+            // Within a closed interval, what parts it from its end.
+            (&rebounds, Expr::one() - s("e"), Some(Sign::Positive)),
+            (
+                &rebounds,
+                s("e").powi(2) - Expr::one(),
+                Some(Sign::Negative),
+            ),
+            (&rebounds, s("e"), Some(Sign::NotNegative)),
+            (&may_rebound, Expr::one() - s("e"), Some(Sign::NotNegative)),
             (&heavier, s("M") - s("m"), Some(Sign::Positive)),
             (&heavier, s("m") - s("M"), Some(Sign::Negative)),
             (&heavier, two() * s("M") - s("m"), Some(Sign::Positive)),

@@ -54,13 +54,27 @@ impl Field {
         if p.is_zero() {
             return Some(Sign::Zero);
         }
-        if let Some(sign) = self.by_coefficients(p, &[]) {
-            return Some(sign);
+        let told = self.by_coefficients(p, &[]);
+        let is_final = |sign: Sign| sign.is_strict() || !self.is_parted_from_zero(p);
+        if told.is_some_and(is_final) {
+            return told;
         }
         if p.len() > super::substitution::MOST_TERMS || effort::spent() {
-            return None;
+            return told;
         }
-        self.sign_of_factors(p, 3)
+        let by_factors = self.sign_of_factors(p, 3);
+        by_factors
+            .filter(|sign| sign.is_strict())
+            .or(told)
+            .or(by_factors)
+    }
+
+    /// Whether a strict relation speaks of what a polynomial is made of: with e < 1 granted 1 − e² is positive, which on the
+    /// closed interval of e is not negative.
+    fn is_parted_from_zero(&self, p: &Poly) -> bool {
+        let mut strict = self.supposed.iter().filter(|(_, closed)| !closed);
+        let own = p.variables();
+        strict.any(|(q, _)| q.variables().iter().all(|v| own.contains(v)))
     }
 
     /// The sign of a logarithm: on which side of 1 its argument lies.
@@ -90,7 +104,8 @@ impl Field {
     fn sign_irreducible(&self, p: &Poly, depth: u32) -> Option<Sign> {
         let told = self.by_coefficients(p, &[]);
         if told.is_some() || effort::spent() {
-            return told;
+            let stated = self.strictly_stated(p);
+            return stated.filter(|_| told.is_some()).or(told);
         }
         let told = self
             .by_logarithm(p)
