@@ -138,10 +138,8 @@ fn unfit(scene: &Scene, slide: &Slide) -> Option<(String, &'static str)> {
             ),
             "leave out `level` where the scene is seen from the side",
         ),
-        () if slide.bend && (slide.on.is_some() || !slide.strings.is_empty()) => (
-            String::from(
-                "what hangs on strings or slides on a body that moves comes round no bend",
-            ),
+        () if slide.bend && !slide.strings.is_empty() => (
+            String::from("what hangs on strings comes round no bend"),
             "leave out `bend`",
         ),
         () if slide.on.is_none() && matches!(slide.until, SlideEnd::Together) => (

@@ -45,13 +45,13 @@ struct Turning<'a> {
     rate: Expr,
 }
 
-pub(super) fn carried(
-    stage: &Stage,
+pub(super) fn carried<'a>(
+    stage: &'a Stage,
     before: State,
-    slide: &Slide,
-    below: &Carrier,
+    (slide, below): (&'a Slide, &'a Carrier),
+    supposed: Supposed<'a>,
 ) -> Result<StageTold, Refused> {
-    let mut pair = Pair::of(stage, &before, slide, below)?;
+    let mut pair = Pair::of(stage, &before, (slide, below), supposed)?;
     let [slip, rate] = pair.slip()?;
     let mut steps = pair.steps();
     let (time, way) = match pair.is_together(&slip) {
@@ -136,8 +136,8 @@ impl<'a> Pair<'a> {
     fn of(
         stage: &'a Stage,
         before: &State,
-        slide: &'a Slide,
-        below: &'a Carrier,
+        (slide, below): (&'a Slide, &'a Carrier),
+        supposed: Supposed<'a>,
     ) -> Result<Pair<'a>, Refused> {
         let scene = &stage.scene;
         let sum = |e: Expr| tidied(stage, &e);
@@ -183,7 +183,7 @@ impl<'a> Pair<'a> {
             floor: Expr::zero(),
             accelerations: [Expr::zero(), Expr::zero()],
             round: None,
-            supposed: Supposed::of(stage),
+            supposed,
         };
         let body = &scene.bodies[slide.body];
         if let Some(radius) = body.shape.radius().filter(|_| slide.with.is_empty()) {

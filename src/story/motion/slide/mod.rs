@@ -29,12 +29,12 @@ pub(in crate::story) fn slide(
     slide: &Slide,
     is_driven: bool,
 ) -> Result<StageTold, Refused> {
-    if let Some(below) = &slide.on {
-        return carried::carried(stage, before, slide, below);
-    }
     let mut supposed = Supposed::of(stage);
-    let mut limits = Vec::new();
     let before = begins::bent(stage, before, slide, &mut supposed)?;
+    if let Some(below) = &slide.on {
+        return carried::carried(stage, before, (slide, below), supposed);
+    }
+    let mut limits = Vec::new();
     begins::fits(stage, &before, slide)?;
     begins::springy(stage, slide)?;
     let line = Line::of(stage, &before, slide, &mut limits)?;
