@@ -4,19 +4,19 @@
 use super::given::given_that;
 use super::heading::{because, further, goes_on, heading};
 use super::isolate::on_the_way;
-use super::known::{known, number, worth_telling};
-use super::near::near;
+use super::known::{defined, is_fresh, known, number, worth_telling};
+use super::near::{near, stands_for};
 use super::neat::{alike, tidied};
 use super::opening::NUMBERS;
 use super::sentence::{called, full_sentence, sentence};
 use super::words::{self, fill, say};
-use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Solution};
+use super::{Claim, Detail, Inline, Line, Math, Part, Solution};
 use crate::algebra::{Sign, sign};
 use crate::answer::{Answer, Form};
 use crate::expr::{Expr, Point, Symbol};
 use crate::formula::Relation;
 use crate::formula::{Piece, Sentence};
-use crate::scene::{Ask, Extremum, Scene, without_case};
+use crate::scene::{Ask, Extremum, Scene};
 
 /// Largest formula, in nodes, that is worth a line on the way to an identity.
 const READABLE: usize = 120;
@@ -283,42 +283,6 @@ fn moment_of_momentum(scene: &Scene, b: usize, about: Option<&str>) -> Option<Li
     Some(Line::plain(math))
 }
 
-/// Whether the name of an answer is new; its symbol is noted then.
-pub(super) fn is_fresh(solution: &mut Solution, answer: &Answer) -> bool {
-    let name = Symbol::from(answer.name.as_str());
-    let fresh = !solution.meanings.contains_key(&name);
-    if fresh && words::is_safe_latex(&answer.latex) {
-        solution.names.insert(name, answer.latex.clone());
-    }
-    fresh
-}
-
-/// Records the step that names an answer, and gives its id.
-pub(super) fn defined(
-    solution: &mut Solution,
-    answer: &Answer,
-    formula: &Expr,
-    fresh: bool,
-) -> String {
-    let name = Symbol::from(answer.name.as_str());
-    let claim = Claim::new(Expr::symbol(&answer.name), formula.clone());
-    let id = solution.step(Vec::new(), vec![claim], &answer.words);
-    if fresh {
-        solution.meanings.insert(name.clone(), Meaning::Defined);
-    }
-    if let Some(step) = solution.steps.last_mut() {
-        step.defines = fresh.then_some(name);
-        step.near = answer.near.clone();
-        let is_of_a_case = without_case(&answer.name) != answer.name;
-        let given = answer.assumptions.iter();
-        let given =
-            given.filter(|a| is_of_a_case || !solution.assumptions.contains(&a.to_string()));
-        let given = given.flat_map(Sentence::conditions);
-        step.needs = given.map(|(e, _)| e).collect();
-    }
-    id
-}
-
 /// The lines on the way to an identity that was to be shown; where it holds, also the claim that it does.
 fn identity(
     solution: &mut Solution,
@@ -558,18 +522,4 @@ fn claims(scene: &Scene, ask: &Ask, answer: &Answer, named: Option<(&Expr, &Expr
             .map(|(left, right, _)| claim(left, if right == formula { symbol } else { right }))
             .collect(),
     }
-}
-
-/// What an answer stands for near a value of a parameter, and how: the formula asked about, or its component.
-pub(super) fn stands_for(ask: &Ask, answer: &Answer) -> Option<(Expr, &'static str)> {
-    let (of, op) = match ask {
-        Ask::Approximate { of, .. } => (of, "≈"),
-        Ask::Limit { of, .. } => (of, "→"),
-        _ => return None,
-    };
-    let axis = answer.name.strip_prefix(answer.question.as_str())?;
-    Some(match of.as_symbol() {
-        Some(vector) if !axis.is_empty() => (Expr::symbol(&format!("{vector}{axis}")), op),
-        _ => (of.clone(), op),
-    })
 }

@@ -1,9 +1,11 @@
 //! What a solution says of an answer beside its formula: its number, and how it is known.
 
-use super::Detail;
 use super::words;
+use super::{Claim, Detail, Meaning, Solution};
 use crate::answer::{Answer, Check, NOT_FOUND};
-use crate::scene::Scene;
+use crate::expr::{Expr, Symbol};
+use crate::formula::Sentence;
+use crate::scene::{Scene, without_case};
 
 /// ` = 1.2 m/s`, where the scene gives every value.
 pub(super) fn number(scene: &Scene, answer: &Answer) -> Option<String> {
@@ -61,4 +63,40 @@ pub fn known(checks: &[Check]) -> Option<String> {
         }
     }
     (!out.is_empty()).then(|| out.join(" "))
+}
+
+/// Whether the name of an answer is new; its symbol is noted then.
+pub(super) fn is_fresh(solution: &mut Solution, answer: &Answer) -> bool {
+    let name = Symbol::from(answer.name.as_str());
+    let fresh = !solution.meanings.contains_key(&name);
+    if fresh && words::is_safe_latex(&answer.latex) {
+        solution.names.insert(name, answer.latex.clone());
+    }
+    fresh
+}
+
+/// Records the step that names an answer, and gives its id.
+pub(super) fn defined(
+    solution: &mut Solution,
+    answer: &Answer,
+    formula: &Expr,
+    fresh: bool,
+) -> String {
+    let name = Symbol::from(answer.name.as_str());
+    let claim = Claim::new(Expr::symbol(&answer.name), formula.clone());
+    let id = solution.step(Vec::new(), vec![claim], &answer.words);
+    if fresh {
+        solution.meanings.insert(name.clone(), Meaning::Defined);
+    }
+    if let Some(step) = solution.steps.last_mut() {
+        step.defines = fresh.then_some(name);
+        step.near = answer.near.clone();
+        let is_of_a_case = without_case(&answer.name) != answer.name;
+        let given = answer.assumptions.iter();
+        let given =
+            given.filter(|a| is_of_a_case || !solution.assumptions.contains(&a.to_string()));
+        let given = given.flat_map(Sentence::conditions);
+        step.needs = given.map(|(e, _)| e).collect();
+    }
+    id
 }

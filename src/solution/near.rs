@@ -1,10 +1,9 @@
 //! What a formula comes to near a value of a parameter: its highest order in one box, what is left out in one sentence, lower
 //! orders in a line.
 
-use super::asked::{defined, is_fresh, stands_for};
 use super::given::given_that;
 use super::heading::{goes_on, heading};
-use super::known::worth_telling;
+use super::known::{defined, is_fresh, worth_telling};
 use super::sentence::{called, sentence};
 use super::words::{self, say};
 use super::{Inline, Line, Math, Part, Solution};
@@ -119,4 +118,18 @@ fn left_out(solution: &mut Solution, scene: &Scene, told: &[Vec<Math>], answers:
     }
     text.push(say("."));
     solution.text(text);
+}
+
+/// What an answer stands for near a value of a parameter, and how: the formula asked about, or its component.
+pub(super) fn stands_for(ask: &Ask, answer: &Answer) -> Option<(Expr, &'static str)> {
+    let (of, op) = match ask {
+        Ask::Approximate { of, .. } => (of, "≈"),
+        Ask::Limit { of, .. } => (of, "→"),
+        _ => return None,
+    };
+    let axis = answer.name.strip_prefix(answer.question.as_str())?;
+    Some(match of.as_symbol() {
+        Some(vector) if !axis.is_empty() => (Expr::symbol(&format!("{vector}{axis}")), op),
+        _ => (of.clone(), op),
+    })
 }

@@ -499,7 +499,7 @@ pub(super) fn answers(
     (worlds, stages): (&[World], &[StageTold]),
     answers: &[Answer],
 ) -> BTreeMap<usize, Check> {
-    let asked = asked::Asked {
+    let asked = values::Asked {
         scene: second.scene,
         second,
         worlds,

@@ -1,6 +1,6 @@
 //! Sentences about stages, made from what was found of them: what happens, which forces have impulses, what is open.
 
-use super::answer::angular;
+use super::motion::angular;
 use super::{Case, StageTold, change, line};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, is_zero, sign, tidy};

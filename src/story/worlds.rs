@@ -6,7 +6,6 @@
 use std::collections::BTreeMap;
 
 use super::StageTold;
-use super::answer::number_case;
 use crate::answer::calc::{Seen, sign};
 use crate::answer::{Answer, Known, Refused};
 use crate::domain::{Origin, Relation};
@@ -234,5 +233,20 @@ pub(super) fn everywhere(worlds: &mut [World], answer: &Answer) {
     for world in worlds {
         let name = Symbol::from(answer.name.as_str());
         world.known.insert(name, formula.clone());
+    }
+}
+
+/// Names an answer after its case.
+pub(in crate::story) fn number_case(answer: &mut Answer, number: usize) {
+    answer.name = format!("{}_case{number}", answer.name);
+    answer.latex = numbered(&answer.latex, number);
+}
+
+/// The LaTeX of a symbol with a number at the end of its index.
+fn numbered(latex: &str, number: usize) -> String {
+    match latex.strip_suffix('}').filter(|l| l.contains("_{")) {
+        Some(open) => format!("{open},{number}}}"),
+        None if latex.contains('_') => format!("{{{latex}}}_{number}"),
+        None => format!("{latex}_{number}"),
     }
 }

@@ -2,32 +2,24 @@
 //!
 //! In: the record of a stage and the scene it begins with. Out: a [`StageKind`].
 
+use super::fields::{TIME, company, is_one, one_end, optional, weight};
 use super::slide::slide;
 use crate::expr::Expr;
 use crate::scene::Scene;
-use crate::scene::check::Claim;
 use crate::scene::fault::{Fault, Span};
 use crate::scene::formulas::Quantity;
 use crate::scene::motion::{Fall, FallEnd, Linkage, Turn, Until, Wind};
 use crate::scene::place_file::PositionFile;
-use crate::scene::record::{Formula, Text};
 use crate::scene::resolve::Resolver;
 use crate::scene::stage::{OneSided, StageKind};
 use crate::scene::stage_file::{FallFile, ImpactFile, LinkageFile, StageFile, TurnFile, UntilName};
 
-pub(in crate::scene) const TIME: Quantity =
-    Quantity::other([0, 0, 1], "a time, such as t, or a number of seconds");
 const TURNED: Quantity = Quantity::other(
     [0, 0, 0],
     "`by` is the angle through which it turns, in radians; a way down is its `height`, a way across its `range`",
 );
-const ACCELERATION: Quantity = Quantity::other(
-    [0, 1, -2],
-    "gravity is a length per time squared, such as g",
-);
+
 const MOMENT: Quantity = Quantity::other([1, 2, -2], "a moment is a force times a length");
-pub(super) const FORCE: Quantity =
-    Quantity::other([1, 1, -2], "a force is a mass times an acceleration");
 
 pub(super) fn kind(
     r: &mut Resolver<'_>,
@@ -97,31 +89,6 @@ pub(super) fn kind(
     }))
 }
 
-/// Whether a motion has one end.
-pub(super) fn is_one(given: &[bool]) -> bool {
-    given.iter().filter(|given| **given).count() == 1
-}
-
-/// What to do about a motion without an end, or with several.
-pub(super) fn one_end(lasts: Option<&Expr>) -> &'static str {
-    match lasts {
-        None => "give one of them",
-        Some(_) => "leave it out: the motion ends with the one `during` which it happens",
-    }
-}
-
-/// An optional formula; the outer `None` means that it was given and could not be read.
-pub(super) fn optional(
-    r: &mut Resolver<'_>,
-    formula: Option<&Formula>,
-    quantity: Quantity,
-) -> Option<Option<Expr>> {
-    match formula {
-        None => Some(None),
-        Some(f) => r.read(f, quantity).map(Some),
-    }
-}
-
 fn impact_of(
     r: &mut Resolver<'_>,
     scene: &mut Scene,
@@ -166,51 +133,6 @@ fn impact_of(
         one_sided,
         supposed,
     })
-}
-
-/// A body and those that move along with it, each of them once.
-pub(super) fn company(
-    r: &mut Resolver<'_>,
-    body: &Text,
-    with: Option<&[Text]>,
-) -> Option<(usize, Vec<usize>)> {
-    let names: Vec<&Text> = std::iter::once(body)
-        .chain(with.into_iter().flatten())
-        .collect();
-    let all: Vec<Option<usize>> = names.iter().map(|name| r.moving(name)).collect();
-    let mut all = all.into_iter().collect::<Option<Vec<usize>>>()?;
-    for (i, name) in names.iter().enumerate() {
-        if all[..i].contains(&all[i]) {
-            let message = format!("`{}` moves along with itself", name.text);
-            return r.refuse(name.span, message, "name each body once");
-        }
-    }
-    let with = all.split_off(1);
-    Some((all[0], with))
-}
-
-/// A coefficient of friction, which is not negative.
-pub(super) fn coefficient(r: &mut Resolver<'_>, formula: Option<&Formula>) -> Option<Option<Expr>> {
-    bounded(r, formula, Quantity::NUMBER, Claim::Friction)
-}
-
-/// Gravity, told by its size.
-pub(super) fn weight(r: &mut Resolver<'_>, formula: Option<&Formula>) -> Option<Option<Expr>> {
-    bounded(r, formula, ACCELERATION, Claim::Gravity)
-}
-
-/// A quantity that may be missing, with what is claimed of it.
-fn bounded(
-    r: &mut Resolver<'_>,
-    formula: Option<&Formula>,
-    quantity: Quantity,
-    claim: fn(Expr) -> Claim,
-) -> Option<Option<Expr>> {
-    let read = optional(r, formula, quantity)?;
-    if let (Some(e), Some(f)) = (&read, formula) {
-        r.claim(f.span, claim(e.clone()));
-    }
-    Some(read)
 }
 
 fn fall_of(

@@ -4,6 +4,7 @@
 //! found out by [`crate::story`] and by [`crate::numeric`], each for itself; here symbols stand for it.
 
 mod earlier;
+mod fields;
 mod hinged;
 mod kind;
 mod meanwhile;
@@ -11,8 +12,8 @@ mod seen;
 mod slide;
 
 pub use earlier::without_case;
+pub(super) use fields::TIME;
 pub(super) use hinged::spread;
-pub(super) use kind::TIME;
 pub(super) use meanwhile::home;
 pub(super) use slide::STIFFNESS;
 

@@ -2,7 +2,7 @@
 //!
 //! In: its record. Out: the motion, or what does not go together in it.
 
-use super::kind::{FORCE, TIME, coefficient, company, is_one, one_end, optional, weight};
+use super::fields::{FORCE, TIME, coefficient, company, is_one, one_end, optional, weight};
 use crate::expr::Expr;
 use crate::scene::fault::Span;
 use crate::scene::formulas::Quantity;

@@ -7,13 +7,12 @@ mod reached;
 mod turns;
 mod ways;
 
-pub(super) use motion::{angular, bearing};
+pub(super) use motion::bearing;
 pub(super) use reached::{
     Led, as_decided, is_of_outcomes, leave_to_cases, needs, of_condition, of_impact, part, picked,
     tell,
 };
 
-pub(super) use ways::number_case;
 use ways::{each_outcome, each_way, happens_where, quantity, rests_on, supposed, ways};
 
 use std::collections::BTreeSet;

@@ -104,7 +104,7 @@ pub(super) fn angular_acceleration(
     let value = match (&told.placed.kind, &told.energy) {
         (StageKind::Turn(turn), _) => {
             let (way, _) = stage::sense(&told.placed, &told.before.spin[turn.body], turn)?;
-            angular(told, turn, way, at_end)
+            stage::angular(told, turn, way, at_end)
         }
         (StageKind::Linkage(linkage), Some(energy)) => {
             let end = usize::from(at_end);
@@ -171,7 +171,7 @@ pub(super) fn point_acceleration(
                 false => spin.powi(2),
             };
             let arm = [0, 1].map(|k| &center[k] + &arm[k]);
-            turning(&arm, &square, &angular(told, turn, way, at_end))
+            turning(&arm, &square, &stage::angular(told, turn, way, at_end))
         }
         (StageKind::Linkage(linkage), Some(energy)) => {
             let end = usize::from(at_end);
@@ -561,25 +561,11 @@ pub(in crate::story) fn bearing(
         None => Expr::zero(),
     };
     let weight = &body.mass * &turn.gravity.clone().unwrap_or_else(Expr::zero);
-    let angular = angular(told, turn, way, at_end);
+    let angular = stage::angular(told, turn, way, at_end);
     let a = [
         -(&(&angular * &r[1])) - &square * &r[0],
         &angular * &r[0] - &square * &r[1],
     ];
     let force = [&body.mass * &a[0], &body.mass * &a[1] + &weight];
     dot(&force, along)
-}
-
-/// Angular acceleration of a turning body, counterclockwise: the moments about the fixed point over the moment of inertia.
-pub(in crate::story) fn angular(told: &StageTold, turn: &Turn, way: i64, at_end: bool) -> Expr {
-    let stage = &told.placed;
-    let arms = stage::arms(stage, turn, &told.before.spin[turn.body]);
-    let weight = match &turn.gravity {
-        Some(g) => &turn.lump(&stage.scene).mass * g,
-        None => Expr::zero(),
-    };
-    // The moment counts in the sense of the rotation.
-    let applied = Expr::from(way) * turn.torque.clone().unwrap_or_else(Expr::zero);
-    let moments = &applied - &(&weight * &arms[usize::from(at_end)][0]);
-    &moments / &stage::inertia_about(stage, turn)
 }

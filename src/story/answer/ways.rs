@@ -1,5 +1,6 @@
 //! The answers to one question for each way a stage may come about, and for each outcome of an impact.
 
+use super::super::worlds::number_case;
 use super::super::{Case, StageTold, State, words};
 use super::motion;
 use crate::answer::{self, Answer, Check, Form, Refused};
@@ -290,19 +291,4 @@ fn for_any(case: &Case, check: &Check) -> Check {
         check.words += ", whatever motion is handed on";
     }
     check
-}
-
-/// Names an answer after its case.
-pub(in crate::story) fn number_case(answer: &mut Answer, number: usize) {
-    answer.name = format!("{}_case{number}", answer.name);
-    answer.latex = numbered(&answer.latex, number);
-}
-
-/// The LaTeX of a symbol with a number at the end of its index.
-fn numbered(latex: &str, number: usize) -> String {
-    match latex.strip_suffix('}').filter(|l| l.contains("_{")) {
-        Some(open) => format!("{open},{number}}}"),
-        None if latex.contains('_') => format!("{{{latex}}}_{number}"),
-        None => format!("{latex}_{number}"),
-    }
 }

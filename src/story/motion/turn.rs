@@ -423,3 +423,17 @@ fn arm_at_end(
     };
     rotated(&arm, &[c, s]).map(|e| tidy(&e, &stage.scene.domains).unwrap_or(e))
 }
+
+/// Angular acceleration of a turning body, counterclockwise: the moments about the fixed point over the moment of inertia.
+pub(in crate::story) fn angular(told: &StageTold, turn: &Turn, way: i64, at_end: bool) -> Expr {
+    let stage = &told.placed;
+    let arms = arms(stage, turn, &told.before.spin[turn.body]);
+    let weight = match &turn.gravity {
+        Some(g) => &turn.lump(&stage.scene).mass * g,
+        None => Expr::zero(),
+    };
+    // The moment counts in the sense of the rotation.
+    let applied = Expr::from(way) * turn.torque.clone().unwrap_or_else(Expr::zero);
+    let moments = &applied - &(&weight * &arms[usize::from(at_end)][0]);
+    &moments / &inertia_about(stage, turn)
+}

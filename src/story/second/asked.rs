@@ -8,13 +8,13 @@ use std::f64::consts::TAU;
 use std::iter::successors;
 
 use super::super::StageTold;
-use super::values::moved;
-use super::{CLOSE, Compared, POINTS, Second, Seen, World, points_of, shaken};
+use super::values::{Asked, moved};
+use super::{CLOSE, Compared, POINTS, Seen, points_of, shaken};
 use crate::answer::{Answer, Check};
 use crate::expr::{Expr, Symbol};
 use crate::formula::Relation;
 use crate::numeric::follow::{self, OfTurn};
-use crate::scene::{Ask, Extremum, FrictionEvent, Question, Scene, without_case};
+use crate::scene::{Ask, Extremum, FrictionEvent, Question, without_case};
 
 /// How far from a threshold, a largest or a least value its sides are looked at, in parts of it.
 const ASIDE: f64 = 1e-3;
@@ -38,15 +38,6 @@ enum Held {
     Same([f64; 2], f64),
     /// Whether it is so, and what is otherwise.
     So(bool, String),
-}
-
-/// The answers of a scene, and the scene followed.
-pub(super) struct Asked<'a> {
-    pub scene: &'a Scene,
-    pub second: &'a Second<'a>,
-    pub worlds: &'a [World],
-    pub stages: &'a [StageTold],
-    pub answers: &'a [Answer],
 }
 
 impl Asked<'_> {

@@ -1,12 +1,22 @@
 //! Values of formulas of answers where a scene is followed, and near that point.
 
-use super::Seen;
-use super::asked::Asked;
+use super::{Second, Seen, World};
+use crate::answer::Answer;
 use crate::expr::{Expr, Point, Symbol};
 use crate::numeric::Answer as Found;
 use crate::numeric::follow::{self, Breach, Followed, What};
 use crate::numeric::points::keeps;
-use crate::scene::{Ask, Question};
+use crate::scene::{Ask, Question, Scene};
+use crate::story::StageTold;
+
+/// The answers of a scene, and the scene followed.
+pub(super) struct Asked<'a> {
+    pub scene: &'a Scene,
+    pub second: &'a Second<'a>,
+    pub worlds: &'a [World],
+    pub stages: &'a [StageTold],
+    pub answers: &'a [Answer],
+}
 
 /// What rounding may make of a value that is put in, as a part of it.
 const ROUNDED: f64 = 1e-12;

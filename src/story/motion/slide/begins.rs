@@ -2,7 +2,7 @@
 
 use super::super::supposed::Supposed;
 use super::super::tidied;
-use super::line::{Line, proved};
+use super::line::Line;
 use super::lumps;
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, is_zero, sign, tidy};
@@ -118,21 +118,6 @@ pub(super) fn fits_line(
         }
     }
     Ok(())
-}
-
-/// Whether the line leads to the right, 1, or to the left, −1: the surface is below it. Refused where that is not decided.
-pub(super) fn directed(stage: &Stage, slide: &Slide) -> Result<i64, Refused> {
-    match proved(&slide.along[0], &stage.scene.domains) {
-        Some(way @ (1 | -1)) => Ok(way),
-        _ => Err(Refused::new(
-            &stage.name,
-            format!(
-                "`{}`: whether its line leads to the right or to the left is not decided, and so is which side the surface is on",
-                stage.scene.bodies[slide.body].name
-            ),
-            "say it by the domain of an angle, or by `relations`",
-        )),
-    }
 }
 
 /// Refuses a spring whose stiffness is not positive.

@@ -6,8 +6,8 @@
 
 use super::super::supposed::Supposed;
 use super::super::{half, kept, meanwhile, tidied};
-use super::begins::{directed, fits_line};
-use super::line::proved;
+use super::begins::fits_line;
+use super::line::{directed, proved};
 use crate::answer::calc::is_zero;
 use crate::expr::{Expr, dot};
 use crate::formula::write_plain;

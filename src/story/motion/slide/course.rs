@@ -2,20 +2,12 @@
 
 use super::super::supposed::Supposed;
 use super::super::{arrival, arrives, half, never_arrives};
-use super::line::{Line, proved, spring_work};
+use super::line::{Course, Line, proved, spring_work};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, above_zero, is_zero, sign};
 use crate::expr::{Expr, Function};
 use crate::scene::{SlideEnd, Spring};
 use crate::story::{OnSpring, Refused, Step};
-
-/// The course from the beginning to the end.
-pub(super) struct Course {
-    pub time: Option<Expr>,
-    pub distance: Expr,
-    pub speed: Expr,
-    pub spin: Expr,
-}
 
 impl Line<'_> {
     /// v = v₀ + a t.

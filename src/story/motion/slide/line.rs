@@ -2,13 +2,19 @@
 
 use super::super::strings::{Pulled, pulled};
 use super::super::{half, kept, tidied};
-use super::begins::directed;
-use super::course::Course;
 use crate::answer::calc::{is_zero, sign};
 use crate::domain::Domains;
 use crate::expr::{Expr, dot};
 use crate::scene::{Slide, Spring, Stage};
 use crate::story::{Kept, Refused, State, Step};
+
+/// The course from the beginning to the end.
+pub(super) struct Course {
+    pub time: Option<Expr>,
+    pub distance: Expr,
+    pub speed: Expr,
+    pub spin: Expr,
+}
 
 /// How a body moves along a line.
 pub(super) struct Line<'a> {
@@ -347,5 +353,20 @@ impl<'a> Line<'a> {
 
     pub fn tidied(&self, e: &Expr) -> Result<Expr, Refused> {
         tidied(self.stage, e)
+    }
+}
+
+/// Whether the line leads to the right, 1, or to the left, −1: the surface is below it. Refused where that is not decided.
+pub(super) fn directed(stage: &Stage, slide: &Slide) -> Result<i64, Refused> {
+    match proved(&slide.along[0], &stage.scene.domains) {
+        Some(way @ (1 | -1)) => Ok(way),
+        _ => Err(Refused::new(
+            &stage.name,
+            format!(
+                "`{}`: whether its line leads to the right or to the left is not decided, and so is which side the surface is on",
+                stage.scene.bodies[slide.body].name
+            ),
+            "say it by the domain of an angle, or by `relations`",
+        )),
     }
 }

@@ -19,7 +19,7 @@ use crate::expr::{Expr, Vector};
 use crate::formula::sentence;
 use crate::scene::{Scene, Slide, SlideEnd, Stage};
 use crate::story::{Refused, StageTold, State};
-use course::Course;
+use line::Course;
 use line::Line;
 
 /// Motion along a line; `is_driven` where its acceleration or the pull of a string is asked.
