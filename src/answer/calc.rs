@@ -4,13 +4,14 @@
 //! for a sign. It knows nothing of mechanics.
 
 use num_integer::Integer;
+use num_traits::Signed as _;
 
 use super::Check;
 pub use crate::algebra::tidy;
 use crate::algebra::{self, Field, Sign};
 use crate::domain::{Domains, roles, samples, samples_until};
 use crate::equality;
-use crate::expr::{Expr, Function, Node, Point, Symbol, effort};
+use crate::expr::{Expr, Function, Node, Point, Rational, Symbol, effort};
 use crate::formula::Sentence;
 use crate::interval::{Interval, Outcome, evaluate};
 
@@ -306,6 +307,13 @@ pub fn essential(e: &Expr, domains: &Domains) -> Expr {
     if effort::spent() {
         return e.clone();
     }
+    let core = core(e, domains);
+    let sides = by_sides(e, domains).filter(|sides| sides.size() < core.size());
+    sides.unwrap_or(core)
+}
+
+/// The same in the form that calculation gives it.
+fn core(e: &Expr, domains: &Domains) -> Expr {
     let tidied = tidy(e, domains).unwrap_or_else(|_| e.clone());
     let tidied = without_denominators(tidied, domains);
     let mut minus = false;
@@ -330,6 +338,33 @@ pub fn essential(e: &Expr, domains: &Domains) -> Expr {
     let product = Expr::product(rest);
     let turned = if minus { -&product } else { product };
     tidy(&turned, domains).unwrap_or(turned)
+}
+
+/// What has the sign of a difference of two sides as they stand, each kept in its factors: `2 (M + m)² − m² (1 + e)²` is not
+/// multiplied out.
+fn by_sides(e: &Expr, domains: &Domains) -> Option<Expr> {
+    let Node::Sum(terms) = e.node() else {
+        return None;
+    };
+    let is_taken = |term: &&Expr| term.split_number().0.is_negative();
+    let (taken, kept): (Vec<&Expr>, Vec<&Expr>) = terms.iter().partition(is_taken);
+    let [kept, taken] = [kept, taken].map(|side| Expr::sum(side.into_iter().cloned()));
+    let is_positive = |e: &Expr| matches!(sign(e, domains), Seen::Proved(Sign::Positive));
+    let taken = -taken;
+    is_positive(&taken).then_some(())?;
+    let ratio = tidy(&(&kept / &taken), domains).ok()?;
+    let is_below = |f: &&Expr| match f.node() {
+        Node::Power(_, k) => k.is_negative(),
+        _ => false,
+    };
+    let (number, rest) = ratio.split_number();
+    let (below, above): (Vec<&Expr>, Vec<&Expr>) = rest.factors().iter().partition(is_below);
+    let below = Expr::product(below.into_iter().map(|f| f.powi(-1)));
+    is_positive(&below).then_some(())?;
+    let above = Expr::product(above.into_iter().cloned());
+    let [large, small] =
+        [number.numer(), number.denom()].map(|n| Expr::from(Rational::from(n.clone())));
+    Some(large * above - small * below)
 }
 
 /// `e ≥ 0` by what its sign hangs on, as people state it.
@@ -368,7 +403,34 @@ pub(super) fn decisive(e: &Expr, domains: &Domains, open: bool) -> Expr {
     if let Some(inside) = inside.filter(|_| open) {
         return decisive(&inside, domains, open);
     }
-    squared(&e, domains).unwrap_or(e)
+    squared(&e, domains)
+        .or_else(|| of_squares(&e, domains))
+        .unwrap_or(e)
+}
+
+/// What has the sign of a difference of two squares: 1 − e² is above zero where 1 − e is, and M² − m² where M − m is.
+fn of_squares(e: &Expr, domains: &Domains) -> Option<Expr> {
+    let Node::Sum(terms) = e.node() else {
+        return None;
+    };
+    let [first, second] = terms.as_slice() else {
+        return None;
+    };
+    let root = |square: &Expr| {
+        let is_even = |f: &Expr| match f.node() {
+            Node::Power(_, k) => k
+                .as_number()
+                .is_some_and(|k| k.is_integer() && k.numer().is_even()),
+            _ => f.as_number().is_some(),
+        };
+        square.factors().iter().all(is_even).then_some(())?;
+        let root = tidy(&square.sqrt(), domains).ok()?;
+        let is_plain = root.parts().all(|part| part.under_root().is_none());
+        let is_size = matches!(sign(&root, domains), Seen::Proved(s) if s.is_not_negative());
+        (is_plain && is_size).then_some(root)
+    };
+    let difference = |large: &Expr, small: &Expr| Some(root(large)? - root(&-small)?);
+    difference(first, second).or_else(|| difference(second, first))
 }
 
 /// What has the sign of `a − √(b + c)` without the root, where a is known not to be negative; likewise for `√(b + c) − a`.
@@ -378,7 +440,11 @@ fn squared(e: &Expr, domains: &Domains) -> Option<Expr> {
         return None;
     };
     let is_sum = |e: &Expr| matches!(e.node(), Node::Sum(_));
-    let has_root = |e: &&Expr| e.parts().any(|part| part.under_root().is_some());
+    // That of a number is one itself.
+    let has_root = |e: &&Expr| {
+        let mut inside = e.parts().filter_map(Expr::under_root);
+        inside.any(|inside| !inside.is_constant())
+    };
     let has_sum = |e: &Expr| {
         let mut inside = e.parts().filter_map(Expr::under_root);
         inside.any(|inside| inside.parts().any(is_sum))
@@ -397,8 +463,9 @@ fn squared(e: &Expr, domains: &Domains) -> Option<Expr> {
         (false, true) => -difference,
         _ => return None,
     };
-    let without = essential(&difference, domains);
-    (!has_root(&&without) && (has_sum(root) || without.size() < e.size())).then_some(without)
+    let without = core(&difference, domains);
+    let is_better = !has_root(&&without) && (has_sum(root) || without.size() < e.size());
+    is_better.then(|| essential(&difference, domains))
 }
 
 /// What can make a product vanish: its factors above the line, without their powers.

@@ -15,7 +15,7 @@ use super::{
 };
 use crate::algebra::Sign;
 use crate::dimension::{self, Dimension};
-use crate::domain::{Domain, Domains};
+use crate::domain::{self, Domain, Domains};
 use crate::equality::{self, Equality, How};
 use crate::expr::{Expr, Function, Node, Symbol, effort};
 use crate::formula::{Relation, write_plain};
@@ -141,7 +141,7 @@ fn with_put_in(
             sentence!("{}, so that {} lies within its domain", least, name)
         }));
     }
-    let is_put = |r: &crate::domain::Relation| with.keys().any(|name| r.excess.mentions(name));
+    let is_put = |r: &domain::Relation| with.keys().any(|name| r.excess.mentions(name));
     let (put, kept) = std::mem::take(&mut domains.relations)
         .into_iter()
         .partition(is_put);
@@ -168,13 +168,24 @@ fn with_put_in(
             }
             None => {
                 let least = beyond_zero(&excess, &domains, !relation.closed);
+                let words = least.to_string();
                 let so_that = relation.origin.so_that().map(Sentence::words);
-                given.push(sentence!(
-                    "{}, so that {}",
-                    least,
-                    so_that.unwrap_or(stated)
-                ));
-                domains = domains.given(&excess, relation.closed);
+                // Each value that is sought is held against what it has to keep to.
+                let is_held = match &question.ask {
+                    Ask::Condition {
+                        parameter,
+                        relation: Relation::Equal,
+                        ..
+                    } => so_that.is_some() && excess.mentions(parameter),
+                    _ => false,
+                };
+                if !is_held {
+                    let so_that = so_that.unwrap_or(stated);
+                    given.push(sentence!("{}, so that {}", least, so_that));
+                }
+                let (closed, origin) = (relation.closed, relation.origin);
+                let needed = domain::Relation::needed(&excess, closed, words, origin);
+                domains = domains.with_relation(needed);
             }
         }
     }
@@ -544,9 +555,20 @@ impl Work<'_> {
             return Ok(put);
         }
         let reason = format!("the sides of {} are {l} and {r}", statement(asked));
-        let hint = "compare quantities of the same kind";
+        let named = unit_meant(asked.0, &r).or_else(|| unit_meant(asked.2, &l));
+        let hint = named.unwrap_or_else(|| String::from("compare quantities of the same kind"));
         Err(Refused::question(self.name, reason, hint))
     }
+}
+
+/// What to write for a side such as `1 m` where m is a mass, and the other side a length.
+fn unit_meant(side: &Expr, other: &Dimension) -> Option<String> {
+    let (number, name) = side.split_number();
+    let name = name.as_symbol()?;
+    let unit = dimension::unit(name).ok()?;
+    let alone = write_plain(&(Expr::from(number) * unit.value()));
+    (unit.dimension == *other)
+        .then(|| format!("`{name}` is a parameter here: write {alone} alone, which is in SI units"))
 }
 
 /// The same with equal factors gathered into powers, and nothing else changed.

@@ -456,10 +456,11 @@ pub(super) fn placed(
         // At a bound of what it is made of it may be an end that does not belong to the domain.
         let at_end = seen == Seen::Proved(Sign::NotNegative) && limit.open;
         if seen == Seen::Mixed || at_end {
-            let need = decisive(&gap, &domains, limit.open);
-            let closed = !limit.open && !divides(&need, value, &domains);
-            domains = domains.given(&need, closed);
-            needs.push((need, closed));
+            for need in each_decisive(&gap, &domains, limit.open) {
+                let closed = !limit.open && !divides(&need, value, &domains);
+                domains = domains.given(&need, closed);
+                needs.push((need, closed));
+            }
         }
         let how = if seen == Seen::Proved(Sign::NotPositive) && !limit.open {
             " or just at its end"
@@ -483,6 +484,31 @@ pub(super) fn placed(
         needs.remove(0);
     }
     Ok(needs)
+}
+
+/// What decides whether something is above zero, or not below it: of a product each factor, where none is below zero and the
+/// product is to be above it.
+fn each_decisive(e: &Expr, domains: &Domains, open: bool) -> Vec<Expr> {
+    let core = essential(e, domains);
+    let is_size = |f: &Expr| matches!(sign(f, domains), Seen::Proved(s) if s.is_not_negative());
+    match core.node() {
+        Node::Product(factors) if open && factors.iter().all(is_size) => {
+            // One over something is above zero wherever it has a value.
+            let above = factors
+                .iter()
+                .filter(|f| !matches!(f.node(), Node::Power(_, k) if k.is_negative()));
+            above.map(|f| decisive(f, domains, open)).collect()
+        }
+        _ => {
+            // As it stands it is read against the value: `m/M + 1/tan²α ≤ 1`.
+            let need = decisive(e, domains, open);
+            vec![if e.size() <= need.size() {
+                e.clone()
+            } else {
+                need
+            }]
+        }
+    }
 }
 
 /// Whether a value is divided by this, or its opposite, but for factors that are positive.

@@ -450,27 +450,48 @@ fn without_idle(out: &mut Answer, parameter: &Symbol, gap: &Expr, domains: &Doma
     Expr::product(rest)
 }
 
-/// The domains within which there are such values: a symbol they are divided by is not zero, and all is so that each of them needs.
+/// The domains within which there are such values: a symbol they are divided by is at no end where that vanishes, and all is so
+/// that each of them needs.
 fn exists(out: &mut Answer, roots: &Roots, domains: &Domains) -> Domains {
     let mut domains = domains.clone();
     let values = roots.inside.iter().map(|r| &r.value);
     let symbols: BTreeSet<Symbol> = values.flat_map(Expr::symbols).collect();
-    for symbol in symbols {
-        let Some(low) = domains.symbols.get(&symbol).and_then(|d| d.low.clone()) else {
+    for (symbol, is_low) in symbols.iter().flat_map(|s| [(s, true), (s, false)]) {
+        let Some(end) = end_of_domain(&mut domains, symbol, is_low).cloned() else {
             continue;
         };
-        let at_end = Expr::from(low.value.clone());
-        let lost = |r: &Root| tidy(&r.value.put(&symbol, &at_end), &domains).is_err();
-        if low.open || low.of_pi || !roots.inside.iter().any(lost) {
+        let at_end = Expr::from(end.value.clone());
+        if end.open || end.of_pi {
             continue;
         }
-        let own = domains.symbols.get_mut(&symbol);
-        if let Some(low) = own.and_then(|d| d.low.as_mut()) {
-            low.open = true;
+        let lost = |r: &&Root| tidy(&r.value.put(symbol, &at_end), &domains).is_err();
+        let lost: Vec<&Root> = roots.inside.iter().filter(lost).collect();
+        if lost.is_empty() {
+            continue;
         }
+        if let Some(end) = end_of_domain(&mut domains, symbol, is_low) {
+            end.open = true;
+        }
+        let own = Expr::symbol(symbol);
+        let inside = match is_low {
+            true => &own - &at_end,
+            false => &at_end - &own,
+        };
+        let needs = lost
+            .iter()
+            .map(|r| (r.value.clone(), inside.clone(), false));
+        // That it lies within its domain may say so already.
+        let is_new = |need: &(Expr, Expr, bool)| !out.needs.contains(need);
+        let needs: Vec<_> = needs.filter(is_new).collect();
+        if needs.is_empty() {
+            continue;
+        }
+        out.needs.extend(needs);
+        let beyond = if is_low { " > " } else { " < " };
         let needed = sentence!(
-            "{} > {} (otherwise there is no such value)",
-            &symbol,
+            "{}{}{} (otherwise there is no such value)",
+            symbol,
+            beyond,
             &at_end
         );
         out.assumptions.push(needed);
@@ -481,6 +502,19 @@ fn exists(out: &mut Answer, roots: &Roots, domains: &Domains) -> Domains {
     let needs = first.needs.iter();
     let needs = needs.filter(|need| rest.iter().all(|root| root.needs.contains(need)));
     needs.fold(domains, |all, (e, closed)| all.given(e, *closed))
+}
+
+/// The lower or the upper end of the domain of a symbol.
+fn end_of_domain<'d>(
+    domains: &'d mut Domains,
+    symbol: &Symbol,
+    is_low: bool,
+) -> Option<&'d mut Limit> {
+    let domain = domains.symbols.get_mut(symbol)?;
+    match is_low {
+        true => domain.low.as_mut(),
+        false => domain.high.as_mut(),
+    }
 }
 
 /// Words for a difference that has no value somewhere, and may change its sign there without being zero.

@@ -74,7 +74,10 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
             })?
         } else {
             let mut new = one(scene, &stages, question, &answers)?;
-            new.iter_mut().for_each(|a| reached::led_to(&stages, a));
+            new.iter_mut().for_each(|a| {
+                reached::led_to(&stages, a);
+                say_what_is_missing(a);
+            });
             worlds::remember(&mut worlds, &new);
             if let (Ask::Friction { .. }, [only]) = (&question.ask, new.as_slice()) {
                 worlds::everywhere(&mut worlds, only);
@@ -161,6 +164,17 @@ fn resting(scene: &Scene, stages: &[StageTold], answers: &[Answer], i: usize) ->
         }
     }
     out
+}
+
+/// Lets an answer that the laws of an impact leave open say what would close it.
+fn say_what_is_missing(answer: &mut Answer) {
+    let why = answer.text.first().map(Sentence::to_string);
+    if matches!(answer.form, Form::Open(_))
+        && why.is_some_and(|why| why.ends_with(" do not determine it"))
+    {
+        let hint = "`after` may say what is known just after, along x and along y";
+        answer.text.push(hint.into());
+    }
 }
 
 /// An answer that has no value, and why.

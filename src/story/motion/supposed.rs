@@ -40,7 +40,8 @@ impl<'a> Supposed<'a> {
         // What decides the sign may be longer than what has it.
         let as_it_is = Sentence::not_negative(e);
         let need = at_least_zero(e, &self.stage.scene.domains);
-        let is_longer = need.to_string().len() > as_it_is.to_string().len();
+        let [told, plain] = [&need, &as_it_is].map(|words| words.to_string().chars().count());
+        let is_longer = told >= plain;
         self.needs(e, if is_longer { as_it_is } else { need }, so_that);
         Ok(())
     }

@@ -97,11 +97,11 @@ pub(super) fn stops(
         (Some(g), None) => {
             let lump = turn.lump(&stage.scene);
             let climb = &dot(r, r).sqrt() - &r[1];
-            let left = &(&(&lump.mass * g) * &climb) - start;
-            (left, "it does not go over the top")
+            // Each side is kept as it is: a condition reads by them.
+            let [climb, start] = [&(&(&lump.mass * g) * &climb), start].map(|e| tidied(stage, e));
+            (&climb? - &start?, "it does not go over the top")
         }
     };
-    let left = tidied(stage, &left)?;
     match sign(&left, domains) {
         Seen::Proved(Sign::Positive) => Ok(None),
         Seen::Proved(Sign::Negative | Sign::Zero | Sign::NotPositive) => Err(refused(
