@@ -13,7 +13,7 @@ use super::isolate::isolate;
 use super::solve::{Root, Roots, Unsolved, end_of, placing, solve};
 use super::{Answer, Form, intervals, limit, undo};
 use crate::algebra::Sign;
-use crate::domain::{Domain, Domains, Origin};
+use crate::domain::{Domain, Domains, Limit, Origin};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::Relation;
 use crate::formula::{Sentence, sentence};
