@@ -17,6 +17,16 @@ use num_traits::{Float, Num, One, Signed, ToPrimitive, Zero};
 /// An exact fraction in lowest terms with a positive denominator.
 pub type Rational = num_rational::Ratio<Int>;
 
+/// An integer power of ten.
+pub fn ten_to(power: impl Into<i64>) -> Rational {
+    let power: i64 = power.into();
+    let raised = Int::from(10).pow(power.unsigned_abs() as u32);
+    match power < 0 {
+        true => Rational::new_raw(Int::from(1), raised),
+        false => Rational::from(raised),
+    }
+}
+
 /// a + b, or a − b: as the operator gives it, by machine words where all four numbers are some.
 pub fn sum(a: &Rational, b: &Rational, minus: bool) -> Rational {
     let Some(([na, da], [nb, db])) = words(a).zip(words(b)) else {

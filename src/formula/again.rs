@@ -4,7 +4,8 @@
 
 use super::content::{Content, Relation};
 use super::fault::{Fault, Faulty};
-use super::written::{Literal, Shape};
+use super::token::Literal;
+use super::written::Shape;
 use super::{Reading, Symbols, read};
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Point};

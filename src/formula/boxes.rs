@@ -5,9 +5,10 @@
 //! box are brackets. Words that could change the value are a fault, and so is another value beside the box.
 
 use super::fault::{Fault, Faulty};
+use super::plain_unit;
 use super::prose::{changes, goes_on, is_in, leads};
 use super::several::MOST;
-use super::{name, plain_unit};
+use super::symbols::name;
 use crate::dimension;
 
 const OPEN: [&str; 2] = ["\\boxed", "\\fbox"];

@@ -2,9 +2,9 @@
 
 use super::fault::{Fault, Faulty};
 use super::inverse::inverse;
-use super::lexer::Tok;
 use super::note::Remark;
 use super::parser::Parser;
+use super::token::Tok;
 use super::value::{raised_number, whole_number};
 use super::written::{Link, Shape, Sign, Written};
 use crate::expr::{Function, ratio};

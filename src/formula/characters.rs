@@ -2,8 +2,9 @@
 
 use super::Relation;
 use super::fault::{Fault, Faulty, SETS, is_invisible};
-use super::lexer::{Before, Lexer, Tok};
+use super::lexer::Lexer;
 use super::symbols::{greek_name, pairs};
+use super::token::{Before, Tok};
 use super::units::is_unit_first;
 
 impl Lexer<'_> {
@@ -35,7 +36,7 @@ impl Lexer<'_> {
                     None => Err(strange(c, self.pos)),
                 }
             }
-            _ if greek_name(c).is_some() || super::name::accented(c).is_some() => {
+            _ if greek_name(c).is_some() || super::symbols::name::accented(c).is_some() => {
                 self.name(self.pos, end)
             }
             'ⁿ' => Err(fault("a raised letter is not read here").hint("write ^n")),

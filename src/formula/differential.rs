@@ -4,9 +4,10 @@
 //! is declared as a factor stays one: where d, x and t are all declared, `dx/dt` is a quotient of products.
 
 use super::fault::{Fault, Faulty};
-use super::lexer::{Lexer, Tok};
-use super::name;
+use super::lexer::Lexer;
+use super::symbols::name;
 use super::symbols::{Parts, is_greek};
+use super::token::Tok;
 
 /// Ways to write the sign of a derivative, apart from a plain d.
 const SIGNS: [&str; 10] = [
@@ -309,7 +310,7 @@ impl Lexer<'_> {
             .bytes()
             .take_while(u8::is_ascii_alphabetic)
             .count();
-        if super::words::function(&self.text[from..from + word]).is_some() {
+        if super::token::function(&self.text[from..from + word]).is_some() {
             return None;
         }
         let (mut parts, end) = self.changed(from)?;

@@ -1,9 +1,10 @@
 //! Numbers as tokens: digits, raised digits, percentages.
 
 use super::fault::{Fault, Faulty};
-use super::lexer::{Before, Lexer, Tok};
+use super::lexer::Lexer;
 use super::note::Remark;
 use super::number::{self, Exponent};
+use super::token::{Before, Tok};
 use crate::expr::ratio;
 
 /// Most digits and powers of ten of all numbers together, beyond what fits a machine word: long fractions cost much.

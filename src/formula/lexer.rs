@@ -6,13 +6,12 @@
 use super::Relation;
 use super::fault::{Fault, Faulty};
 use super::frames;
+use super::marks::{decoration, degree_mark, shows_space};
 use super::note::{Note, Remark};
-use super::pair::Pair;
 use super::symbols::{Symbols, is_angle_name};
-use super::tex::{decoration, degree_mark, shows_space};
-use super::written::{Literal, has_arrow, is_axis};
-use crate::dimension::Unit;
-use crate::expr::{Function, Rational, Symbol, ratio};
+use super::token::{Before, Literal, Tok, Token};
+use super::written::{has_arrow, is_axis};
+use crate::expr::{Symbol, ratio};
 
 /// The decision that turns all slashes round; sites below it are turned one by one.
 pub(super) const SLASHES: u32 = 63;
@@ -22,82 +21,6 @@ pub(super) const BARS: u32 = 62;
 pub(super) const HALVES: u32 = 61;
 /// Most tokens of one formula.
 const MAX_TOKENS: u32 = 20_000;
-
-/// A token.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) enum Tok {
-    End,
-    Number(Literal),
-    Name(Symbol),
-    Call(Function),
-    Reciprocal(Function),
-    /// The logarithm to a whole base.
-    Logarithm(i64),
-    /// The logarithm to the base that follows as an argument.
-    LogarithmTo,
-    /// The inverse of a hyperbolic function, or of the reciprocal of a sine, cosine or tangent.
-    Area(Function),
-    /// A function of two arguments.
-    Pair(Pair),
-    /// The base of the natural logarithm, which shows its exponent behind.
-    Exponential,
-    /// `\over`
-    Over,
-    /// The sign of what follows.
-    Signum,
-    /// The determinant of what follows.
-    Determinant,
-    /// A root of index 2 or 3.
-    Root(i64),
-    Fraction,
-    Plus,
-    Minus,
-    PlusMinus,
-    MinusPlus,
-    Times,
-    /// ×: the product of numbers, or the cross product of vectors.
-    Cross,
-    Slash,
-    Caret,
-    Raised(Rational),
-    Open(char),
-    Close(char),
-    Bar,
-    OpenBar,
-    CloseBar,
-    Comma,
-    /// The end of a row of a matrix.
-    EndOfRow,
-    Relation(Relation),
-    Vulgar(i64, i64),
-    Degree,
-    Percent,
-    Unit(Box<Unit>),
-}
-
-/// A token and its place.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Token {
-    pub tok: Tok,
-    pub start: usize,
-    pub end: usize,
-    /// Whether a space stands before it.
-    pub spaced: bool,
-}
-
-impl Token {
-    pub fn fault(&self, message: impl Into<String>) -> Box<Fault> {
-        Fault::new(message, self.start, self.end)
-    }
-}
-
-/// What stood before, as far as it decides how the next piece is read.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Before {
-    Nothing,
-    Number { decimal: bool },
-    Value,
-}
 
 pub(crate) struct Lexer<'a> {
     pub text: &'a str,

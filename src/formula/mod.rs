@@ -18,8 +18,8 @@ mod fault;
 mod frames;
 mod inverse;
 mod lexer;
+mod marks;
 mod measured;
-mod name;
 pub mod near;
 mod note;
 mod number;
@@ -34,6 +34,7 @@ mod several;
 mod symbols;
 mod tex;
 mod together;
+mod token;
 mod units;
 mod value;
 mod visible;
@@ -63,10 +64,11 @@ pub(crate) use several::{letters_apart, relations};
 pub use symbols::{Declared, Symbols, letter};
 pub(crate) use symbols::{is_angle_name, is_greek, letters};
 pub(crate) use together::values_of_one;
+pub use token::Literal;
 pub(crate) use units::plain_unit;
 pub use visible::{is_hidden, visible};
 pub use write::{latex_name, unicode_name, write_latex, write_plain, write_unicode};
-pub use written::{Link, Literal, Shape, Sign, Written};
+pub use written::{Link, Shape, Sign, Written};
 pub(crate) use written::{along_axes, has_arrow, is_component, vector_name, with_arrow};
 
 /// Longest formula, in bytes.
@@ -334,7 +336,7 @@ pub(crate) fn read_interval(text: &str, symbols: &Symbols) -> Option<Reading> {
 /// A formula with words around or before it.
 fn read_behind_words(text: &str, symbols: &Symbols) -> Option<Faulty<Reading>> {
     let known = |word: &str| {
-        symbols.find(word).is_some() || words::function(word).is_some() || is_greek(word)
+        symbols.find(word).is_some() || token::function(word).is_some() || is_greek(word)
     };
     let part = |(start, end): (usize, usize)| {
         let mut reading = read_either(&text[..end], start, symbols, 0).ok()?;

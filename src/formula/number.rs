@@ -1,13 +1,12 @@
 //! Numbers as people write them, read exactly: `.5`, `4.`, `1.5e-3`, `0.1` = 1/10.
 
 use super::fault::{Fault, Faulty};
-use super::written::Literal;
+use super::token::{Literal, MAX_EXPONENT};
+use crate::expr::number::ten_to;
 use crate::expr::{Int, Rational};
 
 /// Most digits of one number.
 pub(crate) const MAX_DIGITS: usize = 400;
-/// Largest decimal exponent.
-pub(crate) const MAX_EXPONENT: i64 = 400;
 
 /// How an `e` behind the digits is taken.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -154,16 +153,6 @@ pub(crate) fn exponent_at(bytes: &[u8], at: usize) -> Option<(usize, usize, bool
         .take_while(|b| b.is_ascii_digit())
         .count();
     (count > 0).then_some((digits_at, digits_at + count, negative))
-}
-
-/// Ten to a power that has been checked.
-pub(crate) fn ten_to(power: i64) -> Rational {
-    let raised = Int::from(10).pow(power.unsigned_abs() as u32);
-    if power < 0 {
-        Rational::new_raw(Int::from(1), raised)
-    } else {
-        Rational::from(raised)
-    }
 }
 
 /// `0.1\overline{6}`, `0.\bar{3}` and `0.(3)`: a decimal number whose last digits repeat without end. Brackets behind a digit,

@@ -1,54 +1,11 @@
 //! Functions of two arguments, written with those the expressions have.
 
 use super::fault::Faulty;
-use super::lexer::Tok;
 use super::parser::Parser;
+use super::token::{Pair, Tok};
 use super::value::whole_number;
 use super::written::{Shape, Sign, Written};
 use crate::expr::Function;
-
-/// A function of two arguments.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Pair {
-    /// `root(x, n)`, the root of index n.
-    Root,
-    /// `atan2(y, x)`, the angle from the x axis to a vector.
-    Angle,
-    /// `hypot(x, y)`, the length of a vector.
-    Length,
-    /// `max(a, b)`
-    Greater,
-    /// `min(a, b)`
-    Smaller,
-    /// `pow(x, n)`, as programs write a power.
-    Power,
-}
-
-impl Pair {
-    /// The function with this name.
-    pub(super) fn named(word: &str) -> Option<Pair> {
-        Some(match word.to_ascii_lowercase().as_str() {
-            "root" | "nthroot" => Pair::Root,
-            "atan2" | "arctan2" => Pair::Angle,
-            "hypot" => Pair::Length,
-            "max" => Pair::Greater,
-            "min" => Pair::Smaller,
-            "pow" => Pair::Power,
-            _ => return None,
-        })
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Pair::Root => "root",
-            Pair::Angle => "atan2",
-            Pair::Length => "hypot",
-            Pair::Greater => "max",
-            Pair::Smaller => "min",
-            Pair::Power => "pow",
-        }
-    }
-}
 
 impl Parser<'_> {
     /// The arguments in brackets, and what the function makes of them. `atan2(y, x)` is twice the arctangent of

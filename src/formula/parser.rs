@@ -29,10 +29,10 @@
 
 use super::Relation;
 use super::fault::{Fault, Faulty};
-use super::lexer::{Lexer, Tok, Token};
+use super::lexer::Lexer;
 use super::note::Remark;
-use super::product::FEW;
 use super::symbols::Symbols;
+use super::token::{Tok, Token};
 use super::units::numbered;
 use super::written::{Shape, Sign, Written, is_axis};
 use crate::dimension::Unit;
@@ -300,3 +300,6 @@ impl<'a> Parser<'a> {
         Ok(Some(sign))
     }
 }
+
+/// Room made at once for factors or terms: few products and sums have more.
+pub(super) const FEW: usize = 4;

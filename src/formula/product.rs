@@ -1,14 +1,11 @@
 //! Products and quotients: how far a slash reaches, and which neighbours are factors.
 
 use super::fault::{Fault, Faulty};
-use super::lexer::Tok;
 use super::note::Remark;
-use super::parser::Parser;
+use super::parser::{FEW, Parser};
 use super::symbols::is_greek;
+use super::token::Tok;
 use super::written::{Link, Shape, Sign, Written, is_axis};
-
-/// Room made at once for factors or terms: few products and sums have more.
-pub(super) const FEW: usize = 4;
 
 impl Parser<'_> {
     /// Groups tied by `*` and `/`, from left to right.

@@ -3,6 +3,8 @@
 //! A name has a base (a letter, a Greek letter, or a declared word), an accent, an index and marks such as ′ or ⁺. Its
 //! *key* writes these in one way, so that `v1`, `v_1`, `v_{1}` and `{v}_{1}` meet.
 
+pub(crate) mod name;
+
 use std::borrow::Cow;
 use std::sync::LazyLock;
 
@@ -119,7 +121,7 @@ impl Symbols {
         let index = self.declared.len();
         let symbol = name.into();
         let name = &*symbol;
-        let typeset = latex.and_then(super::name::key_of_latex).map(Cow::Owned);
+        let typeset = latex.and_then(name::key_of_latex).map(Cow::Owned);
         for key in [key_of(name)].into_iter().chain(typeset) {
             let letters = key.bytes().take_while(u8::is_ascii_alphabetic).count();
             self.add_base(&key[..letters]);
@@ -135,7 +137,7 @@ impl Symbols {
             && letter.is_ascii_alphabetic()
         {
             let joined: String = [char::from(*base), char::from(*letter)].iter().collect();
-            let function = super::words::function(&joined).is_some() || joined == "pi";
+            let function = super::token::function(&joined).is_some() || joined == "pi";
             let unit = crate::dimension::unit(&joined).is_ok();
             if !function && !unit && !is_greek(&joined) && self.find(&joined).is_none() {
                 self.keys.insert(joined.as_str().into(), index);
@@ -154,7 +156,7 @@ impl Symbols {
 
     /// Declares a LaTeX spelling alone, beside a name that may stand for something else without it: `\\vec{v}`.
     pub fn declare_typeset(&mut self, name: impl Into<Symbol>, latex: &str) {
-        if let Some(key) = super::name::key_of_latex(latex) {
+        if let Some(key) = name::key_of_latex(latex) {
             let letters = key.bytes().take_while(u8::is_ascii_alphabetic).count();
             self.add_base(&key[..letters]);
             self.keys.entry(key.into()).or_insert(self.declared.len());
@@ -168,7 +170,7 @@ impl Symbols {
     /// Spells a declared name in another way, whatever was spelled so before.
     pub(crate) fn respell(&mut self, name: &str, latex: &str) {
         let index = self.declared.iter().position(|d| *d.name == *name);
-        if let (Some(index), Some(key)) = (index, super::name::key_of_latex(latex)) {
+        if let (Some(index), Some(key)) = (index, name::key_of_latex(latex)) {
             let letters = key.bytes().take_while(u8::is_ascii_alphabetic).count();
             self.add_base(&key[..letters]);
             self.keys.insert(key.into(), index);

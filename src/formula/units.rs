@@ -1,8 +1,9 @@
 //! Units behind numbers, plain or in LaTeX.
 
-use super::lexer::{Before, Lexer, Tok};
+use super::lexer::Lexer;
 use super::note::Remark;
 use super::symbols::{among, letters_at, pairs};
+use super::token::{Before, Tok};
 use crate::dimension;
 
 /// Longest unit with its decoration, in bytes.

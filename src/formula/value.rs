@@ -2,9 +2,9 @@
 
 use super::Relation;
 use super::fault::{Fault, Faulty};
-use super::lexer::{Before, Tok, Token};
 use super::parser::Parser;
-use super::written::{Literal, Shape, Sign, Written};
+use super::token::{Before, Literal, Tok, Token};
+use super::written::{Shape, Sign, Written};
 use crate::expr::{Function, ratio};
 
 impl Parser<'_> {

@@ -1,12 +1,11 @@
 //! Runs of letters: functions, declared words, Greek names and single letters, resolved against the symbols in play.
 
 use super::fault::{Fault, Faulty};
-use super::lexer::{Before, Lexer, Tok};
-use super::name;
+use super::lexer::Lexer;
 use super::note::Remark;
-use super::pair::Pair;
+use super::symbols::name;
 use super::symbols::{Parts, is_greek, letters_at};
-use super::written::Literal;
+use super::token::{Before, Literal, Pair, Tok, function};
 use crate::expr::{Function, Symbol, ratio};
 
 /// Most different names in one formula.
@@ -642,49 +641,6 @@ pub(super) fn unit_vector(key: &str) -> Option<&'static str> {
         "i_hat" | "i_vec" | "x_hat" | "e_hat_x" | "e_vec_x" => "i_hat",
         "j_hat" | "j_vec" | "y_hat" | "e_hat_y" | "e_vec_y" => "j_hat",
         "k_hat" | "k_vec" | "z_hat" | "e_hat_z" | "e_vec_z" => "k_hat",
-        _ => return None,
-    })
-}
-
-/// A function by name; capitals are accepted.
-pub(super) fn function(word: &str) -> Option<Tok> {
-    if word.len() < 2 || word.len() > 7 {
-        return None;
-    }
-    let mut lower = [0u8; 7];
-    for (to, from) in lower.iter_mut().zip(word.bytes()) {
-        *to = from.to_ascii_lowercase();
-    }
-    use Function::*;
-    Some(match &lower[..word.len()] {
-        b"sin" => Tok::Call(Sin),
-        b"cos" => Tok::Call(Cos),
-        b"tan" => Tok::Call(Tan),
-        b"tg" => Tok::Call(Tan),
-        b"lg" => Tok::Logarithm(10),
-        b"asin" | b"arcsin" => Tok::Call(Asin),
-        b"acos" | b"arccos" => Tok::Call(Acos),
-        b"atan" | b"arctan" | b"arctg" => Tok::Call(Atan),
-        b"sinh" => Tok::Call(Sinh),
-        b"cosh" => Tok::Call(Cosh),
-        b"tanh" => Tok::Call(Tanh),
-        b"exp" => Tok::Call(Exp),
-        b"ln" | b"log" => Tok::Call(Ln),
-        b"abs" => Tok::Call(Abs),
-        b"asinh" | b"arsinh" | b"arcsinh" => Tok::Area(Sinh),
-        b"acosh" | b"arcosh" | b"arccosh" => Tok::Area(Cosh),
-        b"atanh" | b"artanh" | b"arctanh" => Tok::Area(Tanh),
-        b"acsc" | b"arccsc" => Tok::Area(Sin),
-        b"asec" | b"arcsec" => Tok::Area(Cos),
-        b"acot" | b"arccot" | b"arcctg" => Tok::Area(Tan),
-        b"sech" => Tok::Reciprocal(Cosh),
-        b"csch" | b"cosech" => Tok::Reciprocal(Sinh),
-        b"coth" => Tok::Reciprocal(Tanh),
-        b"sec" => Tok::Reciprocal(Cos),
-        b"csc" | b"cosec" => Tok::Reciprocal(Sin),
-        b"cot" | b"cotg" | b"ctg" => Tok::Reciprocal(Tan),
-        b"sqrt" => Tok::Root(2),
-        b"cbrt" => Tok::Root(3),
         _ => return None,
     })
 }

@@ -511,7 +511,7 @@ fn unicode_of_latex(name: &str, latex: &str) -> String {
     if latex == "\\ell" {
         return "ℓ".into();
     }
-    match super::name::key_of_latex(latex) {
+    match super::symbols::name::key_of_latex(latex) {
         Some(key) => {
             let written = unicode_name(&key);
             if latex.starts_with("\\ell") {

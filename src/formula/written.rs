@@ -1,8 +1,10 @@
 //! A formula as somebody wrote it: minus signs, fractions, brackets and products without a sign, each with its place.
 
 use super::Fault;
+use super::token::Literal;
 use crate::dimension::Unit;
-use crate::expr::{Function, Rational, Symbol};
+use crate::expr::number::ten_to;
+use crate::expr::{Function, Symbol};
 
 /// A written piece and its place in the text.
 #[derive(Clone, PartialEq, Debug)]
@@ -39,31 +41,6 @@ pub enum Link {
     Cross,
     /// Behind a slash or a division sign.
     Over,
-}
-
-/// A number as written.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Literal {
-    /// Exact value.
-    pub value: Rational,
-    /// Significant digits: `0.050` has two.
-    pub digits: u32,
-    /// Power of ten of the last digit: −3 for `0.050`.
-    pub place: i32,
-    /// Whether a decimal point or an exponent was written.
-    pub decimal: bool,
-}
-
-impl Literal {
-    /// A number of one digit.
-    pub(crate) fn of(value: Rational) -> Literal {
-        Literal {
-            value,
-            digits: 1,
-            place: 0,
-            decimal: false,
-        }
-    }
 }
 
 /// The kinds of written piece.
@@ -301,11 +278,11 @@ impl Written {
                     let whole = exponent.value.is_integer();
                     let k = exponent.value.numer().as_i64().filter(|_| whole)?;
                     if base.value != crate::expr::ratio(10, 1)
-                        || k.abs() > super::number::MAX_EXPONENT
+                        || k.abs() > super::token::MAX_EXPONENT
                     {
                         return None;
                     }
-                    let scaled = &found.value * &super::number::ten_to(k);
+                    let scaled = &found.value * &ten_to(k);
                     Some(Literal {
                         value: scaled,
                         digits: found.digits,

@@ -2,7 +2,9 @@
 
 use num_traits::{Signed, Zero};
 
-use crate::expr::{Expr, Int, Point, Rational, ratio};
+pub use crate::expr::number::ten_to;
+
+use crate::expr::{Expr, Point, Rational, ratio};
 use crate::interval::{Big, Outcome, evaluate};
 
 /// The exact value of a constant, where it is a fraction that is no tower of powers.
@@ -52,12 +54,6 @@ pub fn magnitude(value: &Rational) -> i32 {
         k += 1;
     }
     k
-}
-
-/// An integer power of ten.
-pub fn ten_to(k: i32) -> Rational {
-    let power = Rational::from(Int::from(10).pow(k.unsigned_abs()));
-    if k < 0 { power.recip() } else { power }
 }
 
 /// The power of ten of the first digit; 0 for zero.

@@ -1,6 +1,6 @@
 //! Reads one name: base, accent, index and marks, in plain text, Unicode or LaTeX.
 
-use super::symbols::{Parts, Symbols, greek_name, is_greek, letters_at, variants};
+use super::{Parts, Symbols, greek_name, is_greek, letters_at, variants};
 
 /// Longest index or mark, in bytes.
 const LONGEST: usize = 40;
@@ -13,7 +13,7 @@ fn braced(text: &str, at: usize) -> Option<(&str, usize)> {
 }
 
 /// The brace that closes the one with which a text begins.
-pub(super) fn closing(text: &[u8]) -> Option<usize> {
+pub(in crate::formula) fn closing(text: &[u8]) -> Option<usize> {
     let mut depth = 0u32;
     for (i, byte) in text.iter().enumerate() {
         match byte {
@@ -289,10 +289,7 @@ fn put_prime(parts: &mut Parts, count: usize) {
 }
 
 fn put_index(parts: &mut Parts, index: &str) {
-    match super::symbols::ACCENTS
-        .iter()
-        .find(|accent| **accent == index)
-    {
+    match super::ACCENTS.iter().find(|accent| **accent == index) {
         Some(accent) if parts.accent.is_empty() => parts.accent = accent,
         _ => parts.index.push_str(index),
     }
@@ -382,10 +379,7 @@ fn raised(text: &str, at: usize, parts: &Parts, symbols: &Symbols) -> Option<(St
 }
 
 /// The declared name these parts spell.
-pub(crate) fn find<'s>(
-    parts: &Parts,
-    symbols: &'s Symbols,
-) -> Option<&'s super::symbols::Declared> {
+pub(crate) fn find<'s>(parts: &Parts, symbols: &'s Symbols) -> Option<&'s super::Declared> {
     if symbols.declared().is_empty() {
         return None;
     }
@@ -426,8 +420,8 @@ pub(crate) fn key_of_latex(latex: &str) -> Option<String> {
     let text = latex.trim();
     // `\\Delta T` is one name of two letters.
     let read = || {
-        let reading = super::read(text, &open).ok()?;
-        Some(super::symbols::parts_of(reading.content.expr()?.as_symbol()?).key())
+        let reading = crate::formula::read(text, &open).ok()?;
+        Some(super::parts_of(reading.content.expr()?.as_symbol()?).key())
     };
     let (mut parts, mut end, _) = whole(text, 0, &open)?;
     if let Some((word, stop)) = text[end..]
@@ -473,9 +467,7 @@ pub(crate) fn base(text: &str, at: usize, parts: &mut Parts, depth: u32) -> Opti
                         "widehat" => "hat",
                         "overline" => "bar",
                         "overrightarrow" => "vec",
-                        other => super::symbols::ACCENTS
-                            .iter()
-                            .find(|accent| **accent == other)?,
+                        other => super::ACCENTS.iter().find(|accent| **accent == other)?,
                     };
                     let accent = parts.accent;
                     let end = argument(text, behind, parts, depth)?;
