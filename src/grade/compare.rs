@@ -1,67 +1,21 @@
 //! One content against another: values, vectors, pairs, quantities with units; relations go to [`super::relation`].
 
 mod named;
-mod scalar;
+pub(super) mod several;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
+use super::context::Context;
+use super::scalar::scalars;
 use super::{
-    Diagnosis, Grade, Key, Options, Strength, Verdict, number, partial, relation, several, show,
-    unit,
+    Diagnosis, Grade, Key, Options, Strength, Verdict, number, partial, relation, show, unit,
 };
 use crate::algebra;
 use crate::dimension::Dimension;
-use crate::domain::Domains;
 use crate::equality::{self};
 use crate::expr::{Expr, Symbol};
-use crate::formula::{self, Content, Reading, Relation, write_unicode};
+use crate::formula::{self, Content, Reading, Relation};
 use named::{is_size, named_values, of_two_names, only_unknown, solved};
-pub(crate) use scalar::{WRITTEN, is_short, quotient, same_number, scalars};
-
-/// What a comparison works with.
-pub(crate) struct Context<'a> {
-    pub key: &'a Key,
-    pub options: &'a Options,
-    /// Whether to look for what is wrong.
-    pub diagnose: bool,
-}
-
-impl<'a> Context<'a> {
-    pub(super) fn new(key: &'a Key, options: &'a Options, diagnose: bool) -> Context<'a> {
-        Context {
-            key,
-            options,
-            diagnose,
-        }
-    }
-
-    /// The same without a look for what is wrong.
-    pub(super) fn plain(&self) -> Context<'a> {
-        Context::new(self.key, self.options, false)
-    }
-
-    /// Where the symbols live.
-    pub fn domains(&self) -> &'a Domains {
-        &self.key.question.domains
-    }
-
-    /// Dimension of a symbol, where the question declares it.
-    pub fn dimension_of(&self, name: &str) -> Option<Dimension> {
-        self.key.question.dimension_of(name)
-    }
-
-    /// An expression as the question's author typesets it, for messages.
-    pub fn say(&self, e: &Expr) -> String {
-        let names: BTreeMap<&str, &str> = self
-            .key
-            .question
-            .symbols
-            .iter()
-            .filter_map(|g| Some((&*g.name, g.latex.as_deref()?)))
-            .collect();
-        write_unicode(e, &|name| names.get(name).map(|l| (*l).to_string()))
-    }
-}
 
 /// Compares a reading with the key.
 pub(crate) fn contents(key: &Key, answer: &Reading, options: &Options) -> Grade {
@@ -102,7 +56,8 @@ fn tolerated(ctx: &Context, answer: &Reading) -> Grade {
             // Numbers near those of a difference say nothing of its value.
             if let [Some(e), Some(a), Some(near)] =
                 [&ctx.key.reading, answer, &near].map(Reading::expr)
-                && !(scalar::has_one_sign(ctx, near) || scalar::is_near(ctx, e, a, tolerance))
+                && !(super::scalar::has_one_sign(ctx, near)
+                    || super::scalar::is_near(ctx, e, a, tolerance))
             {
                 let words = "the numbers in it are near enough, and it is not shown that the value always is";
                 finding = Grade::new(Verdict::Undecided, "UNDECIDED_TOLERANCE", "none", words);

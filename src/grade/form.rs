@@ -99,7 +99,7 @@ fn is_long(key: &Key, answer: &Reading) -> bool {
     let long = |e: &&Expr| {
         let read = Field::of(&key.question.domains, e).ok();
         let tidy = read
-            .filter(|(_, x)| x.terms() <= super::compare::WRITTEN)
+            .filter(|(_, x)| x.terms() <= super::context::WRITTEN)
             .map_or(usize::MAX, |(field, x)| field.expr(&x).size())
             .min(shortest);
         tidy != usize::MAX && 2 * e.size() > 3 * tidy + 4 || repeats(e)

@@ -9,6 +9,7 @@ mod behind;
 pub mod belief;
 pub mod believed;
 mod compare;
+mod context;
 mod doubt;
 pub mod entry;
 mod form;
@@ -16,7 +17,7 @@ mod number;
 mod partial;
 mod read;
 mod relation;
-mod several;
+mod scalar;
 pub mod sheet;
 pub mod steps;
 mod unit;
@@ -407,7 +408,7 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         }
         return grade;
     }
-    if let Some(content) = several::named(&key.reading.content, &reading.content) {
+    if let Some(content) = compare::several::named(&key.reading.content, &reading.content) {
         reading.content = content;
     }
     let meant = unit::as_asked(key, &mut reading);

@@ -7,7 +7,7 @@ mod trial;
 
 use num_traits::Signed;
 
-use super::compare::{Context, is_short, same_number};
+use super::context::{Context, is_short, same_number};
 use super::{Diagnosis, fraction, number};
 use crate::algebra::Field;
 use crate::dimension::{self, Clash, Dimension};

@@ -6,11 +6,11 @@
 
 mod direction;
 mod measured;
+pub(super) mod mixed;
 mod named;
 
 use std::collections::BTreeMap;
 
-use super::doubt::mixed;
 use super::unit::misfit;
 use super::{Key, declare};
 use crate::dimension;
@@ -36,7 +36,7 @@ pub(super) fn expected(text: &str, symbols: &Symbols) -> Result<Reading, Fault> 
         match formula::read(text, &symbols.clone().with_lists()) {
             Ok(reading) if vector(&reading) => Ok(reading),
             // `2\frac{3}{4}` of an author is a number.
-            _ => match mixed(text) {
+            _ => match mixed::mixed(text) {
                 Some(sum) if text.contains("frac") => formula::read(&sum, symbols),
                 _ => Err(fault),
             },

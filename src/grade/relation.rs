@@ -8,6 +8,7 @@
 
 mod bounds;
 mod cells;
+mod defined;
 mod equations;
 mod factor;
 mod inequality;
@@ -20,6 +21,8 @@ mod plain;
 mod points;
 mod solved;
 mod system;
+mod systems;
+mod told;
 mod undone;
 mod values;
 mod zeros;
@@ -27,7 +30,8 @@ mod zeros;
 use std::collections::BTreeSet;
 use std::slice::from_ref;
 
-use super::compare::{Context, scalars};
+use super::context::Context;
+use super::scalar::scalars;
 use super::{Apart, Grade, Verdict};
 use crate::algebra::{self, Element, Field, Sign};
 use crate::domain::{Domain, Domains, roles};
@@ -35,14 +39,16 @@ use crate::expr::{Expr, Function, Node, Symbol};
 use crate::formula::{Content, Join, Relation, is_angle_name, write_plain};
 use crate::interval::{Big, Outcome, evaluate};
 pub(super) use bounds::at_bounds;
-use equations::{GAINED, LOST, alternatives, equations, told};
+use equations::{alternatives, equations};
 use inequality::inequalities;
 pub(super) use inside::{angle_in, below_in, size_in, under_root};
 pub(super) use least::of_which;
-use normal::{Normal, cases, differences, equation, links, negated, rooted};
-use points::{apart_at_points, apart_in_cases, holding};
+use normal::{Normal, differences, equation, negated, rooted};
+use points::{apart_at_points, apart_in_cases};
 pub(super) use solved::solve_for;
 use solved::{lies_in, solved_in, unknowns};
+use systems::{cases, links};
+use told::{GAINED, LOST, holding, told};
 use values::{hole, main, may_lack_values};
 
 /// Compares two systems of relations.
@@ -91,7 +97,7 @@ fn about_bound(ctx: &Context, mut found: Grade, each: [&[Content]; 2]) -> Grade 
     let [Some((name, e)), Some((other, a))] = each.map(bound) else {
         return found;
     };
-    if found.note == system::OTHER_NUMBERS[0] && name == other {
+    if found.note == told::OTHER_NUMBERS[0] && name == other {
         let mut wrong = scalars(ctx, &e, &a).diagnosis;
         wrong.retain(|d| d.message.starts_with("right") || d.code == "ROUNDED");
         for d in &mut wrong {
@@ -115,7 +121,7 @@ fn where_defined(found: Grade, [expected, answer]: [&[Normal]; 2], domains: &Dom
         Some(Some((at, is_lost))) => {
             let is_equation = e.relation == Relation::Equal;
             let mut found = told(match (is_equation, is_lost) {
-                (false, _) => system::OTHER_NUMBERS,
+                (false, _) => told::OTHER_NUMBERS,
                 (true, true) => LOST,
                 (true, false) => GAINED,
             });

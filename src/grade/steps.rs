@@ -26,6 +26,7 @@ mod start;
 mod tending;
 mod text;
 mod vectors;
+mod weigh;
 mod why;
 mod wording;
 
@@ -37,8 +38,8 @@ use crate::answer::{Answer, Form};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Fault};
 use crate::scene::Question;
-use bind::Values;
 use desk::Desk;
+use link::Values;
 
 /// What is found of a line, and what is wrong with it.
 type Found = (Status, Vec<Diagnosis>);

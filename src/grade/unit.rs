@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::compare::{Context, scalars};
+use super::context::Context;
+use super::scalar::scalars;
 use super::{Diagnosis, Grade, Key, Tolerance, Verdict};
 use crate::dimension::{self, Clash, Dimension, Unit};
 use crate::expr::Expr;

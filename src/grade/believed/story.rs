@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::super::belief::{self, Belief, Slip};
-use super::super::compare::{Context, quotient};
+use super::super::context::{Context, quotient};
 use super::super::{Diagnosis, Key, Options};
 use super::{COINCIDENCE, FACTORS, MOST_STEPS, NAMED, in_decade, words};
 use crate::answer::{Answer, Form};

@@ -6,12 +6,13 @@ use std::collections::BTreeSet;
 use num_traits::{One, Zero};
 
 use super::super::{Diagnosis, Grade, Tolerance, Verdict, number, relation};
-use super::{Context, apart_in, chain, chain_apart, kind, quotient, values};
+use super::{apart_in, chain, chain_apart, kind, values};
 use crate::algebra::Sign;
 use crate::dimension::{self, Dimension, Unit};
 use crate::domain::Sample;
 use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
 use crate::formula::{self, Content, Quantity, Reading, Relation};
+use crate::grade::context::{Context, quotient};
 use crate::interval::{Interval, Outcome, evaluate};
 
 /// Points at which an equation is tried before its solutions are compared.

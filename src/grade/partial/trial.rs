@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use num_traits::Signed;
 
-use super::super::compare::{Context, quotient};
+use super::super::context::{Context, quotient};
 use super::super::{Diagnosis, fraction, number};
 use super::{GLANCES, simple};
 use crate::algebra::Field;

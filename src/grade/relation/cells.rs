@@ -4,24 +4,22 @@
 //! values are cut where what they are taken of changes sign: on each part they are that or its negative. What is no polynomial
 //! is cut in the same way where all zeros have closed forms.
 
+use super::normal::{Cases, holds};
 use std::cmp::Ordering;
 
+use super::defined::has_value;
 use super::plain::plain;
-use super::values::{has_value, holds_at, one_turn};
+use super::values::{holds_at, one_turn};
 use super::zeros::{Number, number, zeros};
 use super::{Normal, differences};
 use crate::algebra::{Cell, Field};
 use crate::domain::{Domains, Limit, roles};
 use crate::equality::{divisors, identical};
 use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
-use crate::formula::Relation;
 use crate::interval::Enclosure;
 
 /// Most different absolute values.
 const MOST_FOLDED: usize = 3;
-
-/// Systems of relations of which one holds.
-pub(super) type Cases = [Vec<Normal>];
 
 /// Where two systems of relations hold.
 #[derive(Debug)]
@@ -284,21 +282,6 @@ fn unfolded(e: &Expr, folded: &[Expr], signs: usize) -> Expr {
         let branch = if signs >> k & 1 == 1 { -x } else { x.clone() };
         e.replace(&Expr::call(Function::Abs, x.clone()), &branch)
     })
-}
-
-/// Whether `difference relation 0` holds for a difference of this sign.
-pub(super) fn holds(relation: Relation, sign: Option<Ordering>) -> bool {
-    match sign {
-        None => false,
-        Some(sign) => match relation {
-            Relation::NotEqual => sign.is_ne(),
-            Relation::Less => sign.is_lt(),
-            Relation::LessEqual => sign.is_le(),
-            Relation::Greater => sign.is_gt(),
-            Relation::GreaterEqual => sign.is_ge(),
-            _ => sign.is_eq(),
-        },
-    }
 }
 
 /// A number of the cell: the root itself where that is a whole number of twelfths.

@@ -3,6 +3,7 @@
 use super::factor::{turned_term, unrooted};
 use super::locus::{self, Compared, Extent, Part};
 use super::solved::{same_angle, solve_for, solved_in, unknowns};
+use super::told::{GAINED, LOST, OTHER, told};
 use super::{
     APART, Normal, REALS, are_equations, given_not_zero, listed, not_zero, over_reals,
     same_solutions, says_nothing, sign_of, sought_of, undecided,
@@ -11,31 +12,9 @@ use crate::algebra::Sign;
 use crate::domain::Domains;
 use crate::equality;
 use crate::expr::{Expr, Symbol};
-use crate::grade::compare::Context;
+use crate::grade::context::Context;
 use crate::grade::{Apart, Diagnosis, Grade};
 use std::collections::BTreeSet;
-
-/// Note, words and hint where each of two equations has a solution of its own, and where one is lost or gained.
-pub(super) const OTHER: [&str; 3] = [
-    "DIFF_EQUATION",
-    "the equation says something else than the expected one",
-    "compare your equation with the law it comes from, term by term",
-];
-pub(super) const LOST: [&str; 3] = [
-    "DIFF_ROOT_LOST",
-    "a solution of the expected equation does not fulfil the answer",
-    "a solution is missing or the equation says something else",
-];
-pub(super) const GAINED: [&str; 3] = [
-    "DIFF_ROOT_GAINED",
-    "the answer has a solution that the expected equation lacks",
-    "your equation is fulfilled where it should not be",
-];
-
-/// Different, with note, words and hint.
-pub(super) fn told([note, words, hint]: [&'static str; 3]) -> Grade {
-    Grade::told(note, "solutions", words, hint)
-}
 
 /// Two equations.
 pub(super) fn equations(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {

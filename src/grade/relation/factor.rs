@@ -1,6 +1,6 @@
 //! What one equation is of another: a multiple of it, or the same with the sign of a term turned.
 
-use super::super::compare::WRITTEN;
+use super::super::context::WRITTEN;
 use super::{Normal, equation, pair, same_sign};
 use crate::algebra::{Element, Field, Sign};
 use crate::domain::Domains;

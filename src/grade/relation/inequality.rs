@@ -1,35 +1,23 @@
 //! Inequalities: where each holds, part by part.
 
-use super::super::compare::{Context, scalars};
+use super::super::context::Context;
+use super::super::scalar::scalars;
 use super::super::{Apart, Grade, Verdict};
 use super::factor::unrooted;
 use super::factor::{Factor, factor};
-use super::locus::{self, Extent};
-use super::points::holding;
+use super::locus::{self, Extent, by_sign};
 use super::solved::lies_inside;
+use super::told::holding;
 use super::{
     Normal, REALS, apart_at_points, given_not_zero, not_zero, over_reals, same_solutions,
-    says_nothing, sign_of, solve_for, sought_in, undecided, unknowns,
+    says_nothing, solve_for, sought_in, undecided, unknowns,
 };
-use crate::algebra::Sign;
 use crate::domain::{Domains, Sample};
 use crate::equality::{self, poles};
 use crate::expr::Expr;
 use crate::formula::Relation;
 use crate::interval::{Big, Outcome, evaluate};
 use num_traits::{Signed, Zero};
-
-/// Where a relation `difference < 0` or `≤ 0` holds on a domain, as far as the sign of its difference tells.
-pub(super) fn extent(n: &Normal, domains: &Domains) -> Extent {
-    match (sign_of(&n.difference, domains), n.relation) {
-        (Some(Sign::Negative), _) => Extent::All,
-        (Some(Sign::NotPositive | Sign::Zero), Relation::LessEqual) => Extent::All,
-        (Some(Sign::Positive), _) => Extent::None,
-        (Some(Sign::NotNegative | Sign::Zero), Relation::Less) => Extent::None,
-        (Some(_), _) => Extent::Unknown,
-        (None, _) => Extent::Some,
-    }
-}
 
 /// Two inequalities.
 pub(super) fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {
@@ -63,7 +51,7 @@ pub(super) fn inequalities(ctx: &Context, expected: &Normal, answer: &Normal) ->
 fn by_extent(ctx: &Context, expected: &Normal, answer: &Normal) -> Option<Grade> {
     let domains = ctx.domains();
     let (f, g) = (&expected.difference, &answer.difference);
-    match [expected, answer].map(|n| extent(n, domains)) {
+    match [expected, answer].map(|n| by_sign(n, domains)) {
         [Extent::All, Extent::All] | [Extent::None, Extent::None] => {
             if let Some(mut found) = beyond_granted(ctx, expected, answer)
                 && found.is_equivalent()
@@ -73,7 +61,7 @@ fn by_extent(ctx: &Context, expected: &Normal, answer: &Normal) -> Option<Grade>
                 return Some(found);
             }
             let reals = over_reals(domains, &[f, g]);
-            let extents = [expected, answer].map(|n| extent(n, &reals));
+            let extents = [expected, answer].map(|n| by_sign(n, &reals));
             match extents {
                 [Extent::All, Extent::All] => return Some(says_nothing("holds everywhere")),
                 [Extent::None, Extent::None] => return Some(says_nothing("has no solution")),

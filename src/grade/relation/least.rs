@@ -1,7 +1,7 @@
 //! Least and largest values under names of their own: `h_min = B` for `h ≥ B`, and `μ ≥ B` for μ_min.
 
 use super::super::Grade;
-use super::super::compare::Context;
+use super::super::context::Context;
 use crate::expr::Symbol;
 use crate::formula::{Content, Relation};
 

@@ -1,9 +1,9 @@
 //! Values that one side lists, `x = 2` or `x = 1 ± √2`, held against an equation: each is put in, and they are counted.
 
 use super::super::Grade;
-use super::super::compare::Context;
-use super::equations::{LOST, OTHER, told};
+use super::super::context::Context;
 use super::solved::{lies_in, solve_for};
+use super::told::{LOST, OTHER, told};
 use super::zeros::{self, Number, zeros};
 use super::{Normal, cells, same_solutions};
 use crate::domain::{Domain, Domains};

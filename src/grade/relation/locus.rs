@@ -3,13 +3,15 @@
 //! In: the differences of two equations over a domain. Out: whether every part that only one of them has vanishes nowhere, or
 //! where the other vanishes too; else a point at which one holds and the other does not.
 
-use super::pair;
+use super::normal::Normal;
 use super::solved::{rounded, solution_apart, solve_for, unknowns, words_at};
+use super::{pair, sign_of};
 use crate::algebra::{Element, Field, Sign};
 use crate::domain::{Domains, roles, samples};
 use crate::equality::identical;
 use crate::equality::zero_apart;
 use crate::expr::{Expr, Symbol};
+use crate::formula::Relation;
 use crate::interval::Interval;
 use std::collections::BTreeSet;
 
@@ -198,4 +200,16 @@ pub(super) fn vanishing(part: &Expr, [other, own]: [&Expr; 2], domains: &Domains
         }
     }
     None
+}
+
+/// Where a relation `difference < 0` or `≤ 0` holds on a domain, as far as the sign of its difference tells.
+pub(super) fn by_sign(n: &Normal, domains: &Domains) -> Extent {
+    match (sign_of(&n.difference, domains), n.relation) {
+        (Some(Sign::Negative), _) => Extent::All,
+        (Some(Sign::NotPositive | Sign::Zero), Relation::LessEqual) => Extent::All,
+        (Some(Sign::Positive), _) => Extent::None,
+        (Some(Sign::NotNegative | Sign::Zero), Relation::Less) => Extent::None,
+        (Some(_), _) => Extent::Unknown,
+        (None, _) => Extent::Some,
+    }
 }

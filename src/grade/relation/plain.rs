@@ -5,8 +5,8 @@ use std::cmp::Ordering;
 
 use num_traits::{One, Signed, Zero};
 
-use super::cells::Cases;
-use super::values::{asked_by, has_value};
+use super::defined::{asked_by, has_value};
+use super::normal::Cases;
 use super::{Normal, equation, sign_of, undone};
 use crate::algebra::{Sign, tidy};
 use crate::domain::Domains;
@@ -62,7 +62,7 @@ fn both(one: Any, other: Any) -> Option<Any> {
                 _ => return None,
             },
         };
-        Some(super::cells::holds(n.relation, Some(sign)))
+        Some(super::normal::holds(n.relation, Some(sign)))
     };
     let mut out: Any = Vec::new();
     for a in &one {
@@ -105,7 +105,7 @@ fn without(n: &Normal, domains: &Domains, depth: usize) -> Option<Any> {
         _ => None,
     };
     if sign.is_some() {
-        return Some(match super::cells::holds(n.relation, sign) {
+        return Some(match super::normal::holds(n.relation, sign) {
             true => vec![Vec::new()],
             false => Vec::new(),
         });

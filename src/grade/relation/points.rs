@@ -2,21 +2,15 @@
 
 use std::cmp::Ordering;
 
-use super::cells::{Cases, holds};
-use super::equations::{GAINED, LOST, told};
+use super::normal::{Cases, equations_alone, holds};
 use super::solved::{solve_for, unknowns};
-use super::system::equations_alone;
-use super::{Normal, differences, system};
+use super::told::{GAINED, LOST, OTHER_NUMBERS, holding, told};
+use super::{Normal, differences};
 use crate::domain::{Coordinate, Domains, Sample, roles, samples};
 use crate::expr::{Expr, Symbol, ratio};
-use crate::grade::compare::Context;
+use crate::grade::context::Context;
 use crate::grade::{Apart, Diagnosis, Grade};
 use crate::interval::{Interval, Outcome, evaluate};
-
-/// What is said of a relation that holds at a point, and of one that does not.
-pub(super) fn holding(holds: bool) -> &'static str {
-    if holds { "holds" } else { "does not hold" }
-}
 
 /// Points of which others are made that lie on boundaries.
 const NEAR: usize = 6;
@@ -90,7 +84,7 @@ pub(super) fn apart_in_cases(ctx: &Context, expected: &Cases, answer: &Cases) ->
                 finding.assumed = assumed;
                 return Some(finding);
             }
-            let [note, words, hint] = system::OTHER_NUMBERS;
+            let [note, words, hint] = OTHER_NUMBERS;
             let mut finding = Grade::different(note, "counterexample", words);
             finding.counterexample = Some(Apart::new(sample.words(), holding(a), holding(e)));
             finding.assumed = assumed;

@@ -3,7 +3,7 @@
 //! In: a difference that vanishes and the domains. Out: the value of the symbol, points where another difference does not
 //! vanish, and whether two equations fix an angle alike.
 
-use super::super::compare::WRITTEN;
+use super::super::context::WRITTEN;
 use super::super::number;
 use crate::algebra::Field;
 use crate::domain::{Domain, Domains, Sample, roles};

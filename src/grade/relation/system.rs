@@ -1,15 +1,16 @@
 //! Several relations at once: chains, components of vectors, and whatever is in one symbol only.
 
-use super::super::compare::Context;
+use super::super::context::Context;
 use super::super::{Apart, Grade, Verdict};
-use super::cells::{self, Along, Cases};
-use super::equations::{GAINED, LOST, OTHER, told};
-use super::inequality::extent;
+use super::cells::{self, Along};
+use super::defined::only_symbol;
 use super::locus::Extent;
-use super::points::holding;
+use super::locus::by_sign;
+use super::normal::{Cases, equations_alone};
 use super::solved::{rounded, solve_for, unknowns};
+use super::told::{GAINED, LOST, OTHER, OTHER_NUMBERS, holding, told};
 use super::undone::{self, called};
-use super::values::{hole, main, only_symbol};
+use super::values::{hole, main};
 use super::{
     Normal, REALS, apart_at_points, differences, link, not_zero, over_reals, same_solutions,
     says_nothing, sign_of, undecided, where_defined,
@@ -212,19 +213,6 @@ fn apart(ctx: &Context, expected: &Cases, answer: &Cases, along: &Along) -> Grad
     finding
 }
 
-/// Whether there is nothing but equations.
-pub(super) fn equations_alone(expected: &Cases, answer: &Cases) -> bool {
-    let mut all = expected.iter().chain(answer).flatten();
-    all.all(|n| n.relation == Relation::Equal)
-}
-
-/// Note, words and hint for relations that hold at different numbers.
-pub(super) const OTHER_NUMBERS: [&str; 3] = [
-    "DIFF_INEQUALITY",
-    "one holds where the other does not",
-    "check the bound and the direction of your inequality",
-];
-
 /// Two systems, at least one of several relations.
 pub(super) fn compare(ctx: &Context, expected: &[Normal], answer: &[Normal]) -> Grade {
     let domains = ctx.domains();
@@ -281,7 +269,7 @@ fn spread(system: &[Normal], domains: &Domains) -> Vec<Normal> {
         .iter()
         .flat_map(|n| without_bars(&plain(n)))
         .collect();
-    let says = |n: &&Normal| extent(n, &domains) != Extent::All;
+    let says = |n: &&Normal| by_sign(n, &domains) != Extent::All;
     let some: Vec<Normal> = all.iter().filter(says).cloned().collect();
     if some.is_empty() { all } else { some }
 }

@@ -8,9 +8,9 @@ use std::cmp::Ordering;
 
 use num_traits::Signed;
 
+use super::defined::constant_sign;
 use super::locus::squared;
 use super::solved::Turning;
-use super::values::constant_sign;
 use super::{equation, pair, undone};
 use crate::algebra::Sign;
 use crate::answer::calc::constant;

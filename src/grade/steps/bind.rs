@@ -3,13 +3,13 @@
 //!
 //! A name that is found in such a way has its true value from the start, so that a line about it can be wrong.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use super::super::believed::Story;
 use super::Desk;
 use super::impact::{Impact, impacts};
 use super::letters::{MARKS, readings, used};
-use super::link::{Link, names_in};
+use super::link::{Link, Values, names_in};
 use crate::dimension::{self, Dimension};
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol, Vector};
@@ -20,9 +20,6 @@ use crate::scene::Ask;
 const MOST_READINGS: usize = 4;
 /// Most names in a balance of momenta.
 const MOST_VELOCITIES: usize = 4;
-
-/// Names with what they stand for.
-pub(super) type Values = BTreeMap<Symbol, Expr>;
 
 /// What moves along a direction, after and before an impact: the mass of a body, and of all that move alike, by the first of them.
 fn carried(impact: &Impact, axis: &Vector) -> Vec<(Expr, usize, bool)> {

@@ -6,8 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use rustc_hash::FxHashMap;
 
 use super::super::relation::{angle_in, follows, size_in, solve_for, under_root};
-use super::bind::Values;
 use super::link::Link;
+use super::link::Values;
 use super::{Desk, MOST_CAUSES, MOST_STATED};
 use crate::algebra::{Sign, sign, tidy};
 use crate::dimension::Dimension;

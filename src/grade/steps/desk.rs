@@ -5,10 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::Options;
 use super::super::sheet::Sheet;
-use super::bind::Values;
 use super::impact::Stand;
 use super::letters::{MARKS, OF_CENTER};
 use super::link::Link;
+use super::link::Values;
 use super::sought::{self, Sought};
 use super::start::{ends, moments, one_freedom, parts, spins, true_values};
 use super::vectors::{in_products, is_marked, marked_after};

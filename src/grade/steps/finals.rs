@@ -3,8 +3,8 @@
 //! In: a line that was read. Out: whether it holds, and the final answer that is kept of it, right or wrong.
 
 use super::super::{Diagnosis, Grade, Verdict};
-use super::bind::Values;
 use super::letters::ACCELERATIONS;
+use super::link::Values;
 use super::link::{Link, Weighed, equal};
 use super::sought::Sought;
 use super::{Desk, Final, Found, Status};

@@ -7,7 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::sheet::Sheet;
-use super::bind::Values;
+use super::link::Values;
 use crate::derive::Names;
 use crate::expr::{Expr, Symbol, Vector, cross, minus};
 use crate::formula;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::super::Diagnosis;
 use super::super::sheet::judge;
-use super::bind::Values;
+use super::link::Values;
 use super::link::{self, Link, Weighed, gaps};
 use super::{CONDITION, Desk, Found, MOMENT, Needed, Status, arrows, names, open, text};
 use crate::expr::Expr;

@@ -4,8 +4,8 @@ use num_traits::Signed;
 
 use super::super::{Tolerance, fraction, number};
 use super::Desk;
-use super::bind::Values;
 use super::link::Link;
+use super::link::Values;
 use crate::algebra::quotient;
 use crate::dimension;
 use crate::equality;

@@ -4,7 +4,7 @@
 use super::super::relation::{follows, proportional, solve_for};
 use super::super::sheet::Sheet;
 use super::Desk;
-use super::bind::Values;
+use super::link::Values;
 use super::link::{Link, Weighed};
 use crate::algebra::{Field, quotient};
 use crate::answer::Answer;

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::sheet::Sheet;
-use super::bind::Values;
+use super::link::Values;
 use crate::answer::Form;
 use crate::derive::{Moment, Names};
 use crate::expr::{Expr, Symbol};

@@ -1,9 +1,9 @@
 //! What a worked solution says of limits: `For M ≫ m, u → v`, `u → 0 as M → ∞`, `\lim_{M\to\infty} u = 0`, `For large M: …`.
 
-use super::bind::Values;
 use super::cause::MOST_STEPS;
 use super::desk::all_of;
 use super::link::Link;
+use super::link::Values;
 use super::{Desk, Status, text};
 use crate::answer::limit;
 use crate::equality;

@@ -7,9 +7,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::believed::Story;
 use super::Desk;
-use super::bind::Values;
 use super::impact::{Impact, Stand, impacts, shared_key};
 use super::letters::readings;
+use super::link::Values;
 use super::link::{Link, gaps, names_in};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::{self, Content, Reading, Symbols};

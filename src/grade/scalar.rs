@@ -2,9 +2,9 @@
 
 use num_traits::Signed;
 
-use super::super::number::{self, Tolerance};
-use super::super::{Apart, Diagnosis, Grade, Strength, Verdict, fraction, partial};
-use super::Context;
+use super::context::{Context, is_short, quotient};
+use super::number::{self, Tolerance};
+use super::{Apart, Diagnosis, Grade, Strength, Verdict, partial};
 use crate::algebra::{Field, Sign};
 use crate::equality::{
     self, Assumption, AtPoints, Condition, Equality, Evidence, Ground, How, Reason, Side, Value,
@@ -271,34 +271,4 @@ fn are_of_one_sign(ctx: &Context, all: &[Expr]) -> bool {
     };
     are([Sign::Positive, Sign::NotNegative, Sign::Zero])
         || are([Sign::Negative, Sign::NotPositive, Sign::Zero])
-}
-
-/// Most terms of what is written out while looking for what is wrong; more would cost much and tell nobody anything.
-pub(crate) const WRITTEN: usize = 300;
-
-/// Most products of terms it may take to write out two formulas while looking for what is wrong.
-const PRODUCTS: usize = 100_000;
-
-/// Whether two formulas are written out as sums of products without much work.
-pub(crate) fn is_short(a: &Expr, b: &Expr) -> bool {
-    equality::work(a).saturating_add(equality::work(b)) <= PRODUCTS
-}
-
-/// The quotient of two expressions where it is a number.
-pub(crate) fn quotient(a: &Expr, b: &Expr, ctx: &Context) -> Option<Expr> {
-    if !is_short(a, b) {
-        return None;
-    }
-    let (field, x, y) = Field::pair(ctx.domains(), a, b).ok()?;
-    let q = field.div(&x, &y).ok()?;
-    if q.terms() > WRITTEN {
-        return None;
-    }
-    let q = field.expr(&q);
-    q.is_constant().then_some(q)
-}
-
-/// Whether two constants are plainly equal.
-pub(crate) fn same_number(a: &Expr, b: &Expr) -> bool {
-    matches!((fraction(a), fraction(b)), (Some(a), Some(b)) if a == b)
 }

@@ -2,13 +2,15 @@
 
 use std::collections::BTreeSet;
 
-use super::compare::{Context, kind, scalars, values};
-use super::{Diagnosis, Grade, Verdict, number, relation, show, unit};
+use super::{kind, values};
 use crate::dimension::Unit;
 use crate::equality;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{self, UNNAMED};
 use crate::formula::{Content, Join, Quantity, Reading, Relation};
+use crate::grade::context::Context;
+use crate::grade::scalar::scalars;
+use crate::grade::{Diagnosis, Grade, Verdict, number, relation, show, unit};
 
 /// The finding where the expected content or the answer joins several relations.
 pub(super) fn joined(ctx: &Context, expected: &Content, reading: &Reading) -> Option<Grade> {
@@ -216,7 +218,7 @@ fn unit_missing(ctx: &Context, answer: &Content) -> Option<Grade> {
 }
 
 /// Bounds of something without a name, said of the symbol that the expected bounds are about.
-pub(super) fn named(expected: &Content, answer: &Content) -> Option<Content> {
+pub(in crate::grade) fn named(expected: &Content, answer: &Content) -> Option<Content> {
     if expected.mentions(UNNAMED) || !answer.mentions(UNNAMED) {
         return None;
     }
