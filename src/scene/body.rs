@@ -6,7 +6,7 @@
 use num_traits::Zero;
 
 use super::body_file::{BodyFile, ShapeName, VelocityFile};
-use super::check::{Claim, Claimed};
+use super::claim::{Claim, Claimed};
 use super::fault::Fault;
 use super::formulas::{Quantity, Symbols};
 use super::place_file::PositionFile;

@@ -3,56 +3,15 @@
 //! In: a scene and the claims collected while it was put together. Out: faults, and remarks on what could not be decided.
 //! A claim is refused only where it is refuted.
 
+use super::claim::{Claim, Claimed};
+use super::fault::number_words;
 use super::fault::{Fault, Span};
-use super::parameters::number_words;
 use super::proof::{Given, Zero, middle, violation, zero};
 use super::touch::Placed;
 use super::{ALONE, Ask, Contact, Hinge, Scene, beside_friction, touch};
 use crate::algebra::{Sign, sign};
 use crate::expr::{Expr, Function, Node, Symbol, Vector, dot, minus};
 use crate::interval::{Interval, Outcome, evaluate};
-
-/// Something a scene relies on.
-pub(super) enum Claim {
-    /// A unit vector.
-    Unit(Vector),
-    /// A number from 0 to 1.
-    Fraction(Expr),
-    /// A coefficient of friction: 0 or greater.
-    Friction(Expr),
-    /// A number of turns is whole, where it is given.
-    Whole(Symbol),
-    /// The size of gravity: 0 or greater.
-    Gravity(Expr),
-    /// A tangential restitution: from -1 to 1.
-    Tangential(Expr),
-    /// A mass, length or inertia is positive.
-    Size {
-        size: Expr,
-        what: &'static str,
-        may_vanish: bool,
-    },
-    /// What touches a particle touches it where it is.
-    AtParticle {
-        offset: Vector,
-        at: String,
-        body: usize,
-    },
-    /// The bodies of this contact do not separate.
-    Approach(usize),
-    /// This contact, blow or hinge lies on its bodies.
-    Placed(Placed),
-    /// Both bodies of this hinge move alike there.
-    Hinge(usize),
-    /// The bodies of this contact do not strike, for another one has friction.
-    Rests(usize),
-}
-
-/// A claim and the place in the file that makes it.
-pub(super) struct Claimed {
-    pub span: Span,
-    pub claim: Claim,
-}
 
 /// Tries every claim; what cannot be decided becomes a remark of the scene.
 pub(super) fn check(scene: &mut Scene, claims: &[Claimed]) -> Vec<Fault> {

@@ -1,12 +1,13 @@
 //! Hinges, contacts with their laws, and what is known after: what may stand together, and between which bodies.
 
 use super::body_file::ShapeName;
-use super::check::{Claim, Claimed};
+use super::claim::{Claim, Claimed};
 use super::contact_file::{ContactFile, HypothesisName, KnownFile, LawName, SupposedName};
 use super::fault::{Fault, Span};
 use super::formulas::Quantity;
+use super::record::text;
 use super::record::{Formula, Text, is_sound};
-use super::resolve::{Resolver, text};
+use super::resolver::Resolver;
 use super::touch::Placed;
 use super::{
     ALONE, Body, Contact, ContactLaw, Friction, Hypothesis, Known, KnownQuantity, Mode, Scene,

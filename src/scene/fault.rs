@@ -226,6 +226,14 @@ pub(super) fn far(word: &str, name: &str) -> usize {
     }
 }
 
+/// A double as people write it.
+pub(super) fn number_words(number: f64) -> String {
+    if number != 0.0 && !(1e-4..1e6).contains(&number.abs()) {
+        return format!("{number:e}");
+    }
+    crate::formula::trimmed(&format!("{number:.6}")).to_owned()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

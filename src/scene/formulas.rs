@@ -24,6 +24,10 @@ pub(super) struct Quantity {
 impl Quantity {
     pub const NUMBER: Quantity =
         Quantity::other([0, 0, 0], "divide by a quantity of the same kind");
+    pub const TIME: Quantity =
+        Quantity::other([0, 0, 1], "a time, such as t, or a number of seconds");
+    pub const STIFFNESS: Quantity =
+        Quantity::other([1, 0, -2], "a stiffness is a force by a length");
     pub const ANGLE: Quantity =
         Quantity::other([0, 0, 0], "an angle is in radians, or pi/180 times degrees");
     pub const DIRECTION: Quantity = Quantity::other(

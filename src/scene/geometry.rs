@@ -46,6 +46,11 @@ pub(super) fn turned(spin: &Expr, r: &Vector) -> Vector {
     [-(spin * &r[1]), spin * &r[0]]
 }
 
+/// The zero vector.
+pub(super) fn origin() -> Vector {
+    [Expr::zero(), Expr::zero()]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

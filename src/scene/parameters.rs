@@ -6,9 +6,9 @@ use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::FRAC_PI_2;
 
-use super::check::{Claim, Claimed};
+use super::claim::{Claim, Claimed};
 use super::contact_file::ContactFile;
-use super::fault::{Fault, Span};
+use super::fault::{Fault, Span, number_words};
 use super::file::{DomainFile, DomainName, IntervalFile, ParameterFile, SceneFile};
 use super::formulas::Symbols;
 use super::record::{Formula, Text};
@@ -190,14 +190,6 @@ pub(super) fn lies_in(name: &str, value: &Expr, domain: &Domain) -> Result<(), S
     }
     let (number, domain) = (number_words(number), domain.words(name));
     Err(format!("{name} is {number}, outside its domain {domain}"))
-}
-
-/// A double as people write it.
-pub(super) fn number_words(number: f64) -> String {
-    if number != 0.0 && !(1e-4..1e6).contains(&number.abs()) {
-        return format!("{number:e}");
-    }
-    crate::formula::trimmed(&format!("{number:.6}")).to_owned()
 }
 
 fn multiple_of_pi(e: &Expr) -> Option<Rational> {

@@ -6,28 +6,21 @@
 use super::Body;
 use super::body::Solid;
 use super::body_file::{BodyFile, ShapeName};
-use super::check::Claim;
+use super::claim::Claim;
 use super::fault::Fault;
 use super::formulas::Quantity;
 use super::geometry;
+use super::geometry::origin;
 use super::place_file::{AxisName, DirectionFile, PositionFile, StepFile};
 use super::record::Text;
-use super::resolve::{Resolver, entries, origin};
+use super::record::entries;
+use super::resolver::{Place, Resolver};
 use crate::expr::{Expr, Node, Vector};
 
 /// Longest chain of positions that refer to one another.
 const CHAIN: usize = 200;
 /// Most terms of a coordinate.
 const TERMS: usize = 500;
-
-/// How far a position is known.
-#[derive(Clone)]
-pub(super) enum Place {
-    Untouched,
-    Underway,
-    /// `None` if it cannot be found, which has been reported.
-    Done(Option<Vector>),
-}
 
 impl<'f> Resolver<'f> {
     pub fn point(&mut self, i: usize) -> Option<Vector> {

@@ -5,7 +5,8 @@ use super::question_file::PlotFile;
 use super::questions::answers::{Reader, parameter_names};
 use super::questions::names_of;
 use super::record::Text;
-use super::resolve::{Resolver, entries, text};
+use super::record::{entries, text};
+use super::resolver::Resolver;
 use super::{PlotAsk, Question, Scene};
 use crate::expr::Symbol;
 

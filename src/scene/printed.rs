@@ -4,7 +4,6 @@
 use super::fault::Fault;
 use super::file::{PrintedFile, SceneFile};
 use super::record::{Map, Text};
-use super::resolve;
 
 /// Something printed.
 #[derive(Clone, Debug)]
@@ -98,7 +97,7 @@ fn one(entry: &PrintedFile, faults: &mut Vec<Fault>) -> Option<Printed> {
     let list = |t: &Option<Vec<Text>>| t.as_ref().map(texts).unwrap_or_default();
     let map = |m: &Option<Map<Text>>| -> Vec<[String; 2]> {
         let pair = |(name, t): (&Text, &Text)| [name.text.clone(), t.text.clone()];
-        resolve::entries(m.as_ref()).map(pair).collect()
+        super::record::entries(m.as_ref()).map(pair).collect()
     };
     let kinds = [
         entry.item.is_some(),

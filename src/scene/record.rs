@@ -4,7 +4,7 @@
 //! only: names, formulas and mechanics are the affair of [`super::resolve`].
 
 use std::borrow::Cow;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
@@ -472,4 +472,25 @@ pub(super) fn word<T: Copy>(
         });
     }
     found
+}
+
+pub(super) fn names<T>(map: Option<&Map<T>>) -> HashMap<&str, usize> {
+    let all = keys(map).into_iter().map(|name| name.text.as_str());
+    all.zip(0..).collect()
+}
+
+pub(super) fn text(text: &Option<Text>) -> String {
+    text.as_ref().map(|t| t.text.clone()).unwrap_or_default()
+}
+
+/// The entries of a map that could be read.
+pub(super) fn entries<T>(map: Option<&Map<T>>) -> impl Iterator<Item = (&Text, &T)> {
+    let all = map.into_iter().flat_map(|m| &m.0);
+    all.filter_map(|(name, entry)| Some((name, entry.as_ref()?)))
+}
+
+/// The names of a map.
+pub(super) fn keys<T>(map: Option<&Map<T>>) -> Vec<&Text> {
+    let all = map.into_iter().flat_map(|m| &m.0);
+    all.map(|(name, _)| name).collect()
 }

@@ -3,11 +3,11 @@
 //! In: the inequalities as written and the domains of their parameters. Out: [`crate::domain::Relation`]s that contradict
 //! neither the domains nor each other, or faults.
 
+use super::Scene;
 use super::fault::{Fault, Span};
 use super::formulas::Symbols;
 use super::proof::middle;
 use super::record::Text;
-use super::{Scene, parameters};
 use crate::algebra::{Sign, sign};
 use crate::domain::{Domain, Domains, Limit, Relation, roles, samples};
 use crate::expr::{Expr, Function, Node, ratio};
@@ -183,7 +183,7 @@ pub(super) fn broken(scene: &Scene, span: Span) -> Option<Fault> {
                 return None;
             }
             let value = evaluate::<Interval>(value, &Default::default()).value()?;
-            let number = parameters::number_words(middle(&value));
+            let number = super::fault::number_words(middle(&value));
             Some(format!("{} = {number}", p.name))
         });
         let values: Vec<String> = values.collect();

@@ -2,9 +2,11 @@
 
 use super::body_file::VelocityFile;
 use super::contact_file::{BlowFile, ContactFile, ForceFile, HingeFile, KnownFile};
+use super::fault::Fault;
 use super::place_file::{DirectionFile, PositionFile};
+use super::record::keys;
 use super::record::{Formula, Map, Pair, Text, choice, record};
-use super::resolve::keys;
+use crate::formula::near::nearest;
 
 record! {
     /// A stage: exactly one of impact, turn, slide, fall, wind and linkage. Its formulas may hold the names of answers to
@@ -295,4 +297,28 @@ impl ImpactFile {
         let one_sided = [keys(self.supports.as_ref()), keys(self.strings.as_ref())];
         joints.into_iter().chain(one_sided).flatten().collect()
     }
+}
+
+pub(super) fn stage_named(
+    faults: &mut Vec<Fault>,
+    stages: &[StageFile],
+    name: Option<&Text>,
+) -> Option<usize> {
+    let Some(name) = name else {
+        return stages.len().checked_sub(1);
+    };
+    let found = stages.iter().position(|s| s.name.text == name.text);
+    if found.is_none() {
+        let fault = Fault::new(name.span, format!("there is no stage `{}`", name.text));
+        faults.push(
+            match nearest(&name.text, stages.iter().map(|s| s.name.text.as_str())) {
+                Some(near) => fault.hint(format!("did you mean `{near}`?")),
+                None => {
+                    let names = stages.iter().map(|s| s.name.text.as_str());
+                    fault.hint(format!("there is {}", names.collect::<Vec<_>>().join(", ")))
+                }
+            },
+        );
+    }
+    found
 }

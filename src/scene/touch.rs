@@ -8,8 +8,8 @@
 
 use std::collections::BTreeMap;
 
+use super::fault::number_words;
 use super::outline::{Need, Piece, Spot, distance, pieces};
-use super::parameters::number_words;
 use super::{Body, Contact, ContactLaw, Scene, Shape};
 use crate::algebra::{Sign, sign};
 use crate::domain::{Domains, roles, samples};

@@ -5,8 +5,8 @@
 use super::body_file::ShapeName;
 use super::file::SceneFile;
 use super::place_file::PositionFile;
+use super::record::entries;
 use super::record::{Map, Text};
-use super::resolve::entries;
 
 /// Gives each particle without a center the place of the first hinge, contact, support, string or blow that touches it when the
 /// scene begins, unless that place is the particle itself. One that nothing touches then is at the origin.

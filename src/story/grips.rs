@@ -2,7 +2,7 @@
 //!
 //! In: a rotation, told, and the stages before it. Out: the same with what is said of the contact that holds its fixed point.
 
-use super::answer::bearing;
+use super::motion::pivot_force;
 use super::motion::{arms, sense};
 use super::{StageTold, line};
 use crate::algebra::Sign;
@@ -107,7 +107,7 @@ pub(super) fn pulls(
     let mut domains = stage.scene.domains.clone();
     let mut before: Option<Expr> = None;
     for (along, at_end, when) in ends {
-        let push = bearing(&told, turn, way, along, at_end);
+        let push = pivot_force(&told, turn, way, along, at_end);
         let need = match tidy(&push, &domains) {
             Ok(push) => essential(&push, &domains),
             Err(_) => continue,

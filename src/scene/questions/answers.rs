@@ -11,8 +11,9 @@ use crate::scene::fault::Fault;
 use crate::scene::file::SceneFile;
 use crate::scene::formulas::Symbols;
 use crate::scene::question_file::QuestionFile;
+use crate::scene::record::entries;
 use crate::scene::record::{Formula, Map, Text};
-use crate::scene::resolve::{Resolver, entries};
+use crate::scene::resolver::Resolver;
 use crate::scene::{Ask, Extremum, FrictionEvent};
 
 /// Highest power of a small parameter that may be asked for.

@@ -3,7 +3,8 @@
 use crate::scene::fault::Fault;
 use crate::scene::question_file::QuestionFile;
 use crate::scene::record::Text;
-use crate::scene::resolve::{Resolver, keys};
+use crate::scene::record::keys;
+use crate::scene::resolver::Resolver;
 use crate::scene::{Ask, ImpulseAt, Known, Scene};
 
 /// Reads a question about the motion just after an impact, its impulses and equations.

@@ -3,12 +3,13 @@
 use super::{answers, impact, told, turn};
 use crate::scene::fault::Fault;
 use crate::scene::formulas::{Quantity, Symbols};
+use crate::scene::meanwhile::home;
 use crate::scene::place_file::PositionFile;
 use crate::scene::question_file::QuestionFile;
 use crate::scene::record::Text;
-use crate::scene::resolve::Resolver;
+use crate::scene::resolver::Resolver;
+use crate::scene::stage_file::stage_named;
 use crate::scene::stage_file::{EndName, SlideFile, StageFile, TurnFile};
-use crate::scene::stages::{STIFFNESS, TIME, home, stage_named};
 use crate::scene::{Ask, Scene};
 
 /// Reads a question about a stage, or about all of them; with the index of that stage.
@@ -290,8 +291,8 @@ fn of_all(base: &mut Resolver<'_>, symbols: &Symbols, q: &QuestionFile) -> Optio
     if let Some(share) = &q.share {
         return Some(Ask::Share {
             mass: symbols.read(&share.mass, Quantity::MASS, &mut base.faults)?,
-            stiffness: symbols.read(&share.stiffness, STIFFNESS, &mut base.faults)?,
-            during: symbols.read(&share.during, TIME, &mut base.faults)?,
+            stiffness: symbols.read(&share.stiffness, Quantity::STIFFNESS, &mut base.faults)?,
+            during: symbols.read(&share.during, Quantity::TIME, &mut base.faults)?,
         });
     }
     if let Some(words) = &q.remark {

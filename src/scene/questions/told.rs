@@ -11,7 +11,7 @@ use crate::scene::fault::Fault;
 use crate::scene::place_file::PositionFile;
 use crate::scene::question_file::QuestionFile;
 use crate::scene::record::Text;
-use crate::scene::resolve::Resolver;
+use crate::scene::resolver::Resolver;
 use crate::scene::stage_file::{EndName, StageFile};
 use crate::scene::{Ask, Question, Scene, geometry};
 

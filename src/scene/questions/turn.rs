@@ -3,11 +3,11 @@
 use super::answers::Reader;
 use crate::domain::{Domain, Limit};
 use crate::expr::{Expr, Symbol, ratio};
-use crate::scene::check::{Claim, Claimed};
+use crate::scene::claim::{Claim, Claimed};
 use crate::scene::formulas::Symbols;
 use crate::scene::question_file::QuestionFile;
 use crate::scene::record::{Formula, Text};
-use crate::scene::resolve::Resolver;
+use crate::scene::resolver::Resolver;
 use crate::scene::{Ask, Scene, Turns};
 
 /// How such a question is asked.

@@ -6,7 +6,8 @@
 use std::collections::BTreeSet;
 
 use super::super::file::SceneFile;
-use super::super::resolve::{Resolver, entries};
+use super::super::record::entries;
+use super::super::resolver::Resolver;
 use super::super::stage_file::StageFile;
 use super::super::{Ask, Question, Scene, questions};
 use crate::dimension::{self, Dimension};

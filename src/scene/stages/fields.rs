@@ -1,18 +1,16 @@
 //! Fields that several kinds of motion have: their dimensions, what they leave open, and how many of them are given.
 
 use crate::expr::Expr;
-use crate::scene::check::Claim;
+use crate::scene::claim::Claim;
 use crate::scene::formulas::Quantity;
 use crate::scene::record::{Formula, Text};
-use crate::scene::resolve::Resolver;
+use crate::scene::resolver::Resolver;
 
 const ACCELERATION: Quantity = Quantity::other(
     [0, 1, -2],
     "gravity is a length per time squared, such as g",
 );
 
-pub(in crate::scene) const TIME: Quantity =
-    Quantity::other([0, 0, 1], "a time, such as t, or a number of seconds");
 pub(super) const FORCE: Quantity =
     Quantity::other([1, 1, -2], "a force is a mass times an acceleration");
 

@@ -7,7 +7,7 @@ use crate::scene::contact_file::HingeFile;
 use crate::scene::file::SceneFile;
 use crate::scene::place_file::PositionFile;
 use crate::scene::record::{Map, Text};
-use crate::scene::resolve::{entries, keys};
+use crate::scene::record::{entries, keys};
 use crate::scene::stage_file::StageFile;
 
 /// Hinges by name.

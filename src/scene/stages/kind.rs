@@ -2,7 +2,7 @@
 //!
 //! In: the record of a stage and the scene it begins with. Out: a [`StageKind`].
 
-use super::fields::{TIME, company, is_one, one_end, optional, weight};
+use super::fields::{company, is_one, one_end, optional, weight};
 use super::slide::slide;
 use crate::expr::Expr;
 use crate::scene::Scene;
@@ -10,7 +10,7 @@ use crate::scene::fault::{Fault, Span};
 use crate::scene::formulas::Quantity;
 use crate::scene::motion::{Fall, FallEnd, Linkage, Turn, Until, Wind};
 use crate::scene::place_file::PositionFile;
-use crate::scene::resolve::Resolver;
+use crate::scene::resolver::Resolver;
 use crate::scene::stage::{OneSided, StageKind};
 use crate::scene::stage_file::{FallFile, ImpactFile, LinkageFile, StageFile, TurnFile, UntilName};
 
@@ -159,7 +159,7 @@ fn fall_of(
         (Some(height), ..) => FallEnd::Drop(r.read(height, Quantity::LENGTH)?),
         (_, Some(range), ..) => FallEnd::Range(r.read(range, Quantity::LENGTH)?),
         (_, _, Some(by), ..) => FallEnd::Turned(r.read(by, TURNED)?),
-        (.., Some(time), _) => FallEnd::Time(r.read(time, TIME)?),
+        (.., Some(time), _) => FallEnd::Time(r.read(time, Quantity::TIME)?),
         (.., Some(time)) => FallEnd::Time(time.clone()),
         _ if gravity.is_some() => FallEnd::Top,
         _ => {
@@ -280,7 +280,7 @@ fn turn_of(
         (_, Some(UntilName::Above), _) => Until::Above,
         (_, Some(UntilName::Below), _) => Until::Below,
         (_, Some(UntilName::Stops), _) => Until::Stops,
-        (.., Some(time)) => Until::For(r.read(time, TIME)?),
+        (.., Some(time)) => Until::For(r.read(time, Quantity::TIME)?),
         _ => Until::For(lasts?.clone()),
     };
     let (body, with) = all?;

@@ -7,33 +7,31 @@ mod earlier;
 mod fields;
 mod hinged;
 mod kind;
-mod meanwhile;
 mod seen;
 mod slide;
 
 pub use earlier::without_case;
-pub(super) use fields::TIME;
 pub(super) use hinged::spread;
-pub(super) use meanwhile::home;
-pub(super) use slide::STIFFNESS;
 
+use crate::scene::meanwhile::{self, home};
 use std::collections::{BTreeMap, HashMap};
 use std::iter::successors;
 
 use crate::expr::{Expr, Symbol, Vector, minus};
-use crate::formula::near::nearest;
 use crate::scene::body_file::VelocityFile;
-use crate::scene::check::{Claim, Claimed, check};
+use crate::scene::check::check;
+use crate::scene::claim::{Claim, Claimed};
 use crate::scene::contact_file::{ContactFile, LawName};
 use crate::scene::fault::Fault;
 use crate::scene::file::SceneFile;
 use crate::scene::formulas::{Quantity, Symbols};
-use crate::scene::place::Place;
 use crate::scene::questions::About;
 use crate::scene::record::{Map, Pair, Text};
-use crate::scene::resolve::{Resolver, entries, keys};
+use crate::scene::record::{entries, keys};
+use crate::scene::resolver::Place;
+use crate::scene::resolver::Resolver;
 use crate::scene::stage::{During, OneSided, Stage, StageKind};
-use crate::scene::stage_file::{EndName, StageFile, StartFile};
+use crate::scene::stage_file::{EndName, StageFile, StartFile, stage_named};
 use crate::scene::{Body, Scene, Shape, geometry, joined, questions};
 
 /// Most stages a scene may have.
@@ -299,30 +297,6 @@ fn only_impact_at(stages: &[StageFile], place: &str) -> Option<usize> {
     let mut found = (0..stages.len()).filter(|i| has(&stages[*i]));
     let first = found.next()?;
     found.next().is_none().then_some(first)
-}
-
-pub(super) fn stage_named(
-    faults: &mut Vec<Fault>,
-    stages: &[StageFile],
-    name: Option<&Text>,
-) -> Option<usize> {
-    let Some(name) = name else {
-        return stages.len().checked_sub(1);
-    };
-    let found = stages.iter().position(|s| s.name.text == name.text);
-    if found.is_none() {
-        let fault = Fault::new(name.span, format!("there is no stage `{}`", name.text));
-        faults.push(
-            match nearest(&name.text, stages.iter().map(|s| s.name.text.as_str())) {
-                Some(near) => fault.hint(format!("did you mean `{near}`?")),
-                None => {
-                    let names = stages.iter().map(|s| s.name.text.as_str());
-                    fault.hint(format!("there is {}", names.collect::<Vec<_>>().join(", ")))
-                }
-            },
-        );
-    }
-    found
 }
 
 /// The stage before, `None` for the start, and the motion during which the stage happens.

@@ -4,7 +4,7 @@ use crate::expr::Expr;
 use crate::scene::Scene;
 use crate::scene::fault::{Fault, Span};
 use crate::scene::proof::{Zero, zero};
-use crate::scene::resolve::Resolver;
+use crate::scene::resolver::Resolver;
 use crate::scene::stage::StageKind;
 
 /// Refuses a rough incline onto which a body comes by a collision in the air, across the incline: what is drawn so is seen from

@@ -2,18 +2,15 @@
 //!
 //! In: its record. Out: the motion, or what does not go together in it.
 
-use super::fields::{FORCE, TIME, coefficient, company, is_one, one_end, optional, weight};
+use super::fields::{FORCE, coefficient, company, is_one, one_end, optional, weight};
 use crate::expr::Expr;
 use crate::scene::fault::Span;
 use crate::scene::formulas::Quantity;
 use crate::scene::motion::{Carrier, Slide, SlideEnd, Spring, Strung};
-use crate::scene::resolve::Resolver;
+use crate::scene::resolver::Resolver;
 use crate::scene::stage::{Stage, StageKind};
 use crate::scene::stage_file::{CarrierFile, SlideEndName, SlideFile, SpringFile, StrungFile};
 use crate::scene::{Scene, Shape};
-
-pub(in crate::scene) const STIFFNESS: Quantity =
-    Quantity::other([1, 0, -2], "a stiffness is a force by a length");
 
 pub(super) fn slide(
     r: &mut Resolver<'_>,
@@ -94,7 +91,7 @@ fn end(
     }
     match (&slide.distance, &slide.time, slide.until) {
         (Some(s), None, None) => r.read(s, Quantity::LENGTH).map(SlideEnd::Distance),
-        (None, Some(t), None) => r.read(t, TIME).map(SlideEnd::Time),
+        (None, Some(t), None) => r.read(t, Quantity::TIME).map(SlideEnd::Time),
         (None, None, Some(name)) => Some(match name {
             SlideEndName::Stops => SlideEnd::Stops,
             SlideEndName::Rolls => SlideEnd::Rolls,
@@ -237,7 +234,7 @@ fn spring(r: &mut Resolver<'_>, spring: &SpringFile) -> Option<Spring> {
     Some(Spring {
         stiffness: r
             .symbols
-            .read(&spring.stiffness, STIFFNESS, &mut r.faults)?,
+            .read(&spring.stiffness, Quantity::STIFFNESS, &mut r.faults)?,
         relaxed: relaxed.unwrap_or_else(Expr::zero),
     })
 }

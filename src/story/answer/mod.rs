@@ -7,7 +7,6 @@ mod reached;
 mod turns;
 mod ways;
 
-pub(super) use motion::bearing;
 pub(super) use reached::{
     Led, as_decided, is_of_outcomes, leave_to_cases, needs, of_condition, of_impact, part, picked,
     tell,

@@ -5,7 +5,7 @@ use crate::answer::{self, Answer, Check, Form, Refused};
 use crate::domain::Domains;
 use crate::expr::{Expr, Vector, cross, dot, minus};
 use crate::formula::Sentence;
-use crate::scene::{Ask, EnergyWhen, Question, Scene, SlideEnd, StageKind, Turn};
+use crate::scene::{Ask, EnergyWhen, Question, Scene, SlideEnd, StageKind};
 use crate::story::motion as stage;
 use crate::story::{StageTold, State};
 
@@ -66,7 +66,11 @@ pub(super) fn reaction(
         return Ok(out.leave_open(why));
     }
     let (way, _) = stage::sense(&told.placed, &told.before.spin[turn.body], turn)?;
-    let value = tidied(question, told, &bearing(told, turn, way, along, at_end))?;
+    let value = tidied(
+        question,
+        told,
+        &stage::pivot_force(told, turn, way, along, at_end),
+    )?;
     Ok(valued(out, value, granted))
 }
 
@@ -541,31 +545,4 @@ fn energy_check(told: &StageTold, domains: &Domains) -> Option<Check> {
         "velocity and spin at the end give the energy at the beginning and the work",
         is_zero(&(again - end), domains),
     ))
-}
-
-/// Force of the fixed point on a turning body along a direction: m a_G less the weight.
-pub(in crate::story) fn bearing(
-    told: &StageTold,
-    turn: &Turn,
-    way: i64,
-    along: &Vector,
-    at_end: bool,
-) -> Expr {
-    let stage = &told.placed;
-    let body = turn.lump(&stage.scene);
-    let inertia = stage::inertia_about(stage, turn);
-    let [r0, r1] = stage::arms(stage, turn, &told.before.spin[turn.body]);
-    let r = if at_end { &r1 } else { &r0 };
-    let square = match &told.energy {
-        Some([start, end]) => &(&Expr::from(2) * if at_end { end } else { start }) / &inertia,
-        None => Expr::zero(),
-    };
-    let weight = &body.mass * &turn.gravity.clone().unwrap_or_else(Expr::zero);
-    let angular = stage::angular(told, turn, way, at_end);
-    let a = [
-        -(&(&angular * &r[1])) - &square * &r[0],
-        &angular * &r[0] - &square * &r[1],
-    ];
-    let force = [&body.mass * &a[0], &body.mass * &a[1] + &weight];
-    dot(&force, along)
 }

@@ -22,7 +22,7 @@ pub(crate) use linkage::by_coordinate;
 pub(super) use linkage::{accelerations, linkage};
 pub(super) use riders::riders_stay;
 pub(super) use slide::{slide, support};
-pub(super) use turn::{angular, arms, inertia_about, sense, turn};
+pub(super) use turn::{angular, arms, pivot_force, sense, turn};
 pub(super) use wind::wind;
 
 use crate::answer::calc::{Seen, sign, tidy};

@@ -437,3 +437,30 @@ pub(in crate::story) fn angular(told: &StageTold, turn: &Turn, way: i64, at_end:
     let moments = &applied - &(&weight * &arms[usize::from(at_end)][0]);
     &moments / &inertia_about(stage, turn)
 }
+
+/// Force of the fixed point on a turning body along a direction: m a_G less the weight.
+pub(in crate::story) fn pivot_force(
+    told: &StageTold,
+    turn: &Turn,
+    way: i64,
+    along: &Vector,
+    at_end: bool,
+) -> Expr {
+    let stage = &told.placed;
+    let body = turn.lump(&stage.scene);
+    let inertia = inertia_about(stage, turn);
+    let [r0, r1] = arms(stage, turn, &told.before.spin[turn.body]);
+    let r = if at_end { &r1 } else { &r0 };
+    let square = match &told.energy {
+        Some([start, end]) => &(&Expr::from(2) * if at_end { end } else { start }) / &inertia,
+        None => Expr::zero(),
+    };
+    let weight = &body.mass * &turn.gravity.clone().unwrap_or_else(Expr::zero);
+    let angular = angular(told, turn, way, at_end);
+    let a = [
+        -(&(&angular * &r[1])) - &square * &r[0],
+        &angular * &r[0] - &square * &r[1],
+    ];
+    let force = [&body.mass * &a[0], &body.mass * &a[1] + &weight];
+    dot(&force, along)
+}

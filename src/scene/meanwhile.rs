@@ -8,11 +8,11 @@ use std::iter::successors;
 use crate::scene::Scene;
 use crate::scene::question_file::QuestionFile;
 use crate::scene::record::Text;
-use crate::scene::resolve::Resolver;
+use crate::scene::resolver::Resolver;
 use crate::scene::stage_file::StageFile;
 
 /// The motion with which a stage begins and ends; itself, where it happens during no other.
-pub(super) fn first(stages: &[StageFile], i: usize) -> usize {
+pub(in crate::scene) fn first(stages: &[StageFile], i: usize) -> usize {
     let during = |j: &usize| {
         let name = stages[*j].during.as_ref()?;
         stages[..*j].iter().position(|s| s.name.text == name.text)
@@ -62,7 +62,11 @@ impl StageFile {
 }
 
 /// Tells each motion which bodies others move at the same time; no body has two motions at once.
-pub(super) fn tell_apart(base: &mut Resolver<'_>, scene: &mut Scene, written: &[StageFile]) {
+pub(in crate::scene) fn tell_apart(
+    base: &mut Resolver<'_>,
+    scene: &mut Scene,
+    written: &[StageFile],
+) {
     let stages = &scene.stages;
     let mut apart: Vec<Vec<usize>> = vec![Vec::new(); stages.len()];
     for (i, stage) in stages.iter().enumerate() {
