@@ -1,6 +1,6 @@
 //! The house rules that a test can hold: who may import whom, every file says what it is for, the README's map is true.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -157,6 +157,119 @@ fn a_module_imports_only_what_lies_below_it() {
         "against the layers:\n{}",
         wrong.join("\n")
     );
+}
+
+/// A file below `src` as the path of its module.
+fn path_of(file: &Path) -> Vec<String> {
+    let parts = file.with_extension("");
+    let parts = parts.components().skip(1);
+    let mut path: Vec<String> = parts
+        .map(|part| part.as_os_str().to_string_lossy().into_owned())
+        .collect();
+    if path
+        .last()
+        .is_some_and(|last| last == "mod" || last == "lib")
+    {
+        path.pop();
+    }
+    path
+}
+
+/// The paths that one use names: `a::{b, c::{d, e}}` names three.
+fn spread(tree: &str) -> Vec<String> {
+    let tree = tree.trim();
+    let Some((head, inside)) = tree.split_once('{') else {
+        let name = tree.split(" as ").next().unwrap_or(tree);
+        return vec![name.trim().to_owned()];
+    };
+    let inside = inside.trim_end().strip_suffix('}').unwrap_or(inside);
+    let mut depth = 0;
+    let parts = inside.split(|c: char| {
+        depth += i32::from(c == '{') - i32::from(c == '}');
+        c == ',' && depth == 0
+    });
+    let parts = parts.filter(|part| !part.trim().is_empty());
+    parts
+        .flat_map(spread)
+        .map(|part| format!("{head}{part}"))
+        .collect()
+}
+
+/// The paths in the code of a file, tests and comments aside; those it hands on are another file's.
+fn paths(text: &str) -> Vec<String> {
+    let code = text.split("#[cfg(test)]").next().unwrap_or(text);
+    let lines = code.lines().map(|l| l.split("//").next().unwrap_or(l));
+    let code: Vec<&str> = lines.filter(|l| !l.is_empty()).collect();
+    let mut found = Vec::new();
+    for statement in code.join("\n").split(';') {
+        let start = statement.rfind("\nuse ").map(|at| at + 1);
+        let start = start.or_else(|| statement.starts_with("use ").then_some(0));
+        if let Some(at) = start {
+            found.extend(spread(&statement[at + 4..]));
+            continue;
+        }
+        if statement.trim_start().starts_with("pub") && statement.contains(" use ") {
+            continue;
+        }
+        let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
+        let words = statement.split(|c: char| !is_part(c));
+        let words = words.filter(|w| w.starts_with("crate::") || w.starts_with("super::"));
+        found.extend(words.map(str::to_owned));
+    }
+    found
+}
+
+#[test]
+fn no_files_go_in_circles() {
+    let all = all_sources();
+    let files: BTreeSet<Vec<String>> = all.iter().map(|(file, _)| path_of(file)).collect();
+    let mut needs: BTreeMap<Vec<String>, BTreeSet<Vec<String>>> = BTreeMap::new();
+    for (file, text) in &all {
+        let own = path_of(file);
+        for path in paths(text) {
+            let mut base = own.clone();
+            let names: Vec<&str> = path.split("::").map(str::trim).collect();
+            let up = names
+                .iter()
+                .take_while(|n| matches!(**n, "crate" | "super" | "self"));
+            let up = up.count();
+            for name in &names[..up] {
+                match *name {
+                    "crate" => base.clear(),
+                    "super" => drop(base.pop()),
+                    _ => {}
+                }
+            }
+            base.extend(names[up..].iter().map(|name| (*name).to_owned()));
+            while !base.is_empty() && !files.contains(&base) {
+                base.pop();
+            }
+            // What a folder holds may use its head, and the head what it holds.
+            if !base.starts_with(&own) && !own.starts_with(&base) {
+                needs.entry(own.clone()).or_default().insert(base);
+            }
+        }
+    }
+    assert!(needs.len() > 400, "{} files that need others", needs.len());
+    // What needs nothing that is left, or is needed by nothing, is in no circle.
+    while let Some(free) = needs
+        .iter()
+        .find(|(own, of)| {
+            of.iter().all(|path| !needs.contains_key(path))
+                || needs.values().all(|of| !of.contains(*own))
+        })
+        .map(|(own, _)| own.clone())
+    {
+        needs.remove(&free);
+    }
+    let left: BTreeSet<&Vec<String>> = needs.keys().collect();
+    let tied = needs.iter().map(|(own, of)| {
+        let of = of.iter().filter(|path| left.contains(path));
+        let of: Vec<String> = of.map(|path| path.join("::")).collect();
+        format!("{} needs {}", own.join("::"), of.join(", "))
+    });
+    let tied: Vec<String> = tied.collect();
+    assert!(tied.is_empty(), "in circles:\n{}", tied.join("\n"));
 }
 
 #[test]
