@@ -560,6 +560,23 @@ fn every_picture_shows_what_its_stage_does() {
 }
 
 #[test]
+fn what_swings_on_somewhere_hides_no_later_motion() {
+    for name in [
+        "rod-falls-and-drives-a-block-into-a-spring",
+        "block-driven-into-another-drops",
+    ] {
+        let path = format!("tests/stories/scenes/{name}.json");
+        let text = fs::read_to_string(path).expect("a scene");
+        let worked = worked::out(&scene::read(&text).expect("a scene")).expect("an answer");
+        for (stage, chapter) in worked.chapters() {
+            for (drawing, _) in figure::chapter(&stage, &chapter) {
+                assert!(!drawing.svg.contains("Not drawn"), "{name}: {stage}");
+            }
+        }
+    }
+}
+
+#[test]
 fn an_impact_that_friction_leaves_open_is_drawn_in_its_first_case() {
     let mut drawn = 0;
     for case in all_cases() {

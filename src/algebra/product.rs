@@ -251,7 +251,7 @@ impl Field {
     fn with_joined_conjugates(&self, mut rooted: Vec<Factor>) -> Vec<Factor> {
         let under = |f: &Factor| Some(&self.gens[f.root?].relation.as_ref()?.1);
         let joined = |f: &Factor, g: &Factor| match f.power == g.power {
-            true => conjugates(under(f)?, under(g)?),
+            true => self.joined_conjugates(under(f)?, under(g)?),
             false => None,
         };
         let mut i = 0;
@@ -260,12 +260,22 @@ impl Field {
                 (i + 1..rooted.len()).find_map(|j| Some((j, joined(&rooted[i], &rooted[j])?)));
             if let Some((j, product)) = partner {
                 rooted.remove(j);
-                rooted[i].base = self.kept(&Element::from_poly(product));
+                rooted[i].base = product;
                 rooted[i].root = None;
             }
             i += 1;
         }
         rooted
+    }
+
+    /// The product of x − y and x + y, or of the roots of such.
+    fn joined_conjugates(&self, f: &Poly, g: &Poly) -> Option<Expr> {
+        if let Some(product) = conjugates(f, g) {
+            return Some(self.kept(&Element::from_poly(product)));
+        }
+        let ((n, f), (m, g)) = (self.as_root(f)?, self.as_root(g)?);
+        let inside = (n == m).then(|| self.joined_conjugates(&f, &g))??;
+        Some(inside.power(Expr::ratio(1, i64::from(n))))
     }
 }
 

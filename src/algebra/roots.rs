@@ -145,7 +145,7 @@ impl Field {
     }
 
     /// Degree and radicand, when a polynomial is a root by itself.
-    fn as_root(&self, p: &Poly) -> Option<(u32, Poly)> {
+    pub(super) fn as_root(&self, p: &Poly) -> Option<(u32, Poly)> {
         let g = &self.gens[self.as_generator(&Element::from_poly(p.clone()))?];
         match g.kind {
             Kind::Root => g.relation.clone(),

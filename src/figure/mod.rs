@@ -174,6 +174,29 @@ pub struct Course {
 }
 
 impl Course {
+    /// Whether a body takes no part and has no known place by then, as a rod that swings on from a blow.
+    fn is_lost(&self, b: usize) -> bool {
+        let body = &self.begin.bodies[b];
+        let is_open = |name: &Symbol| self.begin.parameter(name).is_none() && **name != *"pi";
+        let place = body.center.iter().chain([&body.angle]);
+        !self.kind.moved().contains(&b) && place.flat_map(Expr::symbols).any(|name| is_open(&name))
+    }
+
+    /// The scene as it begins, with what has no known place, and is not drawn, as a point at rest where the motion begins.
+    fn placed(&self) -> Scene {
+        let mut out = self.begin.clone();
+        for b in (0..out.bodies.len()).filter(|b| self.is_lost(*b)) {
+            if let Some(first) = self.kind.moved().first() {
+                out.bodies[b].center = out.bodies[*first].center.clone();
+            }
+            let body = &mut out.bodies[b];
+            (body.angle, body.spin) = (Expr::zero(), Expr::zero());
+            body.velocity = [Expr::zero(), Expr::zero()];
+            body.shape = Shape::Particle;
+        }
+        out
+    }
+
     /// The symbol of something that is asked about it.
     fn symbol(&self, is: impl Fn(&Ask) -> bool) -> Option<Label> {
         let mut asked = self.asked.iter().filter(|q| is(&q.ask));

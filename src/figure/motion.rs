@@ -79,7 +79,8 @@ pub fn motion(scene: &Scene, values: &Values, course: &Course) -> Option<Sheet> 
         stage.guides(sheet, &moved);
     }
     for (i, pose) in begin.iter().enumerate() {
-        let is_here = gone.way(i).is_empty() && !course.elsewhere.contains(&i);
+        let is_shown = !course.elsewhere.contains(&i) && !course.is_lost(i);
+        let is_here = gone.way(i).is_empty() && is_shown;
         if is_here && !is_rolled_over(pose, end) {
             stage.body(sheet, pose, [0.0, 0.0]);
         }

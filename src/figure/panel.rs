@@ -131,11 +131,12 @@ pub(super) fn panel(stage: &Stage, motion: Option<&Motion<f64>>, which: Which) -
 }
 
 pub(super) fn motion_panel(name: &str, course: &Course) -> Panel {
-    let mut scene = motion::stand_in(&course.begin, &course.kind);
+    let begin = course.placed();
+    let mut scene = motion::stand_in(&begin, &course.kind);
     scene.stages = vec![scene::Stage {
         name: name.to_string(),
         kind: course.kind.clone(),
-        scene: course.begin.clone(),
+        scene: begin,
         ..scene::Stage::default()
     }];
     let values = values::Values {

@@ -2,12 +2,12 @@
 
 use super::motion::{FallEnd, SlideEnd, Until};
 use super::stage::{Stage, StageKind};
-use super::{BlowImpulse, Body, ContactLaw, KnownQuantity, Parameter, Scene, Shape};
+use super::{Ask, BlowImpulse, Body, ContactLaw, KnownQuantity, Parameter, Scene, Shape};
 use num_traits::{One, Signed};
 
 use crate::dimension::Dimension;
 use crate::expr::{Expr, Node, Symbol, Vector, minus};
-use crate::formula::unicode_name;
+use crate::formula::{Relation, unicode_name};
 
 /// What a number is, with `{}` where a body or a point stands, and of which.
 type Use<'s> = (&'static str, Option<&'s str>, Expr);
@@ -174,6 +174,7 @@ fn uses(scene: &Scene) -> Vec<Use<'_>> {
         out.extend(gravity.map(|g| ("acceleration of gravity", None, g.clone())));
         of_motion(scene, i, &mut out);
     }
+    of_wishes(scene, &mut out);
     // Where nothing else is told by a letter, it says where a body or a point is.
     let turns = |stage: &Stage| match &stage.kind {
         StageKind::Turn(turn) => turn.about.iter().all(Expr::is_zero),
@@ -327,6 +328,40 @@ fn of_impact<'s>(scene: &'s Scene, out: &mut Vec<Use<'s>>) {
         // Of −u only the author knows what u is.
         if known.value.as_symbol().is_some() {
             out.push((what, Some(name), known.value.clone()));
+        }
+    }
+}
+
+/// What is sought so that an answer becomes a parameter, which plays no part before: `"solve": "v", "holds": "phi = theta"`.
+fn of_wishes<'s>(scene: &'s Scene, out: &mut Vec<Use<'s>>) {
+    for question in &scene.questions {
+        let Ask::Condition {
+            left,
+            relation: Relation::Equal,
+            right,
+            ..
+        } = &question.ask
+        else {
+            continue;
+        };
+        for (answer, wished) in [(left, right), (right, left)] {
+            let name = answer.as_symbol();
+            let of = name.and_then(|name| scene.questions.iter().find(|q| q.name == **name));
+            let Some(of) = of else { continue };
+            let (what, body) = match &of.ask {
+                Ask::Angle { body, .. } => ("angle through which {} is to turn", Some(*body)),
+                Ask::Velocity { body, .. } => ("velocity that {} is to have", Some(*body)),
+                Ask::Spin { body, .. } => ("angular velocity that {} is to have", Some(*body)),
+                Ask::Distance => {
+                    let stage = of.stage.map(|i| &scene.stages[i]);
+                    let moved = stage.and_then(|stage| stage.kind.moved().first().copied());
+                    ("distance that {} is to go", moved)
+                }
+                Ask::Time => ("time that it is to take", None),
+                _ => continue,
+            };
+            let body = body.map(|b| scene.bodies[b].name.as_str());
+            out.push((what, body, wished.clone()));
         }
     }
 }

@@ -26,6 +26,8 @@ struct End {
     letters: Vec<(Math, &'static str)>,
     /// Their numbers.
     numbers: Vec<Inline>,
+    /// How the point moves that was told of last.
+    carried: Option<Vec<Math>>,
 }
 
 impl End {
@@ -145,15 +147,15 @@ impl Page<'_> {
         let made = here.steps.iter().find(found).filter(|_| flown.is_none());
         let made = made.map(|step| self.made_of(here, step));
         self.solution.meanings.insert(symbol.clone(), meaning);
-        let carried = self.carried(here, &ask);
-        if !carried.is_empty() {
+        let mut carried = self.carried(here, &ask);
+        // The other component comes from the same line.
+        carried.retain(|line| end.carried.as_ref() != Some(&line.math));
+        if let Some(last) = carried.last() {
             // The motion it is carried along with is told first.
             self.boxed(here, outcome, end);
+            end.carried = Some(last.math.clone());
         }
-        for line in carried {
-            let known = end.steps.iter().any(|l: &Line| l.math == line.math);
-            end.steps.extend((!known).then_some(line));
-        }
+        end.steps.extend(carried);
         let claimed = flown.as_ref().map(|[_, claimed]| claimed);
         let id = (self.solution).naming(&symbol, claimed, formula, &answer.words);
         // Within a case the name needs no number.

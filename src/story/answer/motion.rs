@@ -47,10 +47,11 @@ pub(super) fn reaction(
 ) -> Result<Answer, Refused> {
     let (state, when, granted) = end(told, at_end);
     let stage = &told.placed.name;
+    let direction = answer::along(Some(along));
     let turn = match &told.placed.kind {
         StageKind::Turn(turn) => turn,
         StageKind::Slide(slide) => {
-            let words = format!("force of the {} in `{stage}`", slide.support());
+            let words = format!("force of the {} in `{stage}`{direction}", slide.support());
             let force = told.acceleration.as_ref().map(|rate| {
                 let force = stage::support(&told.placed.scene, slide, rate);
                 tidied(question, told, &dot(&force, along))
@@ -60,7 +61,7 @@ pub(super) fn reaction(
         }
         _ => return Ok(blank(question, String::new())),
     };
-    let words = format!("force of the fixed point at the {when} of `{stage}`");
+    let words = format!("force of the fixed point at the {when} of `{stage}`{direction}");
     let out = blank(question, words);
     if let Some(why) = state.why_open([&state.spin[turn.body]]) {
         return Ok(out.leave_open(why));
@@ -358,7 +359,9 @@ pub(super) fn position(
     let (state, when, granted) = end(told, at_end);
     let name = &told.placed.scene.bodies[body].name;
     let stage = &told.placed.name;
-    let words = format!("position of the center of mass of `{name}` at the {when} of `{stage}`");
+    let direction = answer::along(Some(along));
+    let words =
+        format!("position of the center of mass of `{name}` at the {when} of `{stage}`{direction}");
     let mut out = Answer::blank(question, &format!("{}{suffix}", question.name), words);
     out.dimension = question.ask.dimension();
     if let Some(why) = state.why_open(&state.center[body]) {
