@@ -95,6 +95,13 @@ pub(super) fn fill(
         return;
     }
     meet(out, parameter, relation, [left, right], &roots);
+    // What makes a value real is needed as what places it is.
+    let cores = real.iter().flat_map(|real| &real.cores);
+    for core in cores {
+        let needs = roots.inside.iter();
+        let needs = needs.map(|root| (root.value.clone(), core.clone(), false));
+        out.needs.extend(needs);
+    }
     if relation == Relation::Equal {
         exists(out, &roots, domains);
         let values = roots.inside.iter().map(|root| root.value.clone());

@@ -177,11 +177,15 @@ pub(super) fn loaded_wheel(base: &mut Resolver<'_>, stage: &Stage, span: Span) {
 
 /// What does not go together where the body below moves too.
 fn not_carried(slide: &Slide, is_round: bool) -> Option<(String, &'static str)> {
-    let hangs = !slide.strings.is_empty() || slide.spring.is_some();
     Some(match () {
-        () if hangs || slide.rolling || slide.level => (
+        // What a spring between two bodies hands on is an impact that takes long.
+        () if slide.spring.is_some() => (
+            String::from("a spring between two bodies that both move is no motion of a stage"),
+            "pressed together it hands on what an impact does: with \"restitution\": 1 as it is free again, with \"law\": \"sticking\" as it is pressed most, when it holds the energy that is lost there, k*s^2/2",
+        ),
+        () if !slide.strings.is_empty() || slide.rolling || slide.level => (
             String::from(
-                "what slides on a body that moves too neither hangs on strings or a spring, nor goes on rolling, and is seen from the side",
+                "what slides on a body that moves too neither hangs on strings nor goes on rolling, and is seen from the side",
             ),
             "a block slides on it until both move \"together\", a ball until it \"rolls\"",
         ),
