@@ -95,13 +95,7 @@ pub(super) fn fill(
         return;
     }
     meet(out, parameter, relation, [left, right], &roots);
-    // What makes a value real is needed as what places it is.
-    let cores = real.iter().flat_map(|real| &real.cores);
-    for core in cores {
-        let needs = roots.inside.iter();
-        let needs = needs.map(|root| (root.value.clone(), core.clone(), false));
-        out.needs.extend(needs);
-    }
+    out.needs.extend(real.iter().flat_map(|r| r.needs(&roots)));
     if relation == Relation::Equal {
         exists(out, &roots, domains);
         let values = roots.inside.iter().map(|root| root.value.clone());
@@ -271,6 +265,18 @@ struct Wanted {
     told: Vec<Sentence>,
     /// The domains on which it is.
     granted: Domains,
+}
+
+impl Wanted {
+    /// What makes a value real is needed as what places it is.
+    fn needs(&self, roots: &Roots) -> Vec<(Expr, Expr, bool)> {
+        let each = |root: &Root| {
+            let cores = self.cores.iter().cloned();
+            let value = root.value.clone();
+            cores.map(move |core| (value.clone(), core, false))
+        };
+        roots.inside.iter().flat_map(each).collect()
+    }
 }
 
 /// What must be positive under the roots of the values; `None` where that is sure.
