@@ -117,11 +117,16 @@ pub(super) fn fill(
         unreal(out, parameter, &gap, relation, real, whole_domains);
     }
     if rooted {
-        for check in out.checks.iter_mut().filter(|c| c.kind == "sign") {
-            let under = "what stands under the root has opposite signs";
-            let plain = "the sides differ with opposite signs";
-            check.words = check.words.replace(plain, under);
-        }
+        under_the_root(out);
+    }
+}
+
+/// Lets what was found of the sides say that it is so of what stands under a root.
+fn under_the_root(out: &mut Answer) {
+    for check in out.checks.iter_mut().filter(|c| c.kind == "sign") {
+        let under = "what stands under the root has opposite signs";
+        let plain = "the sides differ with opposite signs";
+        check.words = check.words.replace(plain, under);
     }
 }
 
