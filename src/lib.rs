@@ -62,7 +62,8 @@
 //! | [`worked::Worked`] | a scene worked out, one impact and stages alike: what every command works with |
 //! | [`grade::Grade`] | the verdict on a formula: same, different with a point that shows it, or undecided; and what explains it |
 //!
-//! The modules below stand in reading order: each imports only what stands above it.
+//! The modules below stand in reading order: each imports only what stands above it. Inside a module, too, no files need each
+//! other in a circle: one can be read, and changed, before those that use it.
 
 pub mod expr;
 
