@@ -1,12 +1,15 @@
 //! Answers that stand on answers to earlier questions by their names: `m v²/2 − m ℓ² ω²/6`, where ω was asked before.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::{Given, Key, key_of, read, show, unit};
 use super::{Entry, Sheet};
 use crate::answer::Form;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Reading};
+
+/// Size beyond which a named part is not put in.
+const LONGEST: usize = 2_000;
 
 impl Sheet {
     /// An answer with the right values put in for the names of earlier answers, and these in words; nothing where the answer
@@ -57,25 +60,45 @@ impl Sheet {
     }
 
     /// A key that knows the names of earlier answers, and what these are.
-    pub(super) fn key_with_earlier(&self, entry: &Entry) -> (Key, BTreeMap<Symbol, Expr>) {
-        let of = |name: &str| {
-            let mut answers = self.derivation.answers.iter();
-            answers.find(|a| a.question == name)
+    pub(super) fn key_with_earlier<'a>(&'a self, entry: &'a Entry) -> (Key, BTreeMap<Symbol, Expr>) {
+        // A vector is known by its components.
+        let of = |question: &'a str| {
+            let answers = self.derivation.answers.iter();
+            let answers = answers.filter(move |a| a.question == question);
+            answers.filter(|a| {
+                let component = a.name.strip_prefix(&a.question);
+                component.is_some_and(|axis| matches!(axis, "" | "_x" | "_y"))
+            })
         };
-        // And of what the short form of the answer is written in: `ω = −3 d P/(m (a² + b²))`.
-        let own = of(&entry.question.name).map(|a| &a.form);
-        let printed =
-            |name: &str| matches!(own, Some(Form::Value { short, .. }) if short.mentions(name));
+        // And of what the short form of the answer is written in: `ω = −3 d P/(m (a² + b²))`, `P_x = (b u_y − c u_x)/D`.
+        let own = of(&entry.question.name).filter_map(|a| match &a.form {
+            Form::Value { short, .. } => Some(short.symbols()),
+            _ => None,
+        });
+        let mut printed: BTreeSet<Symbol> = own.flatten().collect();
+        let mut parts = BTreeMap::new();
+        for part in self.derivation.definitions.iter().rev() {
+            if printed.contains(&part.name) {
+                printed.extend(part.value.symbols());
+            }
+        }
+        for part in &self.derivation.definitions {
+            let value = part.value.substitute(&parts);
+            if printed.contains(&part.name) && value.size() <= LONGEST {
+                parts.insert(part.name.clone(), value);
+            }
+        }
         let mut asked = self.scene.questions.iter();
         let before = asked.by_ref().take_while(|q| q.name != entry.question.name);
-        let before: Vec<_> = before.collect();
-        let before = before.into_iter().chain(asked.filter(|q| printed(&q.name)));
-        let given = &self.scene.parameters;
-        let values: BTreeMap<Symbol, Expr> = before
-            .filter(|q| given.iter().all(|p| *p.name != *q.name))
-            .filter_map(|q| of(&q.name).filter(|a| a.name == q.name))
-            .filter_map(|a| Some((Symbol::from(a.name.as_str()), a.formula()?.clone())))
-            .collect();
+        let before: Vec<_> = before.flat_map(|q| of(&q.name)).collect();
+        let later = asked.flat_map(|q| of(&q.name));
+        let later = later.filter(|a| printed.contains(a.name.as_str()));
+        let known = before.into_iter().chain(later);
+        let known = known.filter_map(|a| Some((a.name.as_str().into(), a.formula()?.clone())));
+        let mut values: BTreeMap<Symbol, Expr> = parts.into_iter().chain(known).collect();
+        let given = |name: &Symbol| self.scene.parameters.iter().any(|p| p.name == *name);
+        let asked = |name: &Symbol| of(&entry.question.name).any(|a| *a.name == **name);
+        values.retain(|name, _| !given(name) && !asked(name));
         let mut question = entry.key.question.clone();
         question
             .symbols
