@@ -14,6 +14,7 @@ mod content;
 mod convert;
 mod differential;
 mod digits;
+mod dress;
 mod fault;
 mod frames;
 mod inverse;
@@ -69,7 +70,9 @@ pub(crate) use units::plain_unit;
 pub use visible::{is_hidden, visible};
 pub use write::{latex_name, unicode_name, write_latex, write_plain, write_unicode};
 pub use written::{Link, Shape, Sign, Written};
-pub(crate) use written::{along_axes, has_arrow, is_component, vector_name, with_arrow};
+pub(crate) use written::{
+    along_axes, along_axis, has_arrow, is_component, vector_name, with_arrow,
+};
 
 /// Longest formula, in bytes.
 pub const MAX_BYTES: usize = 1 << 16;
@@ -102,6 +105,14 @@ impl Reading {
         Reading {
             content,
             ..self.clone()
+        }
+    }
+
+    /// Moves the places of remarks into a text that is shorter than the one that was read.
+    fn keep_places_in(&mut self, text: &str) {
+        for note in &mut self.notes {
+            note.start = note.start.min(text.len());
+            note.end = note.end.min(text.len());
         }
     }
 
@@ -197,15 +208,15 @@ pub fn read(text: &str, symbols: &Symbols) -> Result<Reading, Fault> {
         && let Some(set) = unit_behind(text, fault.start)
         && let Ok(mut reading) = read(&set, symbols)
     {
-        // Places are those of the text as it stands, which is shorter.
-        for note in &mut reading.notes {
-            note.start = note.start.min(text.len());
-            note.end = note.end.min(text.len());
-        }
+        reading.keep_places_in(text);
         return Ok(reading);
     }
     if worded && let Some(reading) = read_behind_words(text, symbols) {
         return reading.map_err(|fault| *fault);
+    }
+    if worded && let Some(mut reading) = dress::read_without(text, symbols, held, usual.is_err()) {
+        reading.keep_places_in(text);
+        return Ok(reading);
     }
     if let Ok(reading) = &usual
         && held.any(" ")
@@ -335,9 +346,7 @@ pub(crate) fn read_interval(text: &str, symbols: &Symbols) -> Option<Reading> {
 
 /// A formula with words around or before it.
 fn read_behind_words(text: &str, symbols: &Symbols) -> Option<Faulty<Reading>> {
-    let known = |word: &str| {
-        symbols.find(word).is_some() || token::function(word).is_some() || is_greek(word)
-    };
+    let known = |word: &str| dress::is_known(word, symbols);
     let part = |(start, end): (usize, usize)| {
         let mut reading = read_either(&text[..end], start, symbols, 0).ok()?;
         reading.notes.push(Note {

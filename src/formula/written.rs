@@ -315,6 +315,28 @@ pub(crate) fn is_component(name: &str) -> bool {
     stem.is_some_and(has_arrow)
 }
 
+/// What a component is one of, and along which axis: `v_{Bx}` and `v_B_x` of v_B along x, `x` of nothing.
+pub(crate) fn along_axis(name: &str) -> Option<(String, usize)> {
+    let mut parts = super::symbols::parts_of(name);
+    let (index, base) = (parts.index.as_str(), parts.base.as_str());
+    let letter = if index.is_empty() { base } else { index };
+    let axis = ["x", "y", "z"]
+        .iter()
+        .position(|axis| letter.ends_with(axis))?;
+    let stem = letter[..letter.len() - 1]
+        .trim_end_matches([',', ' '])
+        .to_string();
+    match index.is_empty() {
+        true if stem.is_empty() => parts.base = stem,
+        true => return None,
+        false => parts.index = stem,
+    }
+    Some((
+        format!("{} {} {}", parts.base, parts.index, parts.marks),
+        axis,
+    ))
+}
+
 /// The names of the components of a vector.
 pub(crate) fn along_axes(name: &str) -> [Symbol; 3] {
     ["x", "y", "z"].map(|axis| Symbol::from(format!("{name}_{axis}")))

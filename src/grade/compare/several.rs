@@ -275,19 +275,18 @@ fn subject(content: &Content, bounds: &BTreeSet<Symbol>) -> Option<Symbol> {
     everywhere.or(only).cloned()
 }
 
-/// `v_x = 3, v_y = 4` or `x = 3, y = 4` as a vector.
+/// `v_x = 3, v_y = 4`, `v_{Bx} = 3, v_{By} = 4` or `x = 3, y = 4` as a vector.
 fn components(content: &Content) -> Option<Content> {
     let results = results(content)?;
-    let stem = results.first()?.0.rsplit_once('_').map(|(stem, _)| stem);
-    let along = |axis: &str| {
-        let of = |name: &Symbol| match stem {
-            Some(stem) => name.rsplit_once('_') == Some((stem, axis)),
-            None => **name == *axis,
+    let (of_which, _) = formula::along_axis(&results.first()?.0)?;
+    let along = |axis: usize| {
+        let of = |name: &Symbol| {
+            formula::along_axis(name).is_some_and(|n| n == (of_which.clone(), axis))
         };
         let mut all = results.iter();
         all.find_map(|(name, value)| of(name).then_some(value))
     };
-    let axes = ["x", "y", "z"].map(along);
+    let axes = [0, 1, 2].map(along);
     let zero = Expr::zero();
     let unit_less =
         |value: Option<&Content>| value.map_or(Some(zero.clone()), |v| v.expr().cloned());

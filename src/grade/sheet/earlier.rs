@@ -60,7 +60,10 @@ impl Sheet {
     }
 
     /// A key that knows the names of earlier answers, and what these are.
-    pub(super) fn key_with_earlier<'a>(&'a self, entry: &'a Entry) -> (Key, BTreeMap<Symbol, Expr>) {
+    pub(super) fn key_with_earlier<'a>(
+        &'a self,
+        entry: &'a Entry,
+    ) -> (Key, BTreeMap<Symbol, Expr>) {
         // A vector is known by its components.
         let of = |question: &'a str| {
             let answers = self.derivation.answers.iter();
