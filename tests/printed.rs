@@ -87,7 +87,7 @@ fn everything_printed_holds_but_the_known_misprints() {
 fn every_wrong_entry_is_explained(name: &str, found: &[Finding]) {
     for finding in found.iter().filter(|f| f.holds == Some(false)) {
         let explained = finding.explained.as_deref();
-        let known = explained.is_some_and(|e| e != printed::UNEXPLAINED);
+        let known = explained.is_some_and(printed::explains);
         assert!(known, "{name}: {finding:?}");
         assert!(finding.caught_by.is_some(), "{name}: {finding:?}");
     }
@@ -146,7 +146,13 @@ fn answers_in_a_file_beside_the_scene_are_held_against_it() {
             let answers = text(&format!("{name}.answers.json"));
             scene.printed = scene::read_printed(&answers).expect("a sound list");
             let (found, _) = command::printed(scene).expect("a derivation");
-            every_wrong_entry_is_explained(name, &found);
+            // One of two digits is right by too many slips to say which: its row says so.
+            let short = |f: &&Finding| {
+                let row = format!("{name}\t{}\tno\tit has too few digits", f.place);
+                !table.lines().any(|line| line.starts_with(&row))
+            };
+            let long: Vec<Finding> = found.iter().filter(short).cloned().collect();
+            every_wrong_entry_is_explained(name, &long);
             known.push((name.to_string(), found));
         }
         let all = known.iter().find(|(n, _)| n == name);

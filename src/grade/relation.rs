@@ -390,7 +390,20 @@ fn as_written(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {
                 _ => "an inequality",
             };
             let [asked, given] = [said(expected), said(answer)];
-            let words = format!("{asked} is expected, and the answer is {given}");
+            let mut words = format!("{asked} is expected, and the answer is {given}");
+            let end = Normal {
+                relation: Relation::Equal,
+                ..answer.clone()
+            };
+            if asked == "an equation" && given == "an inequality" && ctx.diagnose {
+                let is_right = equations(ctx, expected, &end).is_equivalent();
+                let shown = if is_right {
+                    "is right"
+                } else {
+                    "is another value"
+                };
+                words.push_str(&format!(": its end {shown}"));
+            }
             match apart_at_points(ctx, from_ref(expected), from_ref(answer)) {
                 Some(apart) => Grade {
                     counterexample: apart.counterexample,

@@ -16,7 +16,7 @@ use crate::equality;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Content, Relation, Sentence, Symbols};
 use crate::scene::{self, Ask, Print, Scene};
-use crate::verify::printed::{Finding, UNEXPLAINED};
+use crate::verify::printed::{Finding, explains};
 
 /// A scene with its answers.
 #[derive(Clone, Debug)]
@@ -350,7 +350,7 @@ impl Sheet {
                 && printed.small.is_empty()
                 && formula::relations(text).count() < 2;
             let slips = ["comes out when", "right up to the factor"];
-            let known = finding.explained.as_ref().filter(|e| *e != UNEXPLAINED);
+            let known = finding.explained.as_ref().filter(|e| explains(e));
             let open = known.is_none_or(|e| slips.iter().any(|slip| e.starts_with(slip)));
             let grade = match finding.holds {
                 Some(false) if as_it_stands && open => self

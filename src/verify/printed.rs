@@ -61,7 +61,15 @@ pub struct Finding {
 const MOST_READINGS: usize = 4;
 
 /// What is said where nothing explains a wrong thing.
-pub const UNEXPLAINED: &str = "no single slip of the pen leads to it";
+const UNEXPLAINED: &str = "no single slip of the pen leads to it";
+
+/// What is said where some slip would lead to most numbers as short as the printed one.
+const FEW_DIGITS: &str = "it has too few digits to tell a slip of the pen from chance";
+
+/// Whether what is said of a wrong thing explains it.
+pub fn explains(said: &str) -> bool {
+    said != UNEXPLAINED && said != FEW_DIGITS
+}
 
 /// One way a scene goes, which what is printed is held against.
 pub struct Way<'a> {

@@ -1,6 +1,6 @@
 //! Findings about one printed thing in several cases of friction, put together.
 
-use super::{Finding, UNEXPLAINED};
+use super::{Finding, explains};
 
 /// Findings in each of several cases, all about the same printed things. What holds in one of the cases holds there: a book
 /// prints one of them, and what it is read with is told beside it.
@@ -59,7 +59,7 @@ fn of_cases(all: Vec<(&str, Finding)>) -> Option<Finding> {
     if let Some((_, open)) = holds(None).next() {
         return Some(open.clone());
     }
-    let is_explained = |f: &Finding| f.explained.as_deref().is_some_and(|e| e != UNEXPLAINED);
+    let is_explained = |f: &Finding| f.explained.as_deref().is_some_and(explains);
     let told = all.iter().find(|(_, f)| is_explained(f)).or(all.first())?;
     let mut values: Vec<String> = Vec::new();
     for (words, f) in &all {

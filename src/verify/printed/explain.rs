@@ -1,12 +1,13 @@
 //! What explains a printed formula, equation or number that does not hold, and the cheap check that would have caught it.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use num_traits::Signed;
 
-use super::Finding;
 use super::desk::Desk;
 use super::number::{last_place, number_of};
+use super::{FEW_DIGITS, Finding};
 use crate::algebra::{self, Sign};
 use crate::dimension::{self, Clash};
 use crate::domain::Domains;
@@ -20,6 +21,9 @@ use crate::verify::slip;
 
 /// Explanations of a number told at most; when there are more, none is worth much.
 const TOLD: usize = 3;
+
+/// Largest chance with which some slip leads to a number that has nothing to do with any, at which one is told.
+const MOST_BY_CHANCE: f64 = 0.1;
 
 /// Most points tried for such as have values.
 const TRIED: u64 = 40;
@@ -285,13 +289,20 @@ impl Desk<'_> {
             return Some(format!("{words}; no misprint of its own"));
         }
         let names: Vec<Symbol> = values.values.keys().cloned().collect();
+        // Where slips lead that are as near as a reader would look.
+        let tried = RefCell::new(Vec::new());
         let fits = |changed: &Expr| {
             let value = changed.evaluate(&values);
+            let near = value.filter(|v| (0.1..10.0).contains(&(v / wanted)));
+            tried.borrow_mut().extend(near);
             value.is_some_and(|value| (value - wanted).abs() <= room)
         };
         let each = formulas.iter();
         let each = each.map(|e| slip::that_fit(e, &names, &fits, &kin, &|e| self.say(e)));
         let found = each.into_iter().find(|found| !found.is_empty())?;
+        if by_chance(tried.into_inner(), room) > MOST_BY_CHANCE {
+            return Some(FEW_DIGITS.into());
+        }
         Some(match found.len() {
             n if n <= TOLD => format!("comes out when {}", found.join("; or when ")),
             n => {
@@ -366,4 +377,13 @@ fn vanishing(domains: &Domains, name: &Symbol) -> Option<Domains> {
         }
     }
     Some(there)
+}
+
+/// The chance that one of several values lies within `room` of a number between a tenth and ten times what was looked for.
+fn by_chance(mut values: Vec<f64>, room: f64) -> f64 {
+    values.iter_mut().for_each(|value| *value = value.abs());
+    values.sort_by(f64::total_cmp);
+    values.dedup_by(|b, a| *b - *a <= room);
+    let each = values.iter().map(|value| 2.0 * room / value);
+    each.sum::<f64>() / 100f64.ln()
 }

@@ -21,9 +21,9 @@ impl Desk<'_> {
         let ([left, right], [sign]) = (sides.as_slice(), signs.as_slice()) else {
             return None;
         };
-        let both = |r: fn(&Relation) -> bool| r(sign) && r(derived);
-        let is_place = both(|r| *r == Relation::Equal);
-        if !is_place && !both(|r| r.is_order()) {
+        let is_place = [sign, derived].iter().all(|r| **r == Relation::Equal);
+        // Where one value is asked a range is judged by its end.
+        if !is_place && !(sign.is_order() && (derived.is_order() || *derived == Relation::Equal)) {
             return None;
         }
         let (left, right) = (left.expr()?, right.expr()?);
@@ -43,6 +43,13 @@ impl Desk<'_> {
         };
         finding.carom = format!("{} {} {}", self.say(of), derived.sign(), finding.carom);
         if finding.holds != Some(true) || printed == *derived {
+            return;
+        }
+        if *derived == Relation::Equal {
+            finding.holds = Some(false);
+            finding.because = "the end of the range is right, and it is the only value".into();
+            finding.explained = Some("a range is printed for one value".into());
+            finding.caught_by = Some("putting a number from inside the range in".into());
             return;
         }
         if printed.is_below() == derived.is_below() {

@@ -161,7 +161,13 @@ impl Desk<'_> {
         });
         let in_si =
             in_si.map(|(unit, _)| format!("the number is right for {}", unit.dimension.si()));
-        let explained = in_si.or_else(|| slip_of_digits(&written, &low, place));
+        let is_angle = figure.quantity.as_ref().is_some_and(|q| q.unit.angle);
+        let explained = in_si
+            .or_else(|| slip_of_digits(&written, &low, place))
+            .or_else(|| {
+                let [written, right, half] = [&written, &low, &half].map(to_f64);
+                is_angle.then(|| turned(written, right * unit, half))?
+            });
         finding.explained = explained.or_else(|| {
             let [wanted, room] = [&written, &half].map(|v| to_f64(v) * unit);
             self.slips(printed, value, wanted, room * 1.000_001)
@@ -210,6 +216,22 @@ pub(super) fn slip_of_digits(written: &Rational, right: &Rational, place: i32) -
     Some(format!(
         "it is {size} times too {way}: a power of ten, or the unit"
     ))
+}
+
+/// An angle or a rate that is printed in one unit and counts in another.
+fn turned(written: f64, radians: f64, half: f64) -> Option<String> {
+    use std::f64::consts::{PI, TAU};
+    let units = [
+        ("radians", 1.0),
+        ("degrees", PI / 180.0),
+        ("turns", TAU),
+        ("turns in a minute", TAU / 60.0),
+    ];
+    // One of two digits fits something too easily.
+    let is_long = half <= written.abs() / 200.0;
+    let fits = |(_, worth): &(&str, f64)| (written - radians / worth).abs() <= half;
+    let (said, _) = units.into_iter().find(fits).filter(|_| is_long)?;
+    Some(format!("the number counts in {said}"))
 }
 
 /// The number at the head of a text such as `-2.08 m/s`, in the unit written.
