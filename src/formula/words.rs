@@ -173,7 +173,9 @@ impl Lexer<'_> {
                 }
                 // `mu` is m·u where m and u are names and μ is none.
                 let letters = || (0..length).all(|at| self.symbols.find(&word[at..=at]).is_some());
-                if self.symbols.is_open() && !letters() {
+                // And `Delta E` may be declared as a whole.
+                let is_change = matches!(word, "Delta" | "delta");
+                if (self.symbols.is_open() || is_change) && !letters() {
                     return self.name(start, start + length).map(Some);
                 }
             }

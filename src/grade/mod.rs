@@ -8,6 +8,7 @@
 mod behind;
 pub mod belief;
 pub mod believed;
+mod cases;
 mod compare;
 mod context;
 mod doubt;
@@ -134,6 +135,8 @@ pub struct Key {
     pub(crate) quantity: Option<Box<Key>>,
     /// The key as an interval, where its text could be one as well as a vector: `[0, 1]`.
     pub(crate) range: Option<Box<Key>>,
+    /// The same on parts of the domain, where it is given in cases.
+    pub(crate) cases: Vec<Key>,
     /// The direction in words behind the key: along x and y, and about the axis out of the page.
     pub(crate) direction: Option<[i32; 3]>,
     /// Whether the question says itself what e is.
@@ -172,6 +175,12 @@ pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
         Symbols::open()
     };
     declare(&mut symbols, question);
+    if let Some(cases) = cases::keys(expected, question, &symbols) {
+        let cases = cases?;
+        let none = || *Fault::new("none of the cases occurs on the domain", 0, 0);
+        let first = cases.first().cloned().ok_or_else(none)?;
+        return Ok(Key { cases, ..first });
+    }
     let strict = || {
         let mut strict = Symbols::strict();
         declare(&mut strict, question);
@@ -299,6 +308,7 @@ fn from_reading(mut reading: Reading, question: &Question) -> Key {
         readable,
         quantity: None,
         range: None,
+        cases: Vec::new(),
         direction: None,
         declares_e,
         declares_i,
@@ -353,6 +363,14 @@ fn judge_within(key: &Key, answer: &str, options: &Options) -> Grade {
         && let Some(fault) = unit::unclear(answer)
     {
         return unreadable(fault);
+    }
+    if !key.cases.is_empty() {
+        let each = key.cases.iter();
+        let each = each.map(|part| judge_within(part, answer, options));
+        return cases::together(each.collect());
+    }
+    if let Some(grade) = cases::judge(key, answer, options) {
+        return grade;
     }
     let mut grade = judge_here(key, answer, options);
     // How a product of letters reads is no matter where the text is a quantity.

@@ -14,6 +14,7 @@ use crate::dimension::Dimension;
 use crate::domain::{Coordinate, Domains, Roles, Sample, roles, samples};
 use crate::equality::identical as proved;
 use crate::expr::angle::arcs_exchanged;
+use crate::expr::number::to_f64;
 use crate::expr::{Expr, Function, Node, Point, Rational, Scalar, Symbol, Table, ratio};
 use crate::formula::write_plain;
 use crate::interval::{Interval, Outcome, evaluate};
@@ -167,7 +168,8 @@ impl<'a> Trial<'a> {
                 let one = ratio(1, 1);
                 let near = |k: &&Rational| (*k - &one).abs() < ratio(1, 50);
                 if [&low, &high].iter().all(near) {
-                    let digits = number::digits_shared(&low, &[one.clone(), one]).min(30);
+                    let off = to_f64(&(&low - &one).abs().max((&high - &one).abs()));
+                    let digits = (-off.log10()).clamp(1.0, 30.0) as u32;
                     let message =
                         format!("right to about {digits} digits: a coefficient was rounded");
                     let hint = "give exact coefficients rather than rounded ones";

@@ -60,6 +60,14 @@ pub(in crate::grade) fn sense(text: &str) -> Option<(&str, [i32; 3])> {
 pub(in crate::grade) fn with_sign(text: &str, same: bool) -> String {
     let at = text.rfind('=').map_or(0, |at| at + 1);
     let (name, value) = (&text[..at], text[at..].trim());
+    // `|ω| = … clockwise` says the size and the sense.
+    let bars = ["|", "\\vert", "\\mid"];
+    let size = name.trim_end_matches(['=', ' ']);
+    let inside = bars
+        .iter()
+        .find_map(|bar| size.trim_start().strip_prefix(*bar)?.strip_suffix(*bar));
+    let named = inside.map(|inside| format!("{inside} ="));
+    let name = named.as_deref().unwrap_or(name);
     let positive = value.strip_prefix(['-', '−']);
     let several = positive
         .unwrap_or(value)

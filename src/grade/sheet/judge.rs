@@ -11,7 +11,7 @@ use super::{Bound, Entry, Sheet, rows};
 use crate::answer::Answer;
 use crate::dimension;
 use crate::expr::{Expr, Symbol, Vector, dot};
-use crate::formula::{Content, Quantity, Reading, Relation};
+use crate::formula::{self, Content, Quantity, Reading, Relation};
 use crate::scene::{Ask, EnergyWhen};
 use num_traits::{One, Signed};
 
@@ -103,7 +103,7 @@ impl Sheet {
         before
             .take_while(|name| *name != entry.question.name)
             .for_each(|name| names.declare(name));
-        let Some(apart) = crate::formula::letters_apart(answer, &names) else {
+        let Some(apart) = formula::letters_apart(answer, &names) else {
             return grade;
         };
         let other = self.judge_with_earlier(entry, &apart, options);
@@ -175,7 +175,7 @@ impl Sheet {
         // `-v/l k` with the letter k for the direction out of the page.
         let axes = || {
             let names = entry.key.readable.clone().with_axes();
-            crate::formula::read(answer, &names).ok()
+            formula::read(answer, &names).ok()
         };
         let along = (read::answer(&entry.key, answer).ok().or_else(axes))
             .and_then(|reading| about_z(&entry.question.ask, &reading));
@@ -184,6 +184,11 @@ impl Sheet {
         let Ok(reading) = read::answer(&entry.key, answer) else {
             return grade;
         };
+        if grade.note == "DIFF_DIMENSION"
+            && let Some(measured) = measured_otherwise(&entry.key, answer, options)
+        {
+            return measured;
+        }
         if let Some(grade) = self.of_other_shape(entry, &reading, answer, options) {
             return grade;
         }
@@ -384,7 +389,14 @@ impl Sheet {
             symbols if symbols.is_empty() => all,
             symbols => symbols.iter().all(|s| values.contains_key(s)),
         };
-        let asked = |s: &Symbol| entry.key.question.asked.iter().any(|g| g.name == *s);
+        // `v_x = 1.57 m/s, v_y = 4 m/s`
+        let in_components = matches!(entry.key.reading.content, Content::Vector(_))
+            && matches!(reading.content, Content::Joined(..));
+        let asked = |s: &Symbol| {
+            let named = entry.key.question.asked.iter().any(|g| g.name == *s);
+            let given = self.scene.parameter(s).is_some();
+            named || in_components && !given && formula::along_axis(s).is_some()
+        };
         let of_unit = match reading.symbols().iter().all(asked) {
             true => None,
             false => Some(number_with_unit(&entry.key, reading, answer)?),
@@ -484,6 +496,19 @@ fn number_with_unit(key: &Key, reading: &Reading, answer: &str) -> Option<Readin
     (fits && number.literal.is_some()).then_some(number)
 }
 
+/// The grade of `6.54 m/s²`, where m and s are quantities of the scene and another dimension is asked: as a number with its unit,
+/// which is what people write.
+fn measured_otherwise(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
+    let mut question = key.question.clone();
+    question.symbols.clear();
+    let alone = key_of(key.reading.content.clone(), &question);
+    let number = read::answer(&alone, answer).ok()?;
+    let measured = matches!(number.content.answer(), Content::Quantity(_));
+    let grade =
+        (measured && number.literal.is_some()).then(|| judge_against(&alone, answer, options));
+    grade.filter(|grade| grade.note == "DIFF_UNIT")
+}
+
 /// A vector in numbers, each component to three digits or within the tolerance.
 fn components(entry: &Entry, exact: [Expr; 3], answer: &str, options: &Options) -> Option<Grade> {
     let mut question = entry.key.question.clone();
@@ -573,5 +598,5 @@ fn about_z(ask: &Ask, reading: &Reading) -> Option<String> {
     };
     let flat = x.is_zero() && y.is_zero() && reading.unit.is_none();
     let value = if *clockwise { -z } else { z.clone() };
-    flat.then(|| crate::formula::write_plain(&value))
+    flat.then(|| formula::write_plain(&value))
 }

@@ -109,7 +109,7 @@ impl Desk<'_> {
                         self.new_side(text);
                         match formula::read(text, &self.symbols(text)) {
                             Ok(reading) => reading,
-                            Err(fault) => return (Status::Unreadable(fault), Vec::new()),
+                            Err(fault) => return self.of_new_names(text, fault),
                         }
                     }
                 }
@@ -243,7 +243,10 @@ impl Desk<'_> {
         }
         let status = self.note(reading, &links, &weighed);
         let found = match weighed {
-            Weighed::Slip(at) => self.diagnosis(reading, at, text),
+            Weighed::Slip(at) => match self.diagnosis(reading, at, text) {
+                found if found.is_empty() => self.supposes(&links).into_iter().collect(),
+                found => found,
+            },
             Weighed::Holds if link::in_vectors(&links) => {
                 self.count(&links, &BTreeMap::new());
                 let says = self.says_enough(&links, &self.parts, false);

@@ -9,7 +9,7 @@ use super::link::Weighed;
 use super::{Desk, Found, Status};
 use crate::dimension::{self, Dimension};
 use crate::expr::{Expr, Node, Symbol};
-use crate::formula::{self, Content, Reading, Remark, Symbols};
+use crate::formula::{self, Content, Fault, Reading, Remark, Symbols};
 
 /// Most names a student may introduce.
 const MOST_NAMES: usize = 100;
@@ -262,15 +262,37 @@ impl Desk<'_> {
 
     /// The one side of a chain that has a new name says what the name stands for by the last of the other sides.
     pub(super) fn new_side(&mut self, text: &str) -> Option<Status> {
+        match self.known_sides(text) {
+            (known, Some(new)) => self.new_name(&format!("{new} = {}", known.last()?)),
+            _ => None,
+        }
+    }
+
+    /// The sides of a chain that can be read, and the one that cannot.
+    fn known_sides<'t>(&self, text: &'t str) -> (Vec<&'t str>, Option<&'t str>) {
         let symbols = self.symbols(text);
         let (known, new): (Vec<&str>, Vec<&str>) =
             text.split('=').map(str::trim).partition(|side| {
                 let read = formula::read(side, &symbols);
                 read.is_ok_and(|reading| !self.has_normal(side, &reading))
             });
-        match (new.as_slice(), known.last()) {
-            ([new], Some(last)) => self.new_name(&format!("{new} = {last}")),
-            _ => None,
+        let only = new.first().filter(|_| new.len() == 1);
+        (known, only.copied())
+    }
+
+    /// A chain that cannot be read for the sum of two new names in it, `K_1 − K_2 = …`, says what the sum is: its other sides are
+    /// judged alone.
+    pub(super) fn of_new_names(&mut self, text: &str, fault: Fault) -> Found {
+        let (known, new) = self.known_sides(text);
+        let sum = new.and_then(|new| formula::read(new, &Symbols::open()).ok());
+        let names = sum.as_ref().map(Reading::symbols).unwrap_or_default();
+        let sum = sum.as_ref().and_then(Reading::expr).map(Expr::node);
+        let is_sum = matches!(sum, Some(Node::Sum(terms)) if terms.len() == 2);
+        let are_new = names.len() == 2 && !names.iter().any(|name| self.is_known(name));
+        match known.as_slice() {
+            [_] if is_sum && are_new => (Status::Defines, Vec::new()),
+            [_, _, ..] if is_sum && are_new => self.equation(&known.join(" = ")),
+            _ => (Status::Unreadable(fault), Vec::new()),
         }
     }
 

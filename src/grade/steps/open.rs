@@ -4,10 +4,12 @@
 use std::collections::BTreeSet;
 
 use super::super::believed::Story;
+use super::bind::Values;
 use super::link::{Link, gaps, names_in};
 use super::names::named;
 use super::{Desk, Diagnosis, Found, MOMENT, Status};
 use crate::expr::{Expr, Symbol};
+use crate::formula::Content;
 use crate::scene::Ask;
 
 /// Words before an equation by which something given is no more than supposed.
@@ -95,6 +97,32 @@ impl Desk<'_> {
         let multiple = |value: &&Expr| self.share(&value.powi(2), &square).is_some();
         let mut all = all.into_iter().filter(|value| !value.is_zero());
         (!all.any(|value| multiple(&value))).then_some(false)
+    }
+
+    /// Notes what a line supposes of what is given, and says so.
+    pub(super) fn supposes(&mut self, links: &[Link]) -> Option<Diagnosis> {
+        let values = self.supposed(links)?;
+        self.believed.push((self.number, values));
+        let words = "this supposes something that the problem does not say";
+        let hint = "what follows holds in this case alone: give the answer without it";
+        Some(Diagnosis::new("SUPPOSED", words, hint))
+    }
+
+    /// What a line supposes of a given quantity in terms of others, as `M = 2 m` does: all that is found as it is then.
+    fn supposed(&self, links: &[Link]) -> Option<Values> {
+        let [link] = links else { return None };
+        let [name, value] = link.sides.each_ref().map(Content::expr);
+        let (name, value) = (name?.as_symbol()?, value?);
+        let is_given = |e: &Expr| e.symbols().iter().all(|other| self.is_given(other));
+        if !self.is_given(name) || !is_given(value) || value.mentions(name) {
+            return None;
+        }
+        let changed = self.closed.iter().filter(|(_, found)| found.mentions(name));
+        let mut values: Values = changed
+            .map(|(found, closed)| (found.clone(), closed.put(name, value)))
+            .collect();
+        values.insert(name.clone(), value.clone());
+        Some(values)
     }
 
     /// Whether an equation in a sentence only supposes something of a given quantity that nobody asks about: `The exception is

@@ -109,6 +109,16 @@ fn unaligned(line: &str) -> String {
     // `**Momentum:** m v = …`
     let bold = line.strip_prefix("**").and_then(|l| l.split_once("**"));
     let bold = bold.map(|(words, rest)| format!("{words}{rest}"));
+    // `\\textbf{Step 1.} $m v = …$`
+    let heading = ["\\textbf{", "\\emph{", "\\textit{"].into_iter();
+    let mut heading = heading.filter_map(|font| line.strip_prefix(font)?.split_once('}'));
+    let bold = bold.or_else(|| {
+        let (words, rest) = heading.find(|(words, _)| words.contains([' ', ':']))?;
+        Some(format!(
+            "{}: {rest}",
+            words.trim_end_matches([' ', ':', '.'])
+        ))
+    });
     let line = bold.as_deref().unwrap_or(line);
     let line = line.trim_end_matches("\\\\").trim_end();
     let line = line
