@@ -4,23 +4,13 @@
 //! In: the text of an answer or an expected formula. Out: a grade, or keys that live on parts of the domain.
 
 use super::{Diagnosis, Grade, Key, Options, Question, Verdict, judge_here, key, unreadable};
-use crate::domain::{Domain, Domains};
-use crate::equality;
-use crate::expr::{Expr, Symbol};
+use crate::algebra::{Sign, sign};
+use crate::domain::{Domain, Domains, roles, samples};
+use crate::expr::Expr;
 use crate::formula::{self, Content, Fault, Join, Symbols};
 
 /// One case: its value behind the name of the whole, and its condition; nothing for all that is left.
 type Case = (String, Option<String>);
-
-/// Whether a point of the domain is found; what is supposed may hold nowhere.
-pub(super) fn has_points<'a>(names: impl Iterator<Item = &'a Symbol>, domains: &Domains) -> bool {
-    let sum = Expr::sum(names.map(|name| Expr::symbol(name)).collect::<Vec<_>>());
-    let twice = &sum + &sum;
-    sum.is_zero()
-        || equality::decide(&sum, &twice, domains)
-            .equality
-            .is_different()
-}
 
 /// The cases of a text; nothing where it is in none.
 fn parted(text: &str) -> Option<Vec<Case>> {
@@ -86,14 +76,14 @@ fn links(condition: &Content) -> Option<Vec<(Expr, bool)>> {
     sides.windows(2).zip(signs).map(link).collect()
 }
 
-/// The parts of a domain in which each case holds, and what none of them speaks of.
+/// The parts of a domain in which each case holds, boundaries left out, and what none of them speaks of.
 fn parts(
     cases: &[Case],
     question: &Question,
     symbols: &Symbols,
 ) -> Result<(Vec<Vec<Domains>>, Vec<Domains>), Fault> {
     let mut domains = question.domains.clone();
-    let mut all = Vec::new();
+    let mut all: Vec<Option<Vec<(Expr, bool)>>> = Vec::new();
     for (_, condition) in cases {
         let Some(condition) = condition else {
             all.push(None);
@@ -111,7 +101,6 @@ fn parts(
         }
         all.push(Some(links(&read.content).ok_or_else(fault)?));
     }
-    let names: Vec<Symbol> = domains.symbols.keys().cloned().collect();
     let mut left = vec![domains.clone()];
     let mut out = Vec::new();
     for links in all {
@@ -131,10 +120,38 @@ fn parts(
         left = left.iter().flat_map(without).collect();
         out.push(vec![here]);
     }
-    let lives = |d: &Domains| has_points(names.iter(), d);
+    let lives = |d: &Domains| !is_thin(d, &domains);
     out.iter_mut().for_each(|part| part.retain(lives));
     left.retain(lives);
     Ok((out, left))
+}
+
+/// Whether two relations of a domain, or one, leave no more of it than a boundary.
+fn is_thin(domain: &Domains, whole: &Domains) -> bool {
+    let never = |e: &Expr| matches!(sign(e, whole), Some(Sign::Negative | Sign::Zero));
+    let all: Vec<&Expr> = domain.relations.iter().map(|r| &r.excess).collect();
+    let against =
+        |(i, e): (usize, &&Expr)| never(e) || all[..i].iter().any(|other| never(&(*e + *other)));
+    all.iter().enumerate().any(against)
+}
+
+/// Whether a point is found at which all relations of a domain hold.
+fn has_points(domain: &Domains) -> bool {
+    const TRIED: usize = 8;
+    let all: Vec<&Expr> = domain.relations.iter().map(|r| &r.excess).collect();
+    let roles = roles(&all);
+    let (completed, _) = domain.completed(&roles);
+    !samples(&roles, &completed, TRIED).is_empty()
+}
+
+/// The grade of an answer in cases to a question of a scene, of which the scene may go by one alone.
+pub(super) fn of_scene(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
+    let mut grade = judge(key, answer, options)?;
+    if grade.verdict == Verdict::Different {
+        let words = "the cases are not all right on the whole domain, and which of them the scene is in is not judged";
+        grade = Grade::new(Verdict::Undecided, "UNDECIDED_AMBIGUOUS", "none", words);
+    }
+    Some(grade)
 }
 
 /// The grade of an answer in cases; nothing where it is in none.
@@ -168,12 +185,13 @@ pub(super) fn judge(key: &Key, answer: &str, options: &Options) -> Option<Grade>
     }
     if !left.is_empty() {
         let words = "the cases do not say what holds in all of the domain";
-        found.push(Grade::told(
-            "DIFF_CASES",
-            "kind",
-            words,
-            "which case is missing?",
-        ));
+        found.push(match left.iter().any(has_points) {
+            true => Grade::told("DIFF_CASES", "kind", words, "which case is missing?"),
+            false => {
+                let words = "whether the cases leave something out could not be told";
+                Grade::new(Verdict::Undecided, "UNDECIDED_POINT", "none", words)
+            }
+        });
     }
     Some(together(found))
 }

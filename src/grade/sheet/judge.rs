@@ -4,8 +4,8 @@ use super::super::believed::{self, Written};
 use super::super::relation::of_which;
 use super::super::worked::worked;
 use super::super::{
-    Diagnosis, Grade, Key, Options, Proof, Strength, Tolerance, Verdict, fraction, judge_against,
-    key_of, number, read,
+    Diagnosis, Grade, Key, Options, Proof, Strength, Tolerance, Verdict, cases, fraction,
+    judge_against, key_of, number, read,
 };
 use super::{Bound, Entry, Sheet, rows};
 use crate::answer::Answer;
@@ -35,6 +35,9 @@ impl Sheet {
     /// answers stand for the right ones, which is told.
     /// Where the scene can go several ways an answer that is right in one of them is right given that it goes this way.
     pub fn judge(&self, entry: &Entry, answer: &str, options: &Options) -> Grade {
+        if let Some(grade) = cases::of_scene(&entry.key, answer, options) {
+            return grade;
+        }
         let mut grade = self.judge_one_way(entry, answer, options);
         let others = self.otherwise.iter();
         let mut others = others.filter_map(|way| Some((way, way.entry(&entry.name).ok()?)));
