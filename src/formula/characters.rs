@@ -44,7 +44,9 @@ impl Lexer<'_> {
             '_' => Err(fault("an index belongs right behind a name").hint("write v_1 or v_{G1}")),
             '.' => Err(fault("a point without digits").hint("write * for a product")),
             '∈' | '∉' | 'ℝ' | '∅' | '∞' => Err(strange(c, self.pos).hint(SETS)),
-            '!' => Err(fault("a factorial has no place in these formulas")),
+            '!' => Err(fault(
+                "a factorial is read right behind a whole number only",
+            )),
             '&' => Err(fault("`&` is no part of a formula")),
             c => {
                 let tok = sign(c).ok_or_else(|| strange(c, self.pos))?;

@@ -4,11 +4,13 @@ use super::fault::{Fault, Faulty};
 use super::lexer::Lexer;
 use super::note::Remark;
 use super::number::{self, Exponent};
-use super::token::{Before, Tok};
+use super::token::{Before, Literal, Tok};
 use crate::expr::ratio;
 
 /// Most digits and powers of ten of all numbers together, beyond what fits a machine word: long fractions cost much.
 const MAX_LONG_DIGITS: u32 = 6_000;
+/// Largest number of which a factorial is read.
+const MAX_FACTORIAL: i64 = 100;
 
 impl Lexer<'_> {
     /// An exponent in raised digits.
@@ -53,6 +55,44 @@ impl Lexer<'_> {
             if negative { -digits } else { digits },
             1,
         )))
+    }
+
+    /// A number with the sign of a factorial behind it, `5!`; of a name none is read.
+    pub(super) fn factorial(&mut self, number: Tok) -> Faulty<Tok> {
+        let rest = &self.text[self.pos..];
+        let Tok::Number(literal) = &number else {
+            return Ok(number);
+        };
+        if !rest.starts_with('!') || rest.starts_with("!=") {
+            return Ok(number);
+        }
+        let whole = (0..=MAX_FACTORIAL).find(|n| literal.value == ratio(*n, 1));
+        let Some(whole) = whole.filter(|_| !literal.decimal) else {
+            let message = format!("a factorial is read of a whole number up to {MAX_FACTORIAL}");
+            return Err(Fault::new(message, self.pos, self.pos + 1));
+        };
+        self.pos += 1;
+        Ok(Tok::Number(counted(&(1..=whole).collect::<Vec<_>>(), &[])))
+    }
+
+    /// `\\binom{5}{2}` of whole numbers.
+    pub(super) fn binomial(&mut self, start: usize) -> Faulty<Tok> {
+        let mut of = [0, 0];
+        for number in &mut of {
+            let (inside, end) = self.group(start)?;
+            let whole = inside
+                .trim()
+                .parse()
+                .ok()
+                .filter(|n| (0..=MAX_FACTORIAL).contains(n));
+            let message = format!("a binomial is read of whole numbers up to {MAX_FACTORIAL}");
+            *number = whole.ok_or_else(|| Fault::new(message, start, end))?;
+            self.pos = end;
+        }
+        let [n, k] = of;
+        let above: Vec<i64> = (n - k + 1..=n).collect();
+        let below: Vec<i64> = (1..=k).collect();
+        Ok(Tok::Number(counted(&above, &below)))
     }
 
     pub(super) fn number(&mut self) -> Faulty<Tok> {
@@ -158,5 +198,20 @@ impl Lexer<'_> {
         }
         self.pos = end;
         Ok(Tok::Percent)
+    }
+}
+
+/// The whole number that is a product above another.
+fn counted(above: &[i64], below: &[i64]) -> Literal {
+    let product = |factors: &[i64]| {
+        factors
+            .iter()
+            .fold(ratio(1, 1), |all, n| all * ratio(*n, 1))
+    };
+    let value = product(above) / product(below);
+    let digits = value.to_string().len() as u32;
+    Literal {
+        digits,
+        ..Literal::of(value)
     }
 }

@@ -3,7 +3,7 @@
 //!
 //! In: a text. Out: the same, byte for byte, with blanks for what is taken off.
 
-use super::prose::{Held, is_in};
+use super::prose::{Held, changes, is_in};
 use super::token::function;
 use super::{Reading, Symbols, is_greek, read};
 
@@ -30,7 +30,8 @@ pub(super) fn read_without(
 ) -> Option<Reading> {
     let plain = undressed(text).filter(|_| cannot);
     let known = |word: &str| is_known(word, symbols);
-    let plain = plain.or_else(|| unspoken(text, &known).filter(|_| held.any(" ")));
+    let said = || without_reason(text).or_else(|| unspoken(text, &known));
+    let plain = plain.or_else(|| held.any(" ").then(said)?);
     read(&plain?, symbols).ok()
 }
 
@@ -94,6 +95,18 @@ fn group(text: &str, at: usize) -> Option<usize> {
         }
     }
     None
+}
+
+/// A text without the reason in words behind it, `0 because the contact is smooth`, which holds no formula and denies nothing.
+fn without_reason(text: &str) -> Option<String> {
+    let words = [" because ", " since "].into_iter();
+    let at = words.filter_map(|word| text.rfind(word)).max()?;
+    let mut reason = text[at..]
+        .split([' ', ',', '.'])
+        .filter(|word| !word.is_empty());
+    let plain = |word: &str| word.bytes().all(|b| b.is_ascii_alphabetic()) && !changes(word);
+    let said = reason.all(plain) && text[at..].split_whitespace().count() > 2;
+    (said && !text[..at].trim().is_empty()).then(|| text[..at].to_string())
 }
 
 /// A text without marks behind its end.

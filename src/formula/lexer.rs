@@ -242,7 +242,7 @@ impl<'a> Lexer<'a> {
                 Some(tok) => return Ok(tok),
                 None => return self.number(),
             },
-            b'0'..=b'9' => return self.number(),
+            b'0'..=b'9' => return self.number().and_then(|tok| self.factorial(tok)),
             b'.' if second.is_ascii_digit() => {
                 // `x.1` is neither x/10 nor x·1.
                 if self.after_value && !self.text[..self.pos].ends_with(char::is_whitespace) {

@@ -42,11 +42,17 @@ pub(super) fn interval(text: &str, symbols: &Symbols, pairs: bool) -> Option<Rea
     if pieces.len() > MOST {
         return None;
     }
-    let pieces: Vec<Piece> = pieces
-        .iter()
-        .map(|piece| Piece::of(text, *piece))
-        .collect::<Option<_>>()?;
-    if let [piece] = pieces.as_slice()
+    // What is in several sets at once: each of a union is the sets that meet in it.
+    let met = |whole: &[usize; 2]| -> Option<Vec<Piece>> {
+        let parts = parts(text, *whole, &["∩", "\\cap", "\\bigcap"], &[]);
+        parts
+            .into_iter()
+            .map(|part| Piece::of(text, part))
+            .collect()
+    };
+    let pieces: Vec<Vec<Piece>> = pieces.iter().map(met).collect::<Option<_>>()?;
+    if let [only] = pieces.as_slice()
+        && let [piece] = only.as_slice()
         && !piece.is_set(sign.is_some() || pairs)
     {
         return None;
@@ -57,13 +63,20 @@ pub(super) fn interval(text: &str, symbols: &Symbols, pairs: bool) -> Option<Rea
             (name.content.clone(), name)
         }
         None => {
-            let end = pieces.iter().flat_map(Piece::values).next()?;
+            let end = pieces.iter().flatten().flat_map(Piece::values).next()?;
             (Content::Scalar(Expr::symbol(UNNAMED)), part(end)?)
         }
     };
     let mut cases = Vec::new();
-    for piece in &pieces {
-        cases.extend(piece.cases(&name, &|at| Some(part(at)?.content))?);
+    for met in &pieces {
+        let of = |piece: &Piece| piece.cases(&name, &|at| Some(part(at)?.content));
+        match met.as_slice() {
+            [piece] => cases.extend(of(piece)?),
+            all => {
+                let each = all.iter().map(|piece| joined(Join::Or, of(piece)?));
+                cases.push(joined(Join::And, each.collect::<Option<_>>()?)?);
+            }
+        }
     }
     reading.content = joined(Join::Or, cases)?;
     reading.literal = None;
@@ -202,9 +215,12 @@ pub(super) fn leaves_out(text: &str) -> bool {
 }
 
 /// The parts of a union of sets.
-fn pieces(text: &str, [from, stop]: [usize; 2]) -> Vec<[usize; 2]> {
-    const SIGNS: [&str; 3] = ["∪", "\\cup", "\\bigcup"];
-    const WORDS: [&str; 3] = ["U", "u", "or"];
+fn pieces(text: &str, within: [usize; 2]) -> Vec<[usize; 2]> {
+    parts(text, within, &["∪", "\\cup", "\\bigcup"], &["U", "u", "or"])
+}
+
+/// The parts of a text between signs, or words between brackets.
+fn parts(text: &str, [from, stop]: [usize; 2], signs: &[&str], words: &[&str]) -> Vec<[usize; 2]> {
     let mut out = Vec::new();
     let mut start = from;
     loop {
@@ -217,14 +233,14 @@ fn pieces(text: &str, [from, stop]: [usize; 2]) -> Vec<[usize; 2]> {
                     .trim_start()
                     .starts_with(['(', ']', '['])
         };
-        let word = |word: &'static str| {
+        let word = |word: &str| {
             let mut found = rest.match_indices(word).map(|(at, _)| at);
             Some((found.find(|at| between(word, *at))?, word.len()))
         };
-        let sign = SIGNS
+        let sign = signs
             .iter()
             .filter_map(|sign| Some((rest.find(sign)?, sign.len())));
-        let sign = sign.chain(WORDS.iter().filter_map(|name| word(name))).min();
+        let sign = sign.chain(words.iter().filter_map(|name| word(name))).min();
         let Some((at, length)) = sign else {
             out.push([start, stop]);
             return out;

@@ -73,6 +73,7 @@ impl<'a> Lexer<'a> {
             "operatorname" => self.operator(start),
             "begin" | "end" => self.environment(start, word == "begin"),
             "det" => Ok(Tok::Determinant),
+            "binom" | "dbinom" | "tbinom" => self.binomial(start),
             "mathrm" | "text" | "textrm" | "mathsf" | "mathbf" | "mathit" | "textbf" | "textit"
             | "boldsymbol" | "bm" | "mathcal" => self.font(start, word),
             "atop" | "choose" => {

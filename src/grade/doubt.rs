@@ -9,7 +9,7 @@ use crate::dimension;
 use crate::expr::{Expr, Node, Point, Symbol};
 use crate::formula::{self, Content, Fault, Note, Reading, Relation, Remark, Symbols};
 pub(super) use letters::{any_whole_number, euler, imaginary, primes};
-pub(super) use unread::{number, unread};
+pub(super) use unread::{commas, either_comma, number, unread};
 
 /// `cosθ^2`, read as the cosine of a square, would be right as the square of the cosine.
 pub(super) fn power_of_function(content: &Content) -> Option<Content> {

@@ -137,6 +137,8 @@ pub struct Key {
     pub(crate) range: Option<Box<Key>>,
     /// The same on parts of the domain, where it is given in cases.
     pub(crate) cases: Vec<Key>,
+    /// The key with a decimal comma, where a comma of its text is taken to part thousands and could be one: `1{,}234`.
+    pub(crate) decimals: Option<Box<Key>>,
     /// The direction in words behind the key: along x and y, and about the axis out of the page.
     pub(crate) direction: Option<[i32; 3]>,
     /// Whether the question says itself what e is.
@@ -197,6 +199,11 @@ pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
         Ok(reading) => reading,
         // `2.4 1/s` is no product of numbers and letters.
         Err(fault) => {
+            if let Some([thousands, decimals]) = doubt::commas(expected) {
+                let decimals = key(&decimals, question).ok().map(Box::new);
+                let key = key(&thousands, question)?;
+                return Ok(Key { decimals, ..key });
+            }
             let measured = formula::read(expected, &strict()).ok();
             let measured = measured.filter(|r| matches!(r.content, Content::Quantity(_)));
             return Ok(from_reading(measured.ok_or(fault)?, &closed()));
@@ -309,6 +316,7 @@ fn from_reading(mut reading: Reading, question: &Question) -> Key {
         quantity: None,
         range: None,
         cases: Vec::new(),
+        decimals: None,
         direction: None,
         declares_e,
         declares_i,
@@ -371,6 +379,13 @@ fn judge_within(key: &Key, answer: &str, options: &Options) -> Grade {
     }
     if let Some(grade) = cases::judge(key, answer, options) {
         return grade;
+    }
+    if let Some(decimals) = &key.decimals {
+        let thousands = Key {
+            decimals: None,
+            ..key.clone()
+        };
+        return doubt::either_comma([&thousands, decimals], answer, options);
     }
     let mut grade = judge_here(key, answer, options);
     // How a product of letters reads is no matter where the text is a quantity.

@@ -1,6 +1,6 @@
 //! Answers that cannot be read as they stand: numbers with two meanings, and words beside a box.
 
-use super::super::{Grade, Key, Options, judge_here, read};
+use super::super::{Grade, Key, Options, Verdict, judge_against, judge_here, read};
 use super::LONGEST;
 use crate::formula::Content;
 use crate::grade::read::mixed::{digits, mixed};
@@ -82,4 +82,38 @@ fn parted(text: &str, stands: impl Fn(&str) -> Option<usize>) -> Option<Vec<Stri
         }
     }
     (parts.len() > 1).then_some(parts)
+}
+
+/// An expected formula with one comma before three digits, as a number of thousands and as a decimal number.
+pub(in crate::grade) fn commas(expected: &str) -> Option<[String; 2]> {
+    let comma = |rest: &str| {
+        let mut signs = ["{,}", ","].into_iter();
+        let sign = signs.find(|sign| rest.starts_with(sign))?;
+        (digits(&rest[sign.len()..]) == 3).then_some(sign.len())
+    };
+    let inside = expected.trim_start().starts_with(['(', '[', '{', '\\']);
+    let parts = parted(expected, comma).filter(|parts| parts.len() == 2 && !inside)?;
+    let starts = parts[0].len()
+        - parts[0]
+            .trim_end_matches(|c: char| c.is_ascii_digit())
+            .len();
+    (1..4)
+        .contains(&starts)
+        .then(|| ["", "."].map(|sign| parts.join(sign)))
+}
+
+/// The grade against a number whose comma is taken to part thousands; undecided where it is right with a decimal comma.
+pub(in crate::grade) fn either_comma(keys: [&Key; 2], answer: &str, options: &Options) -> Grade {
+    let [thousands, decimals] = keys.map(|key| judge_against(key, answer, options));
+    let words = "the comma in the expected number parts thousands or decimals: the answer is right in one reading";
+    let mut grade = match (thousands.is_equivalent(), decimals.is_equivalent()) {
+        (false, true) => Grade::new(Verdict::Undecided, "UNDECIDED_AMBIGUOUS", "none", words),
+        _ => thousands,
+    };
+    if grade.is_equivalent() {
+        grade
+            .assumed
+            .push("the comma in the expected number parts thousands".into());
+    }
+    grade
 }
