@@ -4,8 +4,7 @@
 use std::collections::BTreeSet;
 
 use super::super::believed::Story;
-use super::bind::Values;
-use super::link::{Link, gaps, names_in};
+use super::link::{Link, Values, gaps, names_in};
 use super::names::named;
 use super::{Desk, Diagnosis, Found, MOMENT, Status};
 use crate::expr::{Expr, Symbol};
