@@ -122,6 +122,25 @@ fn every_check_of_every_shipped_scene_holds() {
 
 /// Equations of the book's own solution, counted in section 17.5.
 #[test]
+fn an_angle_with_a_fixed_part_is_held_against_the_solution_in_doubles() {
+    let text = r#"{"title": "a rod falls on the edge of a table, 30° more than θ above it",
+        "parameters": {"m": {"unit": "kg"}, "l": {"unit": "m"}, "v": {"unit": "m/s"},
+                       "theta": {"unit": "rad", "domain": {"min": 0, "max": "pi/4"}}},
+        "bodies": {"table": {"shape": "fixed"},
+                   "rod": {"shape": "rod", "mass": "m", "length": "l", "angle": "theta + pi/6", "velocity": [0, "-v"],
+                           "center": ["l/2*cos(theta + pi/6)", "l/2*sin(theta + pi/6)"]}},
+        "contacts": {"A": {"bodies": ["table", "rod"], "at": [0, 0], "law": "frictionless", "normal": "y",
+                           "restitution": 0}},
+        "questions": {"omega": {"spin": "rod"}}}"#;
+    let scene = carom::scene::read(text).unwrap_or_else(|f| panic!("{}", f.render("rod", text)));
+    let proof = prove(&scene, &derive(&scene).expect("a motion"));
+    let mut checks = proof.answers.iter().flatten();
+    let held = checks.find(|check| check.kind == "doubles");
+    let held = held.expect("a check in doubles");
+    assert_eq!(held.holds, Some(true), "{}", held.words);
+}
+
+#[test]
 fn no_derivation_uses_more_equations_than_the_book() {
     let book = [
         ("book/falling-stick", 3), // one for ω, two for the impulse

@@ -27,7 +27,7 @@ use crate::answer::{Answer, Check, Form};
 use crate::derive::Derivation;
 use crate::expr::{Expr, Point, Rational, Scalar, Symbol};
 use crate::formula::{Sentence, write_plain};
-use crate::numeric::{self};
+use crate::numeric::{self, points::with_angles};
 use crate::scene::{Ask, Scene};
 
 /// Exact points at which every answer is compared. The identity is the proof; these guard the laws themselves, and
@@ -119,7 +119,9 @@ pub fn prove(scene: &Scene, derivation: &Derivation) -> Proof {
     let needed = numeric::needed(scene);
     let points = (1..=POINTS).map(|seed| numeric::random_point(&needed, &scene.domains, seed));
     let points: Vec<Point<Rational>> = points.collect();
-    let rounded: Vec<Point<f64>> = points.iter().map(numeric::rounded).collect();
+    // A sum of angles such as θ + π/6 has no direction in fractions, but a value.
+    let rounded = points.iter().map(numeric::rounded);
+    let rounded: Vec<Point<f64>> = rounded.map(|point| with_angles(&point)).collect();
     proof.scene.extend(inertia::check(scene, &rounded));
     let runs = runs(scene, &needed, points);
     let in_doubles = rounded.into_iter();
