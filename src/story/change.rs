@@ -9,6 +9,7 @@ use crate::answer::calc::{Seen, essential, is_zero, sign};
 use crate::domain::Domains;
 use crate::expr::{Expr, minus};
 use crate::formula::listed;
+use crate::story::UNDETERMINED;
 
 /// What becomes of every body that moves; those of which the same is said stand together.
 pub(super) fn words(told: &StageTold, case: &Case) -> Vec<String> {
@@ -97,7 +98,7 @@ impl Change<'_> {
         let (before, after) = (&self.told.before, &self.case.after);
         let parts = [before, after].map(|s| s.velocity[self.b].iter().chain([&s.spin[self.b]]));
         if let Some(why) = after.why_open(parts.into_iter().flatten()) {
-            let around = match why.strip_suffix(" do not determine it") {
+            let around = match why.strip_suffix(UNDETERMINED) {
                 Some(laws) => [format!("{laws} do not determine how "), " moves".into()],
                 None => ["how ".into(), format!(" moves is not determined: {why}")],
             };

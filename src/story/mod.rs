@@ -43,6 +43,9 @@ use crate::expr::{Expr, Point, Symbol, Vector, effort};
 use crate::formula::{sentence, write_plain};
 use crate::scene::{Ask, Scene, Stage, StageKind};
 
+/// How the reason ends why a part of a motion is open that laws leave open.
+const UNDETERMINED: &str = " do not determine it";
+
 impl Refused {
     fn new(stage: &str, reason: impl Into<String>, hint: impl Into<String>) -> Refused {
         let at = match stage {

@@ -12,6 +12,7 @@ pub(super) use reached::{
     tell,
 };
 
+use crate::story::UNDETERMINED;
 use ways::{each_outcome, each_way, happens_where, quantity, rests_on, supposed, ways};
 
 use std::collections::BTreeSet;
@@ -168,9 +169,7 @@ fn resting(scene: &Scene, stages: &[StageTold], answers: &[Answer], i: usize) ->
 /// Lets an answer that the laws of an impact leave open say what would close it.
 fn say_what_is_missing(answer: &mut Answer) {
     let why = answer.text.first().map(Sentence::to_string);
-    if matches!(answer.form, Form::Open(_))
-        && why.is_some_and(|why| why.ends_with(" do not determine it"))
-    {
+    if matches!(answer.form, Form::Open(_)) && why.is_some_and(|why| why.ends_with(UNDETERMINED)) {
         let hint = "`after` may say what is known just after, along x and along y";
         answer.text.push(hint.into());
     }
@@ -201,10 +200,16 @@ pub(super) fn needs_open(ask: &Ask, known: &Known, earlier: &[Answer]) -> Option
             .or_else(|| open.left_open().map(Sentence::words))
             .unwrap_or_default();
         let name = Expr::symbol(&open.name);
-        Some(match why.to_string().strip_prefix("not determined: it ") {
-            Some(why) => sentence!("it needs {}, which {}", &name, why),
-            None => sentence!("it needs {}, which is {}", &name, why),
-        })
+        let why = why.to_string();
+        let reason = why.strip_prefix("not determined: ");
+        let laws = reason.and_then(|reason| reason.strip_suffix(UNDETERMINED));
+        Some(
+            match (laws, reason.and_then(|why| why.strip_prefix("it "))) {
+                (Some(laws), _) => sentence!("it needs {}, which {} do not determine", &name, laws),
+                (None, Some(why)) => sentence!("it needs {}, which {}", &name, why),
+                (None, None) => sentence!("it needs {}, which is {}", &name, why),
+            },
+        )
     })
 }
 

@@ -1,6 +1,7 @@
 //! What comes into an impact: the bodies have to be where they touch, move alike where they are joined and approach where they
 //! collide; and the motion that earlier stages hand on gets symbols.
 
+use crate::story::UNDETERMINED;
 use std::collections::BTreeMap;
 
 use num_traits::Signed;
@@ -97,7 +98,7 @@ pub(super) fn touches(
 
 /// What would close a place that is open: what is known after an impact that does not determine the motion, or another end.
 fn unsaid(why: &str, body: &str) -> String {
-    match why.ends_with(" do not determine it") {
+    match why.ends_with(UNDETERMINED) {
         true => format!(
             "say in that impact what is known of it just after, along x and along y, as in \"after\": [{{\"velocity\": \"{body}\", \"along\": \"y\", \"is\": 0}}]"
         ),

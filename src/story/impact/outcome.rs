@@ -1,5 +1,6 @@
 //! One outcome of an impact: these supports act and friction goes this way, under conditions; and the motion just after.
 
+use crate::story::UNDETERMINED;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::algebra::Sign;
@@ -379,7 +380,7 @@ pub(super) fn state_after(stage: &Stage, before: &State, case: &Case) -> Result<
     scene.questions.clear();
     let g = crate::laws::Geometry::symbolic(&scene);
     let full = crate::laws::Kinematics::full(&scene, &g);
-    let why = format!("the laws of `{}` do not determine it", stage.name);
+    let why = format!("the laws of `{}`{UNDETERMINED}", stage.name);
     for b in 0..scene.bodies.len() {
         let body = &scene.bodies[b];
         if !scene.has_law(b) {

@@ -26,6 +26,7 @@ pub(super) use turn::{angular, arms, pivot_force, sense, turn};
 pub(super) use wind::wind;
 
 use crate::answer::calc::{Seen, sign, tidy};
+use crate::story::UNDETERMINED;
 
 use super::{Kept, Refused, StageTold, State};
 use crate::algebra::Sign;
@@ -139,6 +140,12 @@ pub(super) fn leads_nowhere(stage: &Stage, before: State, why: &str) -> StageTol
     }
     meanwhile::others(stage, &before, &mut after, None);
     let mut out = StageTold::new(stage, before, after);
-    out.words = vec![sentence!("where this leads is open: {}", &why)];
+    out.words = vec![match why.strip_suffix(UNDETERMINED) {
+        Some(laws) => sentence!(
+            "where this leads is open, since {} do not determine how it begins",
+            laws
+        ),
+        None => sentence!("where this leads is open: {}", &why),
+    }];
     out
 }
