@@ -5,7 +5,7 @@
 
 use super::{Diagnosis, Grade, Key, Options, Question, Verdict, judge_here, key, unreadable};
 use crate::algebra::{Sign, sign};
-use crate::domain::{Domain, Domains, roles, samples};
+use crate::domain::{Domain, Domains, Relation, roles, samples};
 use crate::expr::Expr;
 use crate::formula::{self, Content, Fault, Join, Symbols};
 
@@ -128,8 +128,16 @@ fn parts(
 
 /// Whether two relations of a domain, or one, leave no more of it than a boundary.
 fn is_thin(domain: &Domains, whole: &Domains) -> bool {
-    let never = |e: &Expr| matches!(sign(e, whole), Some(Sign::Negative | Sign::Zero));
-    let all: Vec<&Expr> = domain.relations.iter().map(|r| &r.excess).collect();
+    let seen = |e: &Expr| sign(e, whole);
+    let never = |e: &Expr| matches!(seen(e), Some(Sign::Negative | Sign::Zero));
+    // 0 ≥ 0 says nothing: it leaves all of the domain.
+    let says = |r: &&Relation| !(r.closed && seen(&r.excess) == Some(Sign::Zero));
+    let all: Vec<&Expr> = domain
+        .relations
+        .iter()
+        .filter(says)
+        .map(|r| &r.excess)
+        .collect();
     let against =
         |(i, e): (usize, &&Expr)| never(e) || all[..i].iter().any(|other| never(&(*e + *other)));
     all.iter().enumerate().any(against)
