@@ -188,11 +188,16 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
 /// Tells of lines that hold as data that the numbers in them are the student's own: the scene gives none.
 fn tell_own_data(sheet: &Sheet, plain: &str, worked: &mut Worked) {
     let texts: Vec<&str> = plain.lines().collect();
+    // The place of a largest or least value is a result, and no data.
+    let mut sought = sought::sought(sheet);
+    sought.retain(|s| s.condition.is_none());
+    let is_sought = |name: &Symbol| sought.iter().any(|s| s.parameter == *name);
     let holds = |line: &&mut Line| line.status == Status::Holds && line.diagnosis.is_empty();
     for line in worked.lines.iter_mut().filter(holds) {
         let text = texts.get(line.number - 1).copied().unwrap_or_default();
         let own = pages::numbers(sheet, text).unwrap_or_default();
-        let names: Vec<&str> = own.iter().map(|(name, _)| &**name).collect();
+        let own = own.iter().filter(|(name, _)| !is_sought(name));
+        let names: Vec<&str> = own.map(|(name, _)| &**name).collect();
         if !names.is_empty() {
             let words = format!(
                 "a number of your own: the scene gives {} no value",

@@ -1,6 +1,7 @@
 //! What a line leaves open that fails as it is read: of which moment its rates are, what a name stands for that was said anew
 //! and not read, and what its words only suppose.
 
+use super::sought::Sought;
 use std::collections::BTreeSet;
 
 use super::super::believed::Story;
@@ -113,7 +114,10 @@ impl Desk<'_> {
         let [name, value] = link.sides.each_ref().map(Content::expr);
         let (name, value) = (name?.as_symbol()?, value?);
         let is_given = |e: &Expr| e.symbols().iter().all(|other| self.is_given(other));
-        if !self.is_given(name) || !is_given(value) || value.mentions(name) {
+        // The place of a largest or least value is a result, and no supposition.
+        let is_place = |s: &Sought| s.condition.is_none() && s.parameter == *name;
+        let is_sought = self.sought.iter().any(is_place);
+        if is_sought || !self.is_given(name) || !is_given(value) || value.mentions(name) {
             return None;
         }
         let changed = self.closed.iter().filter(|(_, found)| found.mentions(name));
