@@ -107,6 +107,19 @@ impl Worked {
         all
     }
 
+    /// What of its impacts was neither shown nor refuted, each once.
+    fn undecided(&self) -> Vec<String> {
+        let cases = self.told.stages.iter().flat_map(|s| &s.cases);
+        let cases = cases.filter(|case| !case.derivation.counting.contradictory);
+        let mut all: Vec<String> = Vec::new();
+        for what in cases.flat_map(|case| case.possible.undecided()) {
+            if !all.contains(&what) {
+                all.push(what);
+            }
+        }
+        all
+    }
+
     fn contradictions(&self) -> impl Iterator<Item = String> {
         self.told.ended.iter().map(ToString::to_string)
     }
@@ -139,6 +152,9 @@ impl Worked {
         let mut solution = solution::write(&self.scene, &self.told, detail);
         for why in self.refusals() {
             solution.begin_with(&format!("{why}."));
+        }
+        for what in self.undecided() {
+            solution.end_with(&self.scene, &format!("Not judged: {what}."));
         }
         solution
     }

@@ -213,9 +213,9 @@ pub(super) fn seen(e: &Expr, domains: &Domains) -> Seen {
     }
 }
 
-/// Whether values above and below zero are found in the domain.
+/// Whether values above and below zero are found in the domain, far out too.
 pub fn has_both_signs(e: &Expr, domains: &Domains) -> bool {
-    matches!(met(e, domains, POINTS), (1.., 1..))
+    matches!(met_anywhere(e, domains), (1.., 1..))
 }
 
 /// The same at so many points only as take less than a proof: where both signs are found there is none to be proved.

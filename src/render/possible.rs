@@ -37,18 +37,15 @@ pub fn check(scene: &Scene, possible: &Possible) -> Option<Check> {
             String::from("what touches pushes and parts, for all admitted parameters")
         }
         Verdict::Everywhere => String::from("possible for all admitted parameters"),
-        Verdict::Where => format!("possible on a part of the domain only{at_values}"),
+        Verdict::Where => match not_decided(possible) {
+            Some(open) => format!("possible on a part of the domain at most; {open}{at_values}"),
+            None => format!("possible on a part of the domain only{at_values}"),
+        },
         Verdict::Nowhere => String::from("possible nowhere"),
-        Verdict::Undecided => {
-            let open = possible.conditions.iter();
-            let open = open.filter(|c| c.verdict == Verdict::Undecided);
-            let mut open: Vec<&str> = open.map(|c| c.words.as_str()).collect();
-            open.dedup();
-            match open.as_slice() {
-                [] => String::from("possible as far as it could be judged"),
-                open => format!("not decided whether {}{at_values}", open.join(", ")),
-            }
-        }
+        Verdict::Undecided => match not_decided(possible) {
+            Some(open) => format!("{open}{at_values}"),
+            None => String::from("possible as far as it could be judged"),
+        },
     };
     let holds = match (possible.verdict, possible.at_values) {
         (Verdict::Nowhere, _) | (_, Some(false)) => Some(false),
@@ -57,6 +54,15 @@ pub fn check(scene: &Scene, possible: &Possible) -> Option<Check> {
         _ => None,
     };
     Some(Check::new("possible", words, holds))
+}
+
+/// The conditions that are neither shown nor refuted for symbols.
+fn not_decided(possible: &Possible) -> Option<String> {
+    let open = possible.conditions.iter();
+    let open = open.filter(|c| c.verdict == Verdict::Undecided);
+    let mut open: Vec<&str> = open.map(|c| c.words.as_str()).collect();
+    open.dedup();
+    (!open.is_empty()).then(|| format!("not decided whether {}", open.join(", ")))
 }
 
 /// The verdict as data.

@@ -102,6 +102,11 @@ impl Solution {
         };
         self.sections.insert(0, first);
     }
+
+    /// Lets the text end with what it leaves open.
+    pub fn end_with(&mut self, scene: &Scene, open: &str) {
+        self.text(vec![Inline::Text(sentence::called(scene, open))]);
+    }
 }
 
 /// What a symbol stands for, in terms of the scene, so that another program can find its value on its own.

@@ -9,9 +9,9 @@ use crate::algebra::Sign;
 use crate::answer::Known;
 use crate::answer::calc::{Seen, essential, is_zero, sign, tidy};
 use crate::domain::Domains;
-use crate::expr::{Expr, Vector, minus};
+use crate::expr::{Expr, Vector, cross, minus};
 use crate::formula::{Sentence, sentence};
-use crate::scene::{Stage, StageKind, Turn};
+use crate::scene::{OneSided, Stage, StageKind, Turn};
 
 /// A contact that grips what turns about it, unless it only has to push.
 #[derive(Clone, Debug, PartialEq)]
@@ -134,6 +134,35 @@ pub(super) fn pulls(
         before = Some(need);
     }
     told
+}
+
+/// The string on which a particle turns since the last impact in which one was taut along the line to its fixed point.
+pub(super) fn string(
+    stage: &Stage,
+    stages: &[StageTold],
+    branch: Option<(usize, usize)>,
+    turn: &Turn,
+) -> Option<String> {
+    let mut bodies = turn.bodies().into_iter();
+    if !bodies.all(|b| stage.scene.bodies[b].is_particle()) {
+        return None;
+    }
+    let domains = &stage.scene.domains;
+    let before = branch.into_iter().flat_map(|at| line(stages, at));
+    before.into_iter().find_map(|(i, k)| {
+        let case = stages[i].cases.get(k)?;
+        let StageKind::Impact { one_sided, .. } = &stages[i].placed.kind else {
+            return None;
+        };
+        let is_taut = |o: &&OneSided| {
+            let line = minus(&turn.about, &case.after.center[turn.body]);
+            o.is_string
+                && o.bodies.contains(&turn.body)
+                && (case.active.contains(&o.name) || case.idle.contains(&o.name))
+                && is_zero(&cross(&o.normal, &line), domains) == Some(true)
+        };
+        one_sided.iter().find(is_taut).map(|o| o.name.clone())
+    })
 }
 
 /// The contact that holds the fixed point of a rotation since the last impact there; `None` where a hinge or a string does.

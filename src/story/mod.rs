@@ -151,7 +151,7 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
                 }
             }
             let begins = several.then(|| before.clone());
-            let told = one(scene, &stages, &placed, (before, &given))
+            let told = one(scene, &stages, &placed, branch, (before, &given))
                 .map(|told| motion::stays_in_front(&placed, &stages, branch, told))
                 .and_then(|told| motion::riders_stay(&placed, &stages, branch, told))
                 .and_then(|told| impact::stays_held(&placed, &stages, branch, told))
@@ -290,6 +290,7 @@ fn one(
     scene: &Scene,
     stages: &[StageTold],
     stage: &Stage,
+    branch: Option<(usize, usize)>,
     (before, given): (State, &[(String, Expr)]),
 ) -> Result<StageTold, Refused> {
     if !stage.kind.moved().is_empty() {
@@ -314,7 +315,10 @@ fn one(
             let acting = (one_sided.as_slice(), supposed.as_deref());
             impact::tell(&scene.stages, stage, before, acting, &named, given)
         }
-        StageKind::Turn(turn) => motion::turn(stage, before, turn),
+        StageKind::Turn(turn) => {
+            let string = grips::string(stage, stages, branch, turn);
+            motion::turn(stage, before, turn, string.as_deref())
+        }
         StageKind::Slide(slide) => {
             let mine = scene
                 .questions

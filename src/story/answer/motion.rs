@@ -284,6 +284,9 @@ pub(super) fn tension(question: &Question, told: &StageTold, body: usize) -> Ans
 pub(super) fn distance(question: &Question, told: &StageTold) -> Answer {
     let stage = &told.placed.name;
     let words = match turns_back(told) {
+        true if is_carried(told) => format!(
+            "displacement along the body below in `{stage}`, in the sense in which it sets out"
+        ),
         true => format!("displacement in `{stage}`, negative where it ends behind its beginning"),
         false if is_carried(told) => format!("distance along the body below in `{stage}`"),
         false => format!("distance covered in `{stage}`"),
@@ -308,12 +311,16 @@ fn turns_back(told: &StageTold) -> bool {
     let StageKind::Slide(slide) = &told.placed.kind else {
         return false;
     };
-    let forward = |state: &State| {
-        let speed = dot(&state.velocity[slide.body], &slide.along);
-        let seen = sign(&speed, &told.placed.scene.domains);
+    let goes = |way: i64, state: &State| {
+        let mut speed = dot(&state.velocity[slide.body], &slide.along);
+        if let Some(below) = &slide.on {
+            speed = speed - dot(&state.velocity[below.body], &slide.along);
+        }
+        let seen = sign(&(Expr::from(way) * speed), &told.placed.scene.domains);
         seen.is_positive() || matches!(seen, Seen::Proved(s) if s.is_not_negative())
     };
-    matches!(slide.until, SlideEnd::Rolls) && !(forward(&told.before) && forward(&told.after))
+    let keeps_on = |way: i64| goes(way, &told.before) && goes(way, &told.after);
+    matches!(slide.until, SlideEnd::Rolls) && !(keeps_on(1) || slide.on.is_some() && keeps_on(-1))
 }
 
 /// The angle through which a body turns.

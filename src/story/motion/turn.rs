@@ -4,6 +4,7 @@ mod begin;
 mod top;
 
 use super::bearing::bearing;
+use super::supposed::Supposed;
 use super::{arrival, balance, half, kept, meanwhile, pushed, tidied};
 use crate::answer::calc::{Seen, at_least_zero, is_zero, sign, tidy};
 use crate::answer::solve::real;
@@ -25,6 +26,7 @@ pub(in crate::story) fn turn(
     stage: &Stage,
     mut before: State,
     turn: &Turn,
+    string: Option<&str>,
 ) -> Result<StageTold, Refused> {
     let domains = &stage.scene.domains;
     let body = &stage.scene.bodies[turn.body];
@@ -58,7 +60,12 @@ pub(in crate::story) fn turn(
     let parts = work(stage, turn, &lump, arms, through.as_ref())?;
     let (work, end, reaches) = balance(stage, turn.body, &start, &parts)?;
     let (mut needs, mut besides, mut assumptions) = (Vec::new(), Vec::new(), Vec::new());
-    let hurdle = hurdle(stage, turn, &r, &start, way)?;
+    // On a string it has to get over the top so fast that the string pulls there still, v² ≥ g ℓ.
+    let spare = string.map_or_else(Expr::zero, |_| {
+        let weight = &lump.mass * &turn.gravity.clone().unwrap_or_else(Expr::zero);
+        half(&(&weight * &dot(&r, &r).sqrt()))
+    });
+    let hurdle = hurdle(stage, turn, &r, &(&start - &spare), way)?;
     for (need, words) in hurdle.into_iter().chain(kept_below) {
         let all = match words.is_partial() {
             true => &mut besides,
@@ -120,7 +127,46 @@ pub(in crate::story) fn turn(
     out.needs = needs;
     out.besides = besides;
     out.assumptions = assumptions;
+    if let Some(string) = string {
+        stays_taut(&mut out, turn, way, string)?;
+    }
     Ok(out)
+}
+
+/// What a string needs so that it pulls all the way: its pull is least where the particle is highest, at one of the ends or at
+/// the top.
+fn stays_taut(told: &mut StageTold, turn: &Turn, way: i64, string: &str) -> Result<(), Refused> {
+    if told.energy.is_none() {
+        return Ok(());
+    }
+    let stage = &told.placed;
+    let arms = arms(stage, turn, &told.before.spin[turn.body]);
+    let pull = |at_end: bool| {
+        let along = &arms[usize::from(at_end)];
+        tidied(stage, &-pivot_force(told, turn, way, along, at_end))
+    };
+    let [first, last] = [pull(false)?, pull(true)?];
+    let is_less = |a: &Expr, b: &Expr| {
+        let less = sign(&(b - a), &stage.scene.domains);
+        matches!(less, Seen::Proved(s) if s.is_not_negative())
+    };
+    let ends = match () {
+        () if is_less(&last, &first) => vec![last],
+        () if is_less(&first, &last) => vec![first],
+        () => vec![first, last],
+    };
+    let mut supposed = Supposed::of(stage);
+    for pull in ends {
+        supposed.not_negative(&pull, format!("the string `{string}` stays taut"), || {
+            let why = format!("the string `{string}` goes slack on the way");
+            let hint = "end the stage where it still pulls, and let a `fall` follow; what can push as well is a rod: a body of mass \"0\" joined to it";
+            Refused::new(&stage.name, why, hint)
+        })?;
+    }
+    let Supposed { needs, words, .. } = supposed;
+    told.needs.extend(needs);
+    told.assumptions.extend(words);
+    Ok(())
 }
 
 /// The spin to which work has brought a rotation: in a given time a moment may also turn it back.

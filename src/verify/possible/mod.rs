@@ -175,6 +175,16 @@ impl Possible {
         Some(format!("not possible: {reasons}, {whatever}{may}"))
     }
 
+    /// What was looked at and is neither shown nor refuted, nor decided by given values; and what could not be judged.
+    pub fn undecided(&self) -> Vec<String> {
+        let open = self.conditions.iter();
+        let open = open.filter(|c| c.verdict == Verdict::Undecided && c.at_values.is_none());
+        let mut all: Vec<String> = open.map(|c| format!("whether {}", c.words)).collect();
+        all.dedup();
+        all.extend(self.not_judged.iter().cloned());
+        all
+    }
+
     /// Why it cannot happen; empty where it can.
     pub fn reasons(&self) -> Vec<&str> {
         let mut reasons: Vec<&str> = Vec::new();
@@ -254,7 +264,7 @@ pub fn judge(scene: &Scene, derivation: &Derivation) -> Possible {
         notes: Vec::new(),
     };
     if derivation.counting.contradictory {
-        let words = String::from("the motion after: the laws contradict each other");
+        let words = String::from("the motion after, since the laws contradict each other");
         judge.not_judged.push(words);
     } else {
         for i in 0..scene.contacts.len() {
@@ -287,13 +297,26 @@ impl Judge<'_> {
             self.relative(contact, &contact.at, true),
         ];
         let impulse = self.impulse(i);
+        if !sticks
+            && !contact.passes
+            && !contact.is_string
+            && let Some(why) = sides::misfit(self.scene, contact)
+        {
+            self.conditions.push(Condition {
+                rule: Rule::Place,
+                words: format!("the outlines fit each other at `{name}`"),
+                otherwise: why,
+                verdict: Verdict::Nowhere,
+                essential: None,
+                is_equation: false,
+                at_values: None,
+            });
+        }
         let sides = sides::of(self.scene, contact);
         if sides.list.is_empty() && contact.passes {
             self.comes_out(name, dot(&before, &after), None);
         } else if sides.list.is_empty() && !sticks {
-            self.not_judged.push(format!(
-                "the motion at `{name}`: neither the scene nor an outline gives a normal"
-            ));
+            self.without_normal(contact, &before, &after, &impulse);
         }
         for Side {
             normal,
@@ -361,6 +384,44 @@ impl Judge<'_> {
         }
         if !contact.passes {
             self.along_sides(contact, &before, &sides);
+        }
+    }
+
+    /// Two particles that meet and go on along one line have that line for a normal, and none where they start together; of
+    /// anything else nothing tells which way the bodies face each other.
+    fn without_normal(
+        &mut self,
+        contact: &Contact,
+        before: &Vector,
+        after: &Vector,
+        impulse: &Vector,
+    ) {
+        let vanishes = |e: &Expr| {
+            let closed = self.closed(e);
+            closed.is_some_and(|closed| is_zero(&closed, &self.scene.domains))
+        };
+        let are_particles = contact
+            .bodies
+            .iter()
+            .all(|b| self.scene.bodies[*b].is_particle());
+        if are_particles && before.iter().all(vanishes) {
+            return;
+        }
+        let name = &contact.name;
+        let across = &before[0] * &after[1] - &before[1] * &after[0];
+        // Without an impulse they pass beside each other.
+        if are_particles && vanishes(&across) && !impulse.iter().all(vanishes) {
+            self.claim(
+                Rule::Apart,
+                format!("the bodies do not enter each other at `{name}`"),
+                format!("the bodies pass through each other at `{name}`"),
+                -dot(before, after),
+                None,
+            );
+        } else {
+            self.not_judged.push(format!(
+                "whether the bodies pass through each other at `{name}`, since neither the scene nor an outline gives a normal there"
+            ));
         }
     }
 

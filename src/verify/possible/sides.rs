@@ -119,6 +119,102 @@ pub(super) fn of(scene: &Scene, contact: &Contact) -> Sides {
     sides
 }
 
+/// Why the outlines of two bodies that touch do not fit the contact, whatever happens there: they overlap, or the given normal
+/// is none of theirs. `None` where nothing of that is proved.
+///
+/// Where an outline is smooth its own normal is the only one; at a corner all between those of the two sides are normals, at the
+/// end of a rod all that lead away from it (normal cone: Glocker, "Set-Valued Force Laws", ch. 4).
+pub(super) fn misfit(scene: &Scene, contact: &Contact) -> Option<String> {
+    let domains = &scene.domains;
+    let is_sure = |e: &Expr| sign(e, domains);
+    let bodies = contact.bodies.map(|b| &scene.bodies[b]);
+    let cones = bodies.map(|b| Cone::of(b, contact, domains));
+    let is_across = |cone: &Cone, out: &Vector| {
+        let mut off = cone.across.iter().map(|n| is_sure(&cross(n, out)));
+        off.any(|s| matches!(s, Some(Sign::Positive | Sign::Negative)))
+    };
+    let excludes = |cone: &Cone, out: &Vector| {
+        let mut within = cone.within.iter();
+        is_across(cone, out) || within.any(|n| is_sure(&dot(n, out)) == Some(Sign::Negative))
+    };
+    let name = &contact.name;
+    for (k, other) in [(0, 1), (1, 0)] {
+        let mut smooth = cones[k].across.iter();
+        // The other body is on the far side of a smooth outline; a thin rod has both sides free.
+        let meets = smooth.any(|n| match cones[k].within.is_empty() {
+            true => !cones[other].across.is_empty() && excludes(&cones[other], n),
+            false => excludes(&cones[other], &negated(n)),
+        });
+        if meets {
+            let [a, b] = bodies.map(|b| &b.name);
+            return Some(format!("`{a}` and `{b}` overlap at `{name}`"));
+        }
+    }
+    if let Some(normal) = &contact.normal {
+        for (k, out) in [normal.clone(), negated(normal)].iter().enumerate() {
+            // On a smooth outline a normal that is turned round is told as such.
+            let is_turned = !cones[k].across.is_empty() && !is_across(&cones[k], out);
+            if !is_turned && excludes(&cones[k], out) {
+                let body = &bodies[k].name;
+                return Some(format!(
+                    "the normal at `{name}` is none of the outline of `{body}` there"
+                ));
+            }
+        }
+    }
+    None
+}
+
+/// Directions that bound the normals of a body at a contact.
+#[derive(Default)]
+struct Cone {
+    /// Normals are parallel to these.
+    across: Vec<Vector>,
+    /// Normals have no component against these.
+    within: Vec<Vector>,
+}
+
+impl Cone {
+    fn of(body: &Body, contact: &Contact, domains: &Domains) -> Cone {
+        let mut cone = Cone::default();
+        // Where parts of a composite meet, neither side is out for sure.
+        if pieces(body).len() != 1 {
+            return cone;
+        }
+        let is_met = |need: &Need| match need {
+            Need::Zero(e) => is_zero(e, domains),
+            Need::NotNegative(_) => decide::need(need, domains).verdict == Verdict::Everywhere,
+        };
+        let spots = touch::spots(body, &contact.at, false).into_iter();
+        let sure: Vec<_> = spots.filter(|spot| spot.needs.iter().all(is_met)).collect();
+        let alone = sure.len() == 1;
+        for spot in sure {
+            let Some(out) = spot.out else { continue };
+            let is_end = |need: &Need| matches!(need, Need::NotNegative(e) if is_zero(e, domains));
+            let is_smooth = alone && !spot.needs.iter().any(is_end);
+            if is_smooth {
+                cone.across.push(out.normal.clone());
+            }
+            match (out.either_side, &out.ends) {
+                (false, _) => cone.within.push(out.normal),
+                (true, Some(ends)) if !is_smooth => {
+                    let at_first = minus(&ends[0], &contact.at)
+                        .iter()
+                        .all(|c| is_zero(c, domains));
+                    let [from, to] = if at_first {
+                        [&ends[1], &ends[0]]
+                    } else {
+                        [&ends[0], &ends[1]]
+                    };
+                    cone.within.push(minus(to, from));
+                }
+                _ => {}
+            }
+        }
+        cone
+    }
+}
+
 /// The sides of a body on which a contact lies, for certain or where its parameters let it lie on the body at all.
 fn faces(body: &Body, contact: &Contact, domains: &Domains) -> Vec<Face> {
     let mut faces = Vec::new();

@@ -36,6 +36,8 @@ struct Pair {
     is_belt: bool,
     /// 1 where the upper body slides along the line over the lower one, −1 where it slides back.
     sense: f64,
+    /// The same of the center, as it sets out: a round body may go one way and slip the other.
+    ahead: f64,
 }
 
 impl Pair {
@@ -75,12 +77,20 @@ impl Pair {
             contact,
             is_belt,
             sense: 1.0,
+            ahead: 1.0,
         };
         let start = out.movers.start(&PLAIN);
         let fastest = out.speeds(&start).map(f64::abs).into_iter().sum::<f64>();
         if out.slip(&PLAIN, &start) < -ROUNDING * fastest {
             out.sense = -1.0;
         }
+        let [upper, lower] = out.speeds(&start);
+        out.ahead = match (out.contact, upper - lower) {
+            (None, _) => out.sense,
+            // Friction drives the center against the slip.
+            (Some(_), apart) if apart.abs() <= ROUNDING * fastest => -out.sense,
+            (Some(_), apart) => apart.signum(),
+        };
         Ok(out)
     }
 
@@ -184,12 +194,16 @@ impl Pair {
                 let far = course.number(s, "distance")? / units.length;
                 let apart = |y: &[f64]| {
                     let i = 3 * self.company;
-                    self.sense * dot(&[y[0] - y[i], y[1] - y[i + 1]], &self.along)
+                    self.ahead * dot(&[y[0] - y[i], y[1] - y[i + 1]], &self.along)
                 };
                 let from = apart(&start);
+                let gains = |y: &[f64]| {
+                    let [upper, lower] = self.speeds(y);
+                    self.ahead * (upper - lower)
+                };
                 let mut goal = Goal {
                     left: &|y| apart(y) - from - far,
-                    rate: &slips,
+                    rate: &gains,
                     never: &mut |y, _| slips(y) <= 0.0,
                 };
                 mechanism.until(&start, &mut goal)
@@ -278,7 +292,7 @@ pub(super) fn carried(
     });
     let moved = Moved {
         bodies: movers.bodies.clone(),
-        slides_back: pair.sense < 0.0,
+        slides_back: pair.ahead < 0.0,
         driven: driven.collect(),
         samples,
         ..Moved::default()

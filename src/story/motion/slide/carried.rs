@@ -103,6 +103,7 @@ pub(super) fn carried<'a>(
     let energies = [energy(&pair.speeds, &spins[0])?, energy(&ends, &spins[1])?];
     let slipped = &(&slip * &time) + &half(&(&rate * &time.powi(2)));
     let work = pair.work(&works, &slipped);
+    let is_counted = pair.ahead().is_some();
     let (momentum, rubs, energy_kept) = (pair.keeps_momentum(), pair.rubs(), pair.energy_kept());
     let Pair {
         mut supposed,
@@ -124,7 +125,7 @@ pub(super) fn carried<'a>(
     out.energy = Some(energies);
     out.work = work;
     out.time = Some(time);
-    out.way = Some(way);
+    out.way = Some(way).filter(|_| is_counted);
     out.steps = steps;
     let [own, _] = accelerations;
     out.acceleration = Some(own);
@@ -267,6 +268,22 @@ impl<'a> Pair<'a> {
         [&self.speeds, &self.accelerations].map(|[upper, lower]| upper - lower)
     }
 
+    /// The sense in which the center of the upper body sets out over the lower one, 1 or −1: a round body may go one way and
+    /// slip the other. `None` where it is not decided.
+    fn ahead(&self) -> Option<i64> {
+        if self.round.is_none() {
+            return proved(&self.sense, &self.stage.scene.domains);
+        }
+        let mut signs = self.apart().into_iter().map(|e| {
+            let e = self.tidied(&e).ok()?;
+            proved(&e, &self.stage.scene.domains)
+        });
+        match signs.next()? {
+            Some(0) => signs.next()?,
+            sign => sign,
+        }
+    }
+
     /// The same where they touch.
     fn slip(&self) -> Result<[Expr; 2], Refused> {
         let mut out = self.apart();
@@ -337,10 +354,12 @@ impl<'a> Pair<'a> {
     ) -> Result<(Expr, Expr), Refused> {
         let domains = &self.stage.scene.domains;
         let upper = self.slide.body;
-        // What follows is counted in the sense of the slip.
+        // What follows is counted in the sense of the slip, and the way in the sense in which the center sets out.
         let forward = |e: &Expr| &self.sense * e;
         let [slip, rate] = [forward(slip), forward(rate)].map(|e| self.tidied(&e));
-        let ([slip, rate], [apart, parts]) = (&[slip?, rate?], self.apart().map(|e| forward(&e)));
+        let ahead = Expr::from(self.ahead().unwrap_or(1));
+        let (slip, rate) = (&slip?, &rate?);
+        let [apart, parts] = self.apart().map(|e| &ahead * &e);
         let far = |t: &Expr| &(&apart * t) + &half(&(&parts * &t.powi(2)));
         let rolls = matches!(self.slide.until, SlideEnd::Rolls);
         let early = match self.round {
@@ -357,14 +376,19 @@ impl<'a> Pair<'a> {
                 return Ok((t.clone(), way));
             }
             SlideEnd::Distance(s) => {
-                let square = &slip.powi(2) + &(&(&Expr::from(2) * rate) * s);
+                let [apart, parts] = [&apart, &parts].map(|e| self.tidied(e));
+                let (apart, parts) = (apart?, parts?);
+                let square = &apart.powi(2) + &(&(&Expr::from(2) * &parts) * s);
                 let square = self.tidied(&square)?;
                 self.needs(&square, early, "slides so far", upper)?;
-                let end = self.tidied(&square.sqrt())?;
-                let time = match is_zero(rate, domains) {
-                    Some(true) => s / slip,
-                    _ => &(&end - slip) / rate,
+                let time = match is_zero(&parts, domains) {
+                    Some(true) => s / &apart,
+                    _ => &(&self.tidied(&square.sqrt())? - &apart) / &parts,
                 };
+                if self.round.is_some() {
+                    let end = self.tidied(&(slip + &(rate * &time)))?;
+                    self.needs(&end, early, "slides to the end of the stage", upper)?;
+                }
                 (time, Some(s.clone()))
             }
             _ => {
