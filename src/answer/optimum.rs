@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use super::calc::{Seen, by_signs, constant, essential, has_root, is_zero, sign, square, tidy};
 use super::solve::{Root, Unsolved, end_of, solve, stated};
-use super::{Answer, Check, Form, ROOT, Refused};
+use super::{Answer, Check, Form, ROOT, Refused, threshold};
 use crate::algebra::Sign;
 use crate::domain::{Domain, Domains, Limit};
 use crate::expr::{Expr, Node, Symbol};
@@ -150,7 +150,10 @@ fn over_positive(
     let [best] = roots.inside.as_slice() else {
         return Err(elsewhere(&name, which, &reduced.variable, &roots.inside));
     };
-    out.assumptions.extend(best.given.iter().cloned());
+    out.assumptions
+        .extend(best.given.iter().map(|given| given.put_in(&named)));
+    let domains = threshold::exists(&mut out, None, &roots, &domains);
+    let tidy = |e: &Expr| super::calc::tidy(e, &domains).map_err(|s| refused(s.to_string()));
     let side = |factor: Expr| {
         let e = put(&slope, &factor * &best.value);
         sign(&which.merit(&essential(&e, &domains)), &domains)

@@ -97,7 +97,7 @@ pub(super) fn fill(
     meet(out, parameter, relation, [left, right], &roots);
     out.needs.extend(real.iter().flat_map(|r| r.needs(&roots)));
     if relation == Relation::Equal {
-        exists(out, &roots, domains);
+        exists(out, Some((&gap, parameter)), &roots, domains);
         let values = roots.inside.iter().map(|root| root.value.clone());
         let at = |value| (Expr::symbol(parameter), Relation::Equal, value);
         out.range.extend(values.map(at));
@@ -327,7 +327,7 @@ fn sides(
     roots: &Roots,
     domains: &Domains,
 ) {
-    let domains = &exists(out, roots, domains);
+    let domains = &exists(out, Some((gap, parameter)), roots, domains);
     let gap = &without_idle(out, parameter, gap, domains);
     if let Some(words) = jumps(gap, parameter, domains) {
         let values = roots.inside.iter().map(|r| Sentence::from(&r.value));
@@ -469,8 +469,13 @@ fn without_idle(out: &mut Answer, parameter: &Symbol, gap: &Expr, domains: &Doma
 }
 
 /// The domains within which there are such values: a symbol they are divided by is at no end where that vanishes, and all is so
-/// that each of them needs.
-fn exists(out: &mut Answer, roots: &Roots, domains: &Domains) -> Domains {
+/// that each of them needs. With the difference that is zero at them, and what of, it tells where there are others at that end.
+pub(super) fn exists(
+    out: &mut Answer,
+    zero: Option<(&Expr, &Symbol)>,
+    roots: &Roots,
+    domains: &Domains,
+) -> Domains {
     let mut domains = domains.clone();
     let values = roots.inside.iter().map(|r| &r.value);
     let symbols: BTreeSet<Symbol> = values.flat_map(Expr::symbols).collect();
@@ -506,13 +511,28 @@ fn exists(out: &mut Answer, roots: &Roots, domains: &Domains) -> Domains {
         }
         out.needs.extend(needs);
         let beyond = if is_low { " > " } else { " < " };
-        let needed = sentence!(
-            "{}{}{} (otherwise there is no such value)",
-            symbol,
-            beyond,
-            &at_end
-        );
-        out.assumptions.push(needed);
+        let others = zero.and_then(|(gap, of)| {
+            let gap = tidy(&gap.put(symbol, &at_end), &domains).ok()?;
+            let found = solve(&gap, of, &domains).ok()?;
+            let is_one = !found.inside.is_empty() || !found.open.is_empty();
+            is_one.then(|| {
+                found
+                    .inside
+                    .iter()
+                    .map(|r| r.value.clone())
+                    .collect::<Vec<_>>()
+            })
+        });
+        let otherwise = match (others, zero) {
+            (Some(values), Some((_, of))) if !values.is_empty() => {
+                let values = Sentence::join(values.iter().map(Sentence::from), " or ");
+                sentence!("at {} = {} it is {} = {}", symbol, &at_end, of, values)
+            }
+            (Some(_), _) => sentence!("at {} = {} it is another value", symbol, &at_end),
+            (None, _) => sentence!("otherwise there is no such value"),
+        };
+        out.assumptions
+            .push(sentence!("{}{}{} ({})", symbol, beyond, &at_end, otherwise));
     }
     let [first, rest @ ..] = roots.inside.as_slice() else {
         return domains;

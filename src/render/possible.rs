@@ -59,7 +59,7 @@ pub fn check(scene: &Scene, possible: &Possible) -> Option<Check> {
 /// The conditions that are neither shown nor refuted for symbols.
 fn not_decided(possible: &Possible) -> Option<String> {
     let open = possible.conditions.iter();
-    let open = open.filter(|c| c.verdict == Verdict::Undecided);
+    let open = open.filter(|c| c.verdict == Verdict::Undecided && c.at_values != Some(true));
     let mut open: Vec<&str> = open.map(|c| c.words.as_str()).collect();
     open.dedup();
     (!open.is_empty()).then(|| format!("not decided whether {}", open.join(", ")))

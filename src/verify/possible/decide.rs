@@ -10,7 +10,7 @@ use crate::algebra::{self, Field, Sign};
 use crate::answer::calc::{constant, has_both_signs, soon_has_both_signs};
 use crate::derive::Derivation;
 use crate::domain::{Domains, roles, samples_until};
-use crate::expr::{Expr, Point, Rational, Scalar, Symbol, effort};
+use crate::expr::{Expr, Node, Point, Rational, Scalar, Symbol, effort, number};
 use crate::interval::{Interval, Outcome, evaluate};
 use crate::laws::{self, Unknown};
 use crate::numeric::{self, Motion};
@@ -149,7 +149,13 @@ fn essential(e: &Expr, domains: &Domains) -> Expr {
         match sign(factor, domains) {
             Some(Sign::Positive) => {}
             Some(Sign::Negative) => minus = !minus,
-            _ => rest.push(factor.clone()),
+            // 1/x has the sign of x.
+            _ => rest.push(match factor.node() {
+                Node::Power(base, n) if n.as_number().is_some_and(|n| number::is(n, -1, 1)) => {
+                    base.clone()
+                }
+                _ => factor.clone(),
+            }),
         }
     }
     let rest = Expr::product(rest);
