@@ -1,7 +1,8 @@
 //! Commands: each reads its input, calls the library once, and prints.
 //!
 //! Results go to standard output, everything else to standard error. Exit status: 0 done and everything held; 1 a check
-//! failed or an answer was refuted; 2 unusable input; 3 undecided; 70 a fault of carom itself; 74 no room for the output.
+//! failed or an answer was refuted; 2 unusable input; 3 undecided; 70 a fault of carom itself; 74 the output cannot be
+//! written.
 
 mod draw;
 mod emit;
@@ -273,7 +274,14 @@ fn print_output(path: &Path, output: Result<Output, String>) -> Result<u8, Failu
 
 /// Tells what is wrong with a scene file: status 0 where nothing is, else 2.
 fn check_scene(path: &Path, format: Format) -> Result<u8, Failure> {
-    let text = files::read(path, scene::LONGEST)?;
+    let text = match (files::read(path, scene::LONGEST), format) {
+        (Ok(text), _) => text,
+        (Err(Failure::Input(why)), Format::Json) => {
+            let told = render::faults::of_file(&why);
+            return print(&versioned(&told)).map(|()| 2);
+        }
+        (Err(failure), _) => return Err(failure),
+    };
     match (scene::read(&text), format) {
         (Ok(_), Format::Text) => Ok(0),
         (Ok(_), Format::Json) => print(&versioned(&json!({"faults": [], "untold": 0}))).map(|()| 0),

@@ -23,7 +23,7 @@ fn opened(text: &str) -> (Sheet, Exercise) {
         figure: format!("<img alt=\"{FIGURE}\" src=\"data:,\">"),
         solution: String::from(marks),
     };
-    let exercise = exercise(&sheet, shown, &assumed.assumed());
+    let exercise = exercise(&sheet, &scene, shown, &assumed.assumed());
     (sheet, exercise.expect("questions"))
 }
 
@@ -393,7 +393,121 @@ fn a_scene_that_asks_for_no_formula_says_what_would_help() {
         r#"{"balance": "momentum", "system": ["one", "two"], "along": [1, 0]}"#,
     );
     let scene = command::scene("scene", &text, &[]).expect("a sound scene");
-    let (sheet, _) = command::sheet(scene).expect("answers");
-    let refused = exercise(&sheet, Shown::default(), &[]).expect_err("nothing to ask");
+    let (sheet, _) = command::sheet(scene.clone()).expect("answers");
+    let refused = exercise(&sheet, &scene, Shown::default(), &[]).expect_err("nothing to ask");
     assert!(refused.contains("hint: add a question"), "{refused}");
+}
+
+/// What carom prints, run with these arguments.
+fn carom(arguments: &[&str], input: &str) -> (Option<i32>, String) {
+    let mut run = std::process::Command::new(env!("CARGO_BIN_EXE_carom"))
+        .args(arguments)
+        .stdin(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    let mut to = run.stdin.take().expect("standard input");
+    std::io::Write::write_all(&mut to, input.as_bytes()).expect("it is read");
+    drop(to);
+    let out = run.wait_with_output().expect("it ends");
+    (
+        out.status.code(),
+        String::from_utf8_lossy(&out.stdout).into_owned(),
+    )
+}
+
+/// The values of a question of plain Moodle, as assignments, and the number that is right.
+fn at_values(question: Node) -> (Vec<String>, f64) {
+    let asked = all(question, "questiontext").next().expect("a text");
+    let (_, values) = field(asked, "text")
+        .split_once("In SI units ")
+        .expect("values");
+    let (values, _) = values.split_once(". What is").expect("a question");
+    let plain = |text: &str| {
+        let text = text
+            .replace("\\left", "")
+            .replace("\\right", "")
+            .replace("\\arccos", "acos");
+        let text = text.replace("\\frac{", "(").replace("}{", ")/(");
+        text.replace('}', ")")
+    };
+    let values = values.split(", ").map(|v| {
+        let v = v.trim_start_matches("\\(").trim_end_matches("\\)");
+        let (name, value) = v.split_once(" = ").expect("a value");
+        let name = name.trim_start_matches('\\');
+        let name = if name == "ell" { "l" } else { name };
+        format!("{name}={}", plain(value))
+    });
+    let right = all(question, "answer").find(|a| a.attribute("fraction") == Some("100"));
+    let right = field(right.expect("a right answer"), "text");
+    (values.collect(), right.parse().expect("a number"))
+}
+
+#[test]
+fn keys_are_the_numbers_of_the_scene_at_the_values_of_the_question() {
+    for (scene, least) in [
+        ("rod-turns-its-slip-round", 3),
+        ("ball-slides-at-its-bounce", 12),
+    ] {
+        let path = format!("derivations/friction/{scene}.json");
+        let (status, quiz) = carom(&["export", &path, "--to", "moodle"], "");
+        assert_eq!(status, Some(0), "{scene}");
+        let quiz = Document::parse(&quiz).expect("XML");
+        let mut seen = 0;
+        for question in all(quiz.root(), "question") {
+            let title = question.children().find(|n| n.has_tag_name("name"));
+            let title = field(title.expect("a name"), "text");
+            let name = title.split(" · ").nth(1).expect("the quantity");
+            let (values, right) = at_values(question);
+            let set = values.iter().map(|v| format!("--set={v}"));
+            let set: Vec<String> = set.collect();
+            let mut arguments = vec!["solve", "--format=json", &path];
+            arguments.extend(set.iter().map(String::as_str));
+            let (_, solved) = carom(&arguments, "");
+            let solved: serde_json::Value = serde_json::from_str(&solved).expect("JSON");
+            let answers = solved["answers"].as_array().expect("answers");
+            let found = answers.iter().find(|a| a["name"] == name);
+            let found = found.and_then(|a| a["value"].as_f64()).expect("a number");
+            assert!(
+                (found - right).abs() <= 1e-9 * right.abs(),
+                "{title}: {values:?}: {found}, not {right}"
+            );
+            seen += 1;
+        }
+        assert!(seen >= least, "{scene}: {seen} questions");
+    }
+}
+
+#[test]
+fn a_question_of_one_case_gives_its_condition_and_all_that_decides_it() {
+    let (_, exercise) = scene("friction/ball-bounces-with-backspin");
+    let quiz = stack(&exercise);
+    let quiz = Document::parse(&quiz).expect("XML");
+    for question in all(quiz.root(), "question") {
+        let asked = all(question, "questiontext").next().expect("a text");
+        let asked = field(asked, "text");
+        assert!(
+            asked.contains(", given that <math>") && asked.contains("sticks"),
+            "{asked}"
+        );
+        assert!(!asked.contains('`'), "{asked}");
+        let variables = all(question, "questionvariables")
+            .next()
+            .expect("variables");
+        let vals = field(variables, "text");
+        assert!(vals.starts_with("vals: ") && vals.contains("mu="), "{vals}");
+    }
+    let quiz = moodle(&exercise).expect("exact values");
+    assert!(quiz.contains("\\mu ="), "the coefficient is given");
+}
+
+#[test]
+fn a_scene_may_come_by_standard_input() {
+    let text = std::fs::read_to_string("derivations/book/two-masses.json").expect("a scene");
+    for platform in ["stack", "moodle", "numbas"] {
+        let (status, quiz) = carom(&["export", "-", "--to", platform], &text);
+        assert_eq!(status, Some(0), "{platform}");
+        assert!(!quiz.is_empty(), "{platform}");
+    }
 }

@@ -142,7 +142,7 @@ fn the_input_and_what_must_not_be_written_stay_as_they_are() {
     fs::create_dir(folder.join("folder.svg")).expect("a folder");
     for output in ["folder.svg", "nowhere/a.svg", "scene.svg/a.svg"] {
         let out = draw(&folder, output);
-        assert_eq!(out.status.code(), Some(2), "{output}");
+        assert_eq!(out.status.code(), Some(74), "{output}");
         assert!(words(&out).contains("cannot be written"), "{}", words(&out));
     }
     assert_eq!(
@@ -270,5 +270,15 @@ fn a_signal_ends_a_batch_behind_a_whole_line() {
         for line in text.lines() {
             serde_json::from_str::<serde_json::Value>(line).expect("whole lines");
         }
+    }
+}
+
+#[test]
+fn a_prefix_that_begins_no_name_is_refused() {
+    let folder = folder("prefix");
+    for (prefix, status) in [("1x;", 2), ("a b", 2), ("9", 2), ("_x", 0), ("x9_", 0)] {
+        let out = run(&folder, &["emit", SCENE, "--lang", "c", "--prefix", prefix]);
+        assert_eq!(out.status.code(), Some(status), "{prefix}: {}", words(&out));
+        assert_eq!(out.stdout.is_empty(), status == 2, "{prefix}");
     }
 }

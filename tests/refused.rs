@@ -60,6 +60,16 @@ fn editors_are_told_the_places_as_data() {
         (status, sound["faults"].as_array().map(Vec::len)),
         (Some(0), Some(0))
     );
+    // What is no text has its one fault too.
+    for missing in ["derivations/nowhere.json", "derivations/book"] {
+        let (status, told) = told(missing);
+        let message = told["faults"][0]["message"].as_str();
+        assert_eq!(status, Some(2));
+        assert!(
+            message.is_some_and(|m| m.contains("cannot be read")),
+            "{told}"
+        );
+    }
     let (status, told) = told("derivations/refused/broken-formula.json");
     let fault = &told["faults"][0];
     assert_eq!(status, Some(2));

@@ -327,6 +327,22 @@ fn a_value_can_be_set_and_is_checked() {
 }
 
 #[test]
+fn values_are_checked_together_in_whatever_order_they_come() {
+    let value = |scene: &scene::Scene, name: &str| parameter(scene, name).value.clone();
+    for values in [[("r", "8"), ("d", "5")], [("d", "5"), ("r", "8")]] {
+        let mut scene = shipped("billiard-ball.json");
+        assert_eq!(scene::set_all(&mut scene, values), Ok(()));
+        assert_eq!(value(&scene, "d"), Some(Expr::ratio(5, 1000)));
+        let wrong = [("d", "4"), ("r", "3")];
+        let fault =
+            scene::set_all(&mut scene, wrong).expect_err("the ball is struck beside itself");
+        assert_eq!(fault.0, None);
+        assert_eq!(value(&scene, "d"), Some(Expr::ratio(5, 1000)));
+        assert_eq!(value(&scene, "r"), Some(Expr::ratio(8, 1000)));
+    }
+}
+
+#[test]
 fn numbers_may_have_their_unit_beside_them() {
     let scene = r#"{
         "title": "Gliders",
@@ -362,6 +378,13 @@ fn a_value_in_degrees_is_a_multiple_of_pi() {
         &scene,
         parameter(&scene, "theta").value.as_ref().expect("a value"),
         "pi/6"
+    ));
+    // The value of an inverse function is an angle as it stands.
+    assert_eq!(scene::set(&mut scene, "theta", "2*acos(12/13)"), Ok(()));
+    assert!(same(
+        &scene,
+        parameter(&scene, "theta").value.as_ref().expect("a value"),
+        "2*acos(12/13)"
     ));
     assert!(
         scene::set(&mut scene, "theta", "90").is_err(),

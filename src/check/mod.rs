@@ -105,12 +105,14 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
     };
     let mut scene =
         scene::read(scene_text).map_err(|faults| Unusable(faults.render("scene", scene_text)))?;
+    let mut set = Vec::new();
     for value in root["set"].as_array().into_iter().flatten() {
         let Some((name, value)) = value.as_str().and_then(|v| v.split_once('=')) else {
             return unusable("`set` holds something other than NAME=VALUE");
         };
-        scene::set(&mut scene, name.trim(), value.trim()).map_err(|f| Unusable(f.message))?;
+        set.push((name.trim(), value.trim()));
     }
+    scene::set_all(&mut scene, set).map_err(|(_, f)| Unusable(f.message))?;
     scene::values_fit(&scene).map_err(|f| Unusable(f.message))?;
     // Outcomes of a scene's one impact are told as those of a stage.
     if let (false, Some(stage)) = (scene.has_stages(), root["impacts"][0]["stage"].as_str()) {

@@ -40,6 +40,11 @@ const PLAIN_REACH: i32 = 30;
 
 /// Runs `carom emit`: exit status 0, or 1 where the closed forms did not stand their proof and nothing is written.
 pub fn run(args: &EmitArgs) -> Result<u8, Failure> {
+    let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    if !args.prefix.chars().all(is_name) || args.prefix.starts_with(|c: char| c.is_ascii_digit()) {
+        let why = "cannot begin a name\nhint: take letters, digits and _, such as impact_";
+        return Err(Failure::Input(format!("--prefix {}: {why}", args.prefix)));
+    }
     let mut scene = read_scene(&args.scene, &[])?;
     let name = args.scene.display();
     if args.stage.is_some() {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::grade::open;
+use super::grade::sheet;
 use super::solution::pictures;
 use super::{Failure, complain, files, print, read_scene, refused, work_out};
 use carom::export::{Shown, exercise, moodle, numbas, stack};
@@ -37,8 +37,9 @@ enum Platform {
 /// Runs `carom export`.
 pub fn run(args: &ExportArgs) -> Result<u8, Failure> {
     let refused = |why: String| refused(&args.scene, why);
-    let sheet = open(&args.scene)?;
-    let worked = work_out(&args.scene, &read_scene(&args.scene, &[])?)?;
+    let scene = read_scene(&args.scene, &[])?;
+    let sheet = sheet(&args.scene, scene.clone())?;
+    let worked = work_out(&args.scene, &scene)?;
     if !worked.holds() {
         return Err(refused(String::from(
             "the worked solution does not hold, and nothing is asked by it\nhint: `carom derive` tells what failed",
@@ -50,7 +51,7 @@ pub fn run(args: &ExportArgs) -> Result<u8, Failure> {
         figure: pictures.first().map(|p| p.svg.clone()).unwrap_or_default(),
         solution: html::fragment(&worked.solution(Detail::Normal), &pictures),
     };
-    let exercise = exercise(&sheet, shown, &worked.told.assumed()).map_err(refused)?;
+    let exercise = exercise(&sheet, &scene, shown, &worked.told.assumed()).map_err(refused)?;
     for left_out in &exercise.left_out {
         complain(&format!(
             "{}: no question for {left_out}",

@@ -101,7 +101,7 @@ pub(super) fn writable(path: &Path, read: &[&Path]) -> Result<(), Failure> {
 }
 
 fn unwritable(path: &Path, e: &std::io::Error) -> Failure {
-    refused(path, format!("cannot be written: {e}"))
+    Failure::Output(format!("{}: {e}", path.display()))
 }
 
 /// Writes to what stays where it is. Whoever reads the other end of a pipe may have seen enough.

@@ -11,6 +11,7 @@ use super::{Failure, Format, complain, files, print, read_scene, refused, versio
 use carom::grade::entry;
 use carom::grade::sheet::Sheet;
 use carom::grade::{Form, Given, Options, Question, Strength, Verdict};
+use carom::scene::Scene;
 use carom::{command, grade, render};
 
 /// Arguments of `carom grade`.
@@ -149,9 +150,14 @@ pub fn run(args: &GradeArgs) -> Result<u8, Failure> {
     })
 }
 
-/// The answers of a scene, proved; what is to be said of them goes to standard error.
+/// The answers of the scene of a file, proved; what is to be said of them goes to standard error.
 pub(super) fn open(path: &Path) -> Result<Sheet, Failure> {
-    told(path, command::sheet(read_scene(path, &[])?))
+    sheet(path, read_scene(path, &[])?)
+}
+
+/// The same of a scene that was read.
+pub(super) fn sheet(path: &Path, scene: Scene) -> Result<Sheet, Failure> {
+    told(path, command::sheet(scene))
 }
 
 /// What was found of a file, its notes told on the way.

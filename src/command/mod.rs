@@ -62,19 +62,23 @@ pub enum Numbers {
 /// Reads a scene and puts values in, each as `name=value`; `name` is what its messages call the scene.
 pub fn scene(name: &str, text: &str, set: &[String]) -> Result<Scene, String> {
     let mut scene = scene::read(text).map_err(|faults| faults.render(name, text))?;
+    let mut values = Vec::new();
     for assignment in set {
         let Some((symbol, value)) = assignment.split_once('=') else {
             return Err(format!(
                 "--set {assignment}: expected NAME=VALUE, such as v=2"
             ));
         };
-        scene::set(&mut scene, symbol.trim(), value.trim()).map_err(|fault| {
-            format!(
-                "--set {assignment}: {}",
-                with_hint(&fault.message, fault.hint.as_deref())
-            )
-        })?;
+        values.push((symbol.trim(), value.trim()));
     }
+    scene::set_all(&mut scene, values.iter().copied()).map_err(|(about, fault)| {
+        let of = |(name, _): &&(&str, &str)| about.is_none_or(|about| about == *name);
+        let given = values.iter().filter(of);
+        let given = given.map(|(name, value)| format!("--set {name}={value}"));
+        let given: Vec<String> = given.collect();
+        let why = with_hint(&fault.message, fault.hint.as_deref());
+        format!("{}: {why}", given.join(" "))
+    })?;
     scene::values_fit(&scene).map_err(|fault| with_hint(&fault.message, fault.hint.as_deref()))?;
     Ok(scene)
 }

@@ -17,7 +17,9 @@ use crate::formula::{Sentence, latex_name, write_plain};
 use crate::grade::believed::Believed;
 use crate::grade::sheet::{Entry, Sheet};
 use crate::render::{html, naming};
-use variant::{Exact, Variant};
+use crate::scene::Scene;
+use crate::solution::{self, Inline};
+use variant::{Asked, Exact, Variant};
 
 pub use moodle::moodle;
 pub use numbas::numbas;
@@ -70,6 +72,8 @@ struct Item {
     name: String,
     /// What is asked, in words.
     words: String,
+    /// The conditions that the answer rests on, as HTML.
+    given: String,
     latex: String,
     unit: String,
     answer: Expr,
@@ -86,9 +90,14 @@ struct Wrong {
     answer: Expr,
 }
 
-/// The questions of a sheet; `assumed` is what its stages suppose, to which the values of variants keep where they can. The
-/// words say why there are no questions, and what would help.
-pub fn exercise(sheet: &Sheet, shown: Shown, assumed: &[Sentence]) -> Result<Exercise, String> {
+/// The questions of a sheet; `file` is the scene as its file has it, `assumed` what its stages suppose, to which the values of
+/// variants keep where they can. The words say why there are no questions, and what would help.
+pub fn exercise(
+    sheet: &Sheet,
+    file: &Scene,
+    shown: Shown,
+    assumed: &[Sentence],
+) -> Result<Exercise, String> {
     let scene = &sheet.scene;
     let names = naming(scene);
     let typeset = |text: &str| html::typeset(scene, &names, text);
@@ -115,7 +124,7 @@ pub fn exercise(sheet: &Sheet, shown: Shown, assumed: &[Sentence]) -> Result<Exe
         let item = match &answer.form {
             Form::Value { .. } => {
                 let entry = sheet.entry(&answer.name);
-                entry.and_then(|entry| item(sheet, &entry, [&answer.assumptions, assumed]))
+                entry.and_then(|entry| item(sheet, file, &entry, [&answer.assumptions, assumed]))
             }
             Form::Open(_) => Err(String::from("the laws do not determine it")),
             Form::Equation { .. } => Err(String::from("an equation has no one formula to type")),
@@ -140,8 +149,13 @@ pub fn exercise(sheet: &Sheet, shown: Shown, assumed: &[Sentence]) -> Result<Exe
     }
 }
 
-/// The question for an entry; `given` is what its answer rests on, and what the stages suppose.
-fn item(sheet: &Sheet, entry: &Entry, given: [&[Sentence]; 2]) -> Result<Item, String> {
+/// The question for an entry, whose answer rests on what is given; and what the stages suppose.
+fn item(
+    sheet: &Sheet,
+    file: &Scene,
+    entry: &Entry,
+    [given, supposed]: [&[Sentence]; 2],
+) -> Result<Item, String> {
     let scene = &sheet.scene;
     let Some(answer) = entry.key.reading.content.expr() else {
         return Err(String::from("its components are asked one by one"));
@@ -154,26 +168,48 @@ fn item(sheet: &Sheet, entry: &Entry, given: [&[Sentence]; 2]) -> Result<Item, S
         return Err(format!("it is {} whatever the values", write_plain(answer)));
     }
     let believed = sheet.believed(entry).into_iter();
-    let wrong: Vec<Wrong> = believed.filter_map(wrong).collect();
+    let wrong: Vec<Wrong> = believed.filter_map(|b| wrong(file, b)).collect();
+    let names = naming(scene);
+    let conditions = given.iter().filter(|words| words.is_condition());
+    let conditions = conditions.map(|s| html::sentence(&names, &solution::sentence(file, s)));
     Ok(Item {
         name: entry.name.clone(),
-        words: entry.words.clone(),
+        words: called(file, &entry.words),
+        given: conditions.collect::<Vec<_>>().join(", and that "),
         latex: String::new(),
         unit: String::new(),
-        variants: variant::variants(scene, answer, &wrong, given),
+        variants: variant::variants(&Asked {
+            scene: file,
+            derived: scene,
+            name: &entry.name,
+            answer,
+            wrong: &wrong,
+            given,
+            supposed,
+        }),
         answer: answer.clone(),
         wrong,
     })
 }
 
-fn wrong(believed: Believed) -> Option<Wrong> {
+fn wrong(scene: &Scene, believed: Believed) -> Option<Wrong> {
     let [answer] = believed.values.try_into().ok()?;
     Some(Wrong {
         code: believed.diagnosis.code,
-        belief: believed.diagnosis.message,
-        hint: believed.diagnosis.hint,
+        belief: called(scene, &believed.diagnosis.message),
+        hint: called(scene, &believed.diagnosis.hint),
         answer,
     })
+}
+
+/// Words with what stands between marks in them called as in a solution.
+fn called(scene: &Scene, words: &str) -> String {
+    let pieces = solution::sentence(scene, &Sentence::words(words));
+    let words = pieces.into_iter().map(|piece| match piece {
+        Inline::Text(words) => words,
+        Inline::Math(_) => String::new(),
+    });
+    words.collect()
 }
 
 /// HTML of others in which a platform and its typesetting see no marks of their own: these are parted by an empty element.
@@ -203,6 +239,16 @@ fn words(text: &str) -> String {
 /// A unit as it is told: nothing for a pure number.
 fn no_one(unit: String) -> String {
     if unit == "1" { String::new() } else { unit }
+}
+
+impl Item {
+    /// What the answer is asked for under, behind the words of a question; `quiet` as with what is told.
+    fn given(&self, quiet: fn(&str) -> String) -> String {
+        match self.given.as_str() {
+            "" => String::new(),
+            given => format!(", given that {}", quiet(given)),
+        }
+    }
 }
 
 impl Exercise {

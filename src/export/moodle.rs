@@ -14,7 +14,7 @@ const TOLERANCE: f64 = 0.01;
 pub fn moodle(exercise: &Exercise) -> Result<String, String> {
     if exercise.items.iter().all(|item| item.variants.is_empty()) {
         return Err(String::from(
-            "no exact values fit: an angle stands under a sine and outside of one\nhint: --to stack and --to numbas ask for the formula",
+            "no exact values fit: an angle stands under a sine and outside of one, or the answers rest on what holds too rarely\nhint: --to stack and --to numbas ask for the formula",
         ));
     }
     let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<quiz>\n");

@@ -136,8 +136,9 @@ fn formula(item: &Item, names: &Names) -> Value {
     let mut own = compared(&item.answer);
     own["alternatives"] = alternatives.collect();
     own["prompt"] = json!(format!(
-        "<p>As a formula: {}, \\({}\\) =</p>",
+        "<p>As a formula: {}{}, \\({}\\) =</p>",
         plain(&escape(&item.words)),
+        item.given(plain),
         escape(&item.latex)
     ));
     part("jme", 1, own)

@@ -77,8 +77,9 @@ fn question(out: &mut String, exercise: &Exercise, item: &Item, names: &Names) {
     let mut asked = exercise.told(quiet, &spelled);
     let _ = write!(
         asked,
-        "<p>As a formula, with * between factors: {}, \\({}\\) = [[input:ans1]] [[validation:ans1]]</p>",
+        "<p>As a formula, with * between factors: {}{}, \\({}\\) = [[input:ans1]] [[validation:ans1]]</p>",
         words(&item.words),
+        item.given(quiet),
         escape(&item.latex)
     );
     if with_numbers {

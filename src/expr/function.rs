@@ -33,6 +33,12 @@ impl Function {
         matches!(self, Sin | Tan | Asin | Atan | Sinh | Tanh)
     }
 
+    /// Whether its value is an angle in radians.
+    pub fn is_arc(self) -> bool {
+        use Function::*;
+        matches!(self, Asin | Acos | Atan)
+    }
+
     /// The name in plain infix notation.
     pub fn name(self) -> &'static str {
         NAMES[self as usize]

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::label::Label;
 use super::place::{Room, Spot};
-use super::plane::{Pair, ahead, apart, between, dot, minus, plus, polar, size, unit};
+use super::plane::{Pair, ahead, apart, between, distance, plus, polar, size, unit};
 use super::pose::{Look, Pose};
 use super::sheet::{Ink, Item, Paint, SIZE, SMALL, Sheet};
 use super::stage::{DOT, Stage, center_name};
@@ -65,12 +65,6 @@ pub(super) fn turning(stage: &Stage, sheet: &mut Sheet, body: usize, spin: f64, 
     let half = start + sweep / 2.0;
     let at = polar(center, radius, half);
     sheet.wish(label, SIZE, Spot::point(at, [half.cos(), half.sin()], 2.0));
-}
-
-fn distance(p: Pair, a: Pair, b: Pair) -> f64 {
-    let d = minus(b, a);
-    let t = (dot(minus(p, a), d) / dot(d, d).max(1e-12)).clamp(0.0, 1.0);
-    size(ahead(minus(p, a), d, -t))
 }
 
 /// Where a fixed body is drawn.

@@ -3,7 +3,7 @@
 //! In: labels with what they belong to, segments and rooms to keep off. Out: one room per label; no two of them overlap.
 
 use super::label::{Label, extent};
-use super::plane::{Pair, ahead, apart, between, dot, left, minus, plus, size, times};
+use super::plane::{Pair, ahead, apart, between, distance, dot, left, minus, plus, size, times};
 
 /// An upright rectangle.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -140,6 +140,8 @@ impl Room {
 const THROUGH: f64 = 40.0;
 /// What it costs to stand so close behind another label that both read as a product.
 const AS_ONE: f64 = 5.0;
+/// What it costs to be led over the point of another label.
+const MISLED: f64 = 60.0;
 /// Rounds in which every label may move again.
 const ROUNDS: usize = 3;
 
@@ -158,8 +160,13 @@ pub fn place(wishes: &[Wish], walls: &[(Pair, Pair, f64)], kept: &[Room]) -> Vec
         let all = candidates(wish).into_iter();
         let mut all: Vec<Place> = all
             .map(|(room, own)| Place {
+                own: own
+                    + if misleads(wish, &room, wishes) {
+                        MISLED
+                    } else {
+                        0.0
+                    },
                 room,
-                own,
                 whole: None,
             })
             .collect();
@@ -205,12 +212,29 @@ pub fn place(wishes: &[Wish], walls: &[(Pair, Pair, f64)], kept: &[Room]) -> Vec
         // Last resort, so that labels never cover each other: step down past whatever is there.
         while let Some(other) = done.iter().find(|b| b.overlap(&room) > 0.0) {
             let by = room.high[1] - other.low[1] + 1.0;
+            // So far out that doubles no longer tell places apart, no step helps.
+            if !by.is_finite() || room.high[1] - by == room.high[1] {
+                break;
+            }
             room.low[1] -= by;
             room.high[1] -= by;
         }
         done.push(room);
     }
     done
+}
+
+/// Whether the line from a label to its point passes over the point of another: it would be read as leading there.
+fn misleads(wish: &Wish, room: &Room, all: &[Wish]) -> bool {
+    let point = |wish: &Wish| match wish.spot {
+        Spot::Point { at, .. } => Some(at),
+        Spot::Along { .. } | Spot::Inside { .. } => None,
+    };
+    let (Some(own), Some([from, to])) = (point(wish), leader(wish, room)) else {
+        return false;
+    };
+    let mut others = all.iter().filter_map(point).filter(|at| *at != own);
+    others.any(|at| distance(at, from, to) < 4.0)
 }
 
 /// Whether a label stands on the line of another one, less than a space from it.

@@ -79,7 +79,16 @@ pub fn apart(a: Pair, b: Pair) -> f64 {
     size(minus(a, b))
 }
 
+/// Distance of a point from the segment between two others.
+pub fn distance(p: Pair, a: Pair, b: Pair) -> f64 {
+    let d = minus(b, a);
+    let t = (dot(minus(p, a), d) / dot(d, d).max(1e-12)).clamp(0.0, 1.0);
+    size(ahead(minus(p, a), d, -t))
+}
+
 /// The direction with length 1.
 pub fn unit(v: Pair) -> Pair {
-    times(v, 1.0 / size(v))
+    // The inverse of the smallest doubles is beyond all of them.
+    let length = size(v);
+    v.map(|part| part / length)
 }

@@ -156,7 +156,9 @@ fn choices(scene: &Scene, parameter: &Parameter, earlier: usize) -> Vec<f64> {
         .unwrap_or_default();
     let dimension = &parameter.dimension;
     let is = |m, l, t| *dimension == Dimension::new(m, l, t);
-    let wanted: Vec<f64> = if parameter.is_angle() {
+    let wanted: Vec<f64> = if scene.counts_turns(&parameter.name) {
+        vec![2.0, 1.0, 3.0]
+    } else if parameter.is_angle() {
         [35.0, 55.0, 25.0, 20.0, -35.0, 125.0, 80.0, 10.0]
             .iter()
             .map(|d| d * PI / 180.0)

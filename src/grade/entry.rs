@@ -78,11 +78,12 @@ pub fn entry(line: &str, defaults: &Options) -> Result<Entry, BadLine> {
 pub use strict::id_in;
 
 fn fill(fields: &Map<String, Value>, id: &Value, defaults: &Options) -> Result<Entry, String> {
-    const FIELDS: [&str; 8] = [
+    const FIELDS: [&str; 9] = [
         "id",
         "expected",
         "answer",
         "scene",
+        "name",
         "quantity",
         "symbols",
         "tolerance",
@@ -99,7 +100,11 @@ fn fill(fields: &Map<String, Value>, id: &Value, defaults: &Options) -> Result<E
         Some(_) => Err(format!("\"{name}\" is to be a text")),
     };
     let answer = text("answer")?.ok_or("\"answer\" is missing")?;
-    let (expected, scene) = (text("expected")?, text("scene")?);
+    // Requests over HTTP name a scene so.
+    let (expected, scene) = match (text("scene")?, text("name")?) {
+        (Some(_), Some(_)) => return Err("give \"scene\" or \"name\", not both".into()),
+        (scene, name) => (text("expected")?, scene.or(name)),
+    };
     if expected.is_none() && scene.is_none() {
         return Err("\"expected\" is missing, and no \"scene\" is named".into());
     }

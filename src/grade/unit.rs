@@ -298,6 +298,10 @@ pub(super) fn without(ctx: &Context, expected: &Quantity, answer: &Expr) -> Grad
         let found = Diagnosis::new("UNIT_MISSING", words, MISSING);
         return scalars(ctx, &expected.value, answer).with(found);
     }
+    // Zero is zero in any unit: what is wrong with it is no unit.
+    if answer.is_zero() {
+        return scalars(ctx, &expected.value, answer);
+    }
     let right = scalars(ctx, &expected.written, answer).is_equivalent();
     let words = match right {
         true => format!(

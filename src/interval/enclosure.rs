@@ -9,6 +9,8 @@ use crate::expr::{Function, Int, Rational};
 
 /// Numbers beyond 2^±`RANGE` are not followed: their exponents alone would fill memory.
 const RANGE: i64 = 1 << 40;
+/// Exponents of two beyond which no double is near.
+const FAR: i64 = 1200;
 
 /// A closed interval that contains the value meant.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -174,8 +176,13 @@ impl Enclosure {
         if self.is_exact() && self.low.sign() == 0 {
             return Some(0.0);
         }
+        // All that lies well below the smallest double rounds to zero.
+        let is_tiny = |x: &Dyadic| x.top() < -FAR;
+        if !self.has_zero() && is_tiny(&self.low) && is_tiny(&self.high) {
+            return Some(0.0);
+        }
         // Exponents far outside that range would make fractions too long to hold.
-        if [&self.low, &self.high].iter().any(|x| x.top().abs() > 1200) {
+        if [&self.low, &self.high].iter().any(|x| x.top().abs() > FAR) {
             return None;
         }
         let [low, high] = [&self.low, &self.high]
@@ -188,7 +195,12 @@ impl Enclosure {
         if self.has_zero() {
             return 0.0;
         }
-        0.5 * self.low.to_f64(Round::Down) + 0.5 * self.high.to_f64(Round::Up)
+        let near = |end: &Dyadic, to| match end.top() {
+            top if top < -FAR => 0.0,
+            top if top > FAR => end.to_f64(to),
+            _ => end.nearest().unwrap_or_else(|| to_f64(&end.to_rational())),
+        };
+        0.5 * near(&self.low, Round::Down) + 0.5 * near(&self.high, Round::Up)
     }
 
     /// Number of decimal digits in which the two ends agree, roughly; large for an exact value.

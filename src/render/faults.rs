@@ -23,3 +23,11 @@ pub fn json(faults: &Faults, text: &str) -> Value {
     });
     json!({"faults": list.collect::<Vec<_>>(), "untold": faults.untold})
 }
+
+/// The same of a file that has no text to be read.
+pub fn of_file(why: &str) -> Value {
+    let fault = json!({
+        "pointer": "", "line": 1, "column": 1, "start": 0, "end": 0, "message": why, "hint": null,
+    });
+    json!({"faults": [fault], "untold": 0})
+}

@@ -9,7 +9,7 @@ use super::fault::{Fault, Span};
 use super::record::{Formula, Pair, Text};
 use crate::dimension::{self, Dimension, Unit};
 use crate::expr::number::to_f64;
-use crate::expr::{Expr, Symbol, Vector};
+use crate::expr::{Expr, Node, Symbol, Vector};
 use crate::formula::{self, Content, Relation};
 
 /// What a field holds: its name, dimension and a remark that helps when the dimension is wrong.
@@ -305,9 +305,13 @@ impl Symbols {
                 .ok(),
             content => {
                 let e = scalar(content, formula, faults)?;
-                // `30°` is read as π/6, and nobody counts degrees in multiples of π.
+                // `30°` is read as π/6, and nobody counts degrees in multiples of π; acos(3/5) is an angle in radians.
                 let is_angle = unit.angle && unit.dimension == Dimension::none();
-                let in_radians = is_angle && e.parts().any(|part| *part == Expr::pi());
+                let is_arc = |part: &Expr| match part.node() {
+                    Node::Call(function, _) => function.is_arc(),
+                    _ => *part == Expr::pi(),
+                };
+                let in_radians = is_angle && e.parts().any(is_arc);
                 Some(if in_radians { e } else { e * unit.value() })
             }
         }

@@ -150,6 +150,41 @@ pub fn schema() -> String {
 /// Gives a parameter a value in its unit, such as `2`, `1/3` or `acos(3/5)`; the scene is checked at the new value.
 /// On a fault the scene is as before. The fault's place counts in `value`.
 pub fn set(scene: &mut Scene, name: &str, value: &str) -> Result<(), Fault> {
+    set_all(scene, [(name, value)]).map_err(|(_, fault)| fault)
+}
+
+/// Gives several parameters values, one after the other; the scene is checked at all of them together. A fault comes with
+/// the name that it is about, where it is about one alone.
+pub fn set_all<'a>(
+    scene: &mut Scene,
+    values: impl IntoIterator<Item = (&'a str, &'a str)>,
+) -> Result<(), (Option<&'a str>, Fault)> {
+    let mut before = Vec::new();
+    let mut names = Vec::new();
+    let mut fault = None;
+    for (name, value) in values {
+        names.push(name);
+        match put_in(scene, name, value) {
+            Ok(old) => before.push((Symbol::from(name), old)),
+            Err(why) => {
+                fault = Some((Some(name), why));
+                break;
+            }
+        }
+    }
+    let fault = fault.or_else(|| {
+        let why = check::at_values(scene, Span::default())?;
+        Some((names.first().copied().filter(|_| names.len() == 1), why))
+    });
+    let Some(fault) = fault else { return Ok(()) };
+    for (name, old) in before.into_iter().rev() {
+        put(scene, &name, old);
+    }
+    Err(fault)
+}
+
+/// Gives a parameter a value inside its domain; gives the value it had.
+fn put_in(scene: &mut Scene, name: &str, value: &str) -> Result<Option<Expr>, Fault> {
     let all = Span::new(0, value.len());
     let Some(parameter) = scene.parameter(name) else {
         let fault = Fault::new(all, format!("there is no parameter `{name}`"));
@@ -169,12 +204,7 @@ pub fn set(scene: &mut Scene, name: &str, value: &str) -> Result<(), Fault> {
         parameters::lies_in(name, &read, domain).map_err(wrong)?;
     }
     let name = parameter.name.clone();
-    let before = put(scene, &name, Some(read));
-    let Some(fault) = check::at_values(scene, all) else {
-        return Ok(());
-    };
-    put(scene, &name, before);
-    Err(fault)
+    Ok(put(scene, &name, Some(read)))
 }
 
 /// Gives a parameter its value, in the scenes of the stages too. Gives the value it had.
@@ -360,6 +390,12 @@ impl Scene {
     pub fn asked_of_impact(&self) -> impl Iterator<Item = &Question> {
         let impact = |q: &&Question| q.stage.is_none() && q.ask.is_motion();
         self.questions.iter().filter(impact)
+    }
+
+    /// Whether a parameter is the number of a turn among several, and so a whole one.
+    pub fn counts_turns(&self, name: &str) -> bool {
+        let mut asked = self.questions.iter();
+        asked.any(|q| matches!(&q.ask, Ask::Turn { number, .. } if **number == *name))
     }
 
     /// The parameter of this name.

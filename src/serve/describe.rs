@@ -45,10 +45,12 @@ pub enum Wrong {
 pub fn describe(text: &str, asked: &Asked) -> Result<Value, Wrong> {
     let read = scene::read(text);
     let mut scene = read.map_err(|faults| Wrong::Scene(render::faults::json(&faults, text)))?;
-    for (name, value) in &asked.set {
-        scene::set(&mut scene, name, value)
-            .map_err(|fault| Wrong::Value(format!("{name}: {}", fault.message)))?;
-    }
+    let set = asked.set.iter();
+    let set = set.map(|(name, value)| (name.as_str(), value.as_str()));
+    scene::set_all(&mut scene, set).map_err(|(name, fault)| {
+        let of = name.map_or(String::new(), |name| format!("{name}: "));
+        Wrong::Value(format!("{of}{}", fault.message))
+    })?;
     let shown = figure::shown_at(&scene);
     let parameters = scene.parameters.iter();
     let stages = scene.stages.iter();
@@ -123,7 +125,18 @@ fn parameter(scene: &Scene, names: &Solution, p: &Parameter, shown: &Point<f64>)
     let scale = p.scale().evaluate(&Point::<f64>::default()).unwrap_or(1.0);
     let value = shown.values.get(&p.name).copied().unwrap_or(1.0) / scale;
     let domain = scene.domains.symbols.get(&p.name);
-    let [min, max, step] = range(domain, value, scale, &p.unit);
+    let [min, max, step] = match scene.counts_turns(&p.name) {
+        true => [1.0, (3.0 * value).max(10.0), 1.0],
+        false => range(domain, value, scale, &p.unit),
+    };
+    // A number in the SI needs its unit beside it where the parameter has another.
+    let si = (scale != 1.0).then(|| {
+        if p.is_angle() {
+            "rad".into()
+        } else {
+            p.dimension.spoken()
+        }
+    });
     let latex = p.latex.clone().unwrap_or_else(|| latex_name(&p.name));
     let domain = domain.filter(|d| **d != Domain::real());
     let domain = domain.map(|d| d.words(&p.name));
@@ -135,6 +148,7 @@ fn parameter(scene: &Scene, names: &Solution, p: &Parameter, shown: &Point<f64>)
         "name": *p.name,
         "mathml": math(&mathml::from_latex(&latex)),
         "unit": p.unit,
+        "si": si,
         "meaning": p.meaning,
         "domain": domain,
         "about_html": html::typeset(scene, names, &about.join("; ")),

@@ -199,6 +199,7 @@ pub(super) fn absent_scenes(lines: &str, folder: &Folder) -> Vec<(usize, Value, 
     struct Line {
         #[serde(default)]
         id: Value,
+        #[serde(alias = "name")]
         scene: Option<String>,
     }
     let mut last = None;

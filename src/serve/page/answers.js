@@ -8,6 +8,8 @@ const solved = latest();
 const valued = latest();
 // Where the number of an answer stands, by the answer's name.
 let places = new Map();
+// Whether an answer holds in one case alone, and the formulas that are shown.
+let [conditional, shown] = [false, ""];
 // Names of the answers, and how they are written.
 let answerNames = [];
 let letters = new Map();
@@ -80,8 +82,19 @@ export function cases(found) {
   return found.cases ?? [found];
 }
 
+const formulasOf = (found) => cases(found).flatMap((one) => one.answers.map((a) => `${a.name} = ${a.formula}`)).join("; ");
+
+// What an answer rests on beside the domains of the parameters.
+function restsOn(a) {
+  const domains = new Set(bench.about.parameters.map((p) => p.domain));
+  return (a.assumptions ?? []).filter((words) => /[<>≤≥]/.test(words) && !domains.has(words));
+}
+
 async function draw(found) {
+  places = new Map();
+  shown = formulasOf(found);
   const all = cases(found);
+  conditional = !found.cases && all[0].answers.some((a) => restsOn(a).length);
   answerNames = all.flatMap((one) => one.answers.map((a) => a.name));
   const formulas = [];
   const symbols = [];
@@ -144,8 +157,11 @@ function answer(a, set, numbered) {
   // A formula that is a number needs none beside it.
   if (numbered && !/^-?\d+$/.test(a.formula ?? "")) places.set(a.name, number);
   const doubts = a.checks.filter((c) => c.holds !== true);
+  // What is true of one case alone says so beside its formula: the sliders may lead to another, of which the number is.
+  const given = restsOn(a);
+  const where = given.length ? make("p", { class: "note" }, "given that ", ...given.flatMap((r, i) => [i ? ", and that " : "", ...prose(set, r)])) : null;
   return make("article", { class: "answer" }, make("div", { class: "meaning" }, ...prose(set, a.words)), line,
-    ...(a.text ?? []).map((t) => make("p", {}, ...prose(set, t))), number, ...doubts.map((c) => check(c, set)));
+    where, ...(a.text ?? []).map((t) => make("p", {}, ...prose(set, t))), number, ...doubts.map((c) => check(c, set)));
 }
 
 function definition(w, set) {
@@ -197,8 +213,9 @@ export async function renumber() {
     $("numbers")?.replaceChildren(make("h3", { id: "mode" }, "At these values"),
       ...found.answers.map((n) => make("div", { class: "number" }, letter(n.name), " ", number(n))));
     if ($("numbers")) return modeAtValues();
-    const missing = [...places.keys()].filter((name) => !told.has(name));
-    if (missing.length) revalue(missing);
+    // What the numbers of the motion leave open may have one from its closed form.
+    const missing = [...places.keys()].filter((name) => (told.get(name)?.value ?? null) === null);
+    if (missing.length || conditional) revalue(missing);
   } catch (error) {
     for (const place of places.values()) place.textContent = "";
     $("numbers")?.replaceChildren(make("p", { class: "wrong" }, told(error)));
@@ -213,10 +230,12 @@ const modeAtValues = quietly(async () => {
 }, 250);
 
 // Answers about answers, such as a threshold, have their numbers from their closed forms, once the sliders rest.
+// Where they lead to another case than the one that is shown, its formulas take the place of those.
 const revalue = quietly(async (missing) => {
   const found = await valued((signal) => ask("derive", { ...scene(), set: set() }, signal)).catch(() => null);
+  if (found && conditional && formulasOf(found) !== shown) return draw(found);
   for (const a of found?.answers ?? []) {
     const place = places.get(a.name);
-    if (missing.includes(a.name) && a.value !== undefined) place.textContent = number(a);
+    if (place && missing.includes(a.name) && (a.value ?? null) !== null) place.textContent = number(a);
   }
 }, 250);

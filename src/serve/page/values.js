@@ -32,10 +32,12 @@ $("reset").addEventListener("click", () => {
   valuesChanged();
 });
 
-// Takes values from elsewhere, such as a counterexample.
+// Takes values in SI units from elsewhere, such as a counterexample; acos(3/5) is in radians whatever the parameter's unit.
 export function putValues(values) {
-  for (const [name, value] of Object.entries(values)) {
-    if (!bench.about.parameters.some((p) => p.name === name)) continue;
+  for (const [name, number] of Object.entries(values)) {
+    const parameter = bench.about.parameters.find((p) => p.name === name);
+    if (!parameter) continue;
+    const value = parameter.si && !number.includes("(") ? `${number} ${parameter.si}` : number;
     bench.values[name] = value;
     rows[name]?.(value);
   }
