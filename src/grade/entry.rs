@@ -101,10 +101,10 @@ fn fill(fields: &Map<String, Value>, id: &Value, defaults: &Options) -> Result<E
     };
     let answer = text("answer")?.ok_or("\"answer\" is missing")?;
     // Requests over HTTP name a scene so.
-    let (expected, scene) = match (text("scene")?, text("name")?) {
-        (Some(_), Some(_)) => return Err("give \"scene\" or \"name\", not both".into()),
-        (scene, name) => (text("expected")?, scene.or(name)),
-    };
+    if fields.contains_key("scene") && fields.contains_key("name") {
+        return Err("give \"scene\" or \"name\", not both".into());
+    }
+    let (expected, scene) = (text("expected")?, text("scene")?.or(text("name")?));
     if expected.is_none() && scene.is_none() {
         return Err("\"expected\" is missing, and no \"scene\" is named".into());
     }

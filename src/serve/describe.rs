@@ -67,6 +67,7 @@ pub fn describe(text: &str, asked: &Asked) -> Result<Value, Wrong> {
         "statement_html": html::typeset(&scene, &names, &scene.statement),
         "parameters": parameters.map(|p| parameter(&scene, &names, p, &shown)).collect::<Vec<_>>(),
         "directions": scene.domains.unit_vectors.iter().map(|pair| pair.each_ref().map(ToString::to_string)).collect::<Vec<_>>(),
+        "conditions": scene.domains.conditions(),
         "stages": stages.map(stage).collect::<Vec<_>>(),
         "has_laws": has_laws(&scene),
         "plots": scene.plots.iter().map(|p| p.name.clone()).collect::<Vec<_>>(),

@@ -85,10 +85,7 @@ export function cases(found) {
 const formulasOf = (found) => cases(found).flatMap((one) => one.answers.map((a) => `${a.name} = ${a.formula}`)).join("; ");
 
 // What an answer rests on beside the domains of the parameters.
-function restsOn(a) {
-  const domains = new Set(bench.about.parameters.map((p) => p.domain));
-  return (a.assumptions ?? []).filter((words) => /[<>≤≥]/.test(words) && !domains.has(words));
-}
+const restsOn = (a) => (a.assumptions ?? []).filter((words) => /[<>≤≥]/.test(words) && !bench.about.conditions.includes(words));
 
 async function draw(found) {
   places = new Map();
@@ -229,12 +226,14 @@ const modeAtValues = quietly(async () => {
   if (law && $("mode")) $("mode").textContent = `At these values ${behaves(law.mode)}`;
 }, 250);
 
-// Answers about answers, such as a threshold, have their numbers from their closed forms, once the sliders rest.
-// Where they lead to another case than the one that is shown, its formulas take the place of those.
+// Answers about answers, such as a threshold, have their numbers from their closed forms, once the sliders rest. Where these
+// lead to another case than the one that is shown, its formulas take the place of those.
 const revalue = quietly(async (missing) => {
+  const about = bench.about;
   const found = await valued((signal) => ask("derive", { ...scene(), set: set() }, signal)).catch(() => null);
-  if (found && conditional && formulasOf(found) !== shown) return draw(found);
-  for (const a of found?.answers ?? []) {
+  if (!found || bench.about !== about) return;
+  if (conditional && formulasOf(found) !== shown) return draw(found);
+  for (const a of found.answers ?? []) {
     const place = places.get(a.name);
     if (place && missing.includes(a.name) && (a.value ?? null) !== null) place.textContent = number(a);
   }
