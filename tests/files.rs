@@ -282,3 +282,24 @@ fn a_prefix_that_begins_no_name_is_refused() {
         assert_eq!(out.stdout.is_empty(), status == 2, "{prefix}");
     }
 }
+
+#[test]
+fn speeds_near_the_ends_of_doubles_have_a_picture_and_a_number() {
+    let folder = folder("ends");
+    let at = |command: &str, v: &str, more: &[&str]| {
+        let set = ["m=1", "l=1", "theta=0.5", v].map(|value| format!("--set={value}"));
+        let mut arguments = vec![command, SCENE];
+        arguments.extend(set.iter().map(String::as_str));
+        arguments.extend(more);
+        let out = run(&folder, &arguments);
+        assert_eq!(out.status.code(), Some(0), "{v}: {}", words(&out));
+        String::from_utf8(out.stdout).expect("text")
+    };
+    for v in ["v=1e-310", "v=1e308"] {
+        let drawn = at("draw", v, &["--which", "before"]);
+        assert!(!drawn.contains("NaN") && !drawn.contains("inf"), "{drawn}");
+    }
+    // What is left of 2e-401 J in a double.
+    let solved = at("solve", "v=1e-200", &[]);
+    assert!(solved.contains("E_lost = 0 J"), "{solved}");
+}

@@ -327,6 +327,22 @@ fn a_value_can_be_set_and_is_checked() {
 }
 
 #[test]
+fn what_counts_turns_is_shown_at_a_whole_number() {
+    let mut seen = 0;
+    for (path, text) in scenes() {
+        let scene = scene::read(&text).expect("a sound scene");
+        let counts = |p: &&scene::Parameter| scene.counts_turns(&p.name);
+        for p in scene.parameters.iter().filter(counts) {
+            let shown = carom::figure::shown_at(&scene);
+            let value = shown.values.get(&p.name).copied().expect("a value");
+            assert!(value >= 1.0 && value.fract() == 0.0, "{path:?}: {value}");
+            seen += 1;
+        }
+    }
+    assert!(seen >= 2, "{seen} numbers of turns");
+}
+
+#[test]
 fn values_are_checked_together_in_whatever_order_they_come() {
     let value = |scene: &scene::Scene, name: &str| parameter(scene, name).value.clone();
     for values in [[("r", "8"), ("d", "5")], [("d", "5"), ("r", "8")]] {

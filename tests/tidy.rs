@@ -68,7 +68,7 @@ const LAYERS: &[(&str, &str)] = &[
     ),
     (
         "export",
-        "expr domain formula scene answer numeric derive grade figure render",
+        "expr domain formula scene answer numeric derive grade figure solution render",
     ),
     (
         "serve",
