@@ -370,6 +370,67 @@ fn a_tolerance_is_relative_absolute_or_in_digits() {
 }
 
 #[test]
+fn a_tolerance_with_a_unit_is_an_amount() {
+    let rows = [
+        ("5 m", "14 m", "2 m", "different DIFF_TOLERANCE"),
+        ("5 m", "7 m", "2 m", "equivalent EQUIV_TOLERANCE"),
+        ("5 m", "509 cm", "10 cm", "equivalent EQUIV_TOLERANCE"),
+        ("5 m", "5.2 m", "10 cm", "different DIFF_TOLERANCE"),
+        ("500 cm", "5.09 m", "0.1 m", "equivalent EQUIV_TOLERANCE"),
+        ("30 deg", "31 deg", "1.5 deg", "equivalent EQUIV_TOLERANCE"),
+        ("30 deg", "32 deg", "1.5 deg", "different DIFF_TOLERANCE"),
+        (
+            "[3, 4] km/h",
+            "[3.1, 4] km/h",
+            "0.1 km/h",
+            "equivalent EQUIV_TOLERANCE",
+        ),
+        ("5 m", "5 m", "0.1 s", "invalid INVALID_TOLERANCE"),
+        ("5", "5", "0.1 m", "invalid INVALID_TOLERANCE"),
+    ];
+    for (expected, answer, tolerance, grade) in rows {
+        let line = json!({"expected": expected, "answer": answer, "tolerance": tolerance});
+        assert_eq!(
+            judged(line),
+            grade,
+            "{expected} | {answer} within {tolerance}"
+        );
+    }
+}
+
+#[test]
+fn each_value_is_given_by_a_number_of_its_own() {
+    let rows = [
+        ("1, 1.005", "1", "1%", "different"),
+        ("1, 1.005", "1, 1.005", "1%", "equivalent"),
+        ("x = 1 or x = 1.005", "x = 1", "1%", "different"),
+        ("10, 10.3", "10.1", "5%", "different"),
+        ("10, 10.3", "10.1, 10.2, 9.9", "5%", "different"),
+        ("10, 10.3", "10.1, 10.2", "5%", "equivalent"),
+        // The one near both is left to that which no other is near.
+        ("10, 10.4", "10.2, 9.6", "5%", "equivalent"),
+        ("10.1", "10, 10.3", "5%", "different"),
+        ("±1", "1", "300%", "different"),
+        ("1/2, 1/3", "0.5, 1/2, 0.333", "1%", "equivalent"),
+    ];
+    for (expected, answer, tolerance, verdict) in rows {
+        let line = json!({"expected": expected, "answer": answer, "tolerance": tolerance});
+        assert!(judged(line).starts_with(verdict), "{expected} | {answer}");
+    }
+}
+
+#[test]
+fn a_component_that_vanishes_has_the_room_of_the_vector() {
+    let near = |answer: &str| {
+        let line = json!({"expected": "[3, 0] m/s", "answer": answer, "tolerance": "1%"});
+        judged(line)
+    };
+    assert_eq!(near("(3.02, 0.001) m/s"), "equivalent EQUIV_TOLERANCE");
+    assert!(near("(3.02, 0.04) m/s").starts_with("different"));
+    assert!(near("(3.04, 0) m/s").starts_with("different"));
+}
+
+#[test]
 fn a_form_may_be_asked_for() {
     let line = |answer: &str, form: Value| {
         judged(json!({"expected": "(a+b)^2", "answer": answer, "form": form}))
@@ -410,6 +471,12 @@ fn what_can_be_reduced_or_factored_has_not_the_form() {
         ("simplified", "a b/(c d)", "(a/c)/(d/b)"),
         ("simplified", "(3/2) v/l", "(6/4) v/l"),
         ("simplified", "3*10^4", "3*100^2"),
+        ("simplified", "x/(x+1)", "x^2/(x^2+x)"),
+        ("simplified", "(m-M)/(m+M)", "(m^2-M^2)/(m+M)^2"),
+        ("simplified", "(x+1)/(x+2)", "(x^2+3x+2)/(x+2)^2"),
+        ("simplified", "1", "e^0"),
+        ("simplified", "-x", "-(-(-x))"),
+        ("factored", "(x+1)(x+2)", "(x+1)(x+2)x/x"),
         ("digits=3", "12300", "12300.0"),
         ("digits=2", "1300", "1300.0"),
         ("digits=1", "100", "100.0"),

@@ -376,6 +376,9 @@ fn a_slash_without_brackets_is_refused_where_authors_ask_for_brackets() {
     let told = judge("3v/2l", "3*v/(2*l)", &none, &Options::default());
     let is_told = |grade: &Grade| grade.diagnosis.iter().any(|d| d.code == "EXPECTED_READING");
     assert!(is_told(&told), "{told:?}");
+    // So he is of a root that could reach further.
+    let root = judge("√2gh", "√2 g h", &none, &Options::default());
+    assert!(is_told(&root), "{root:?}");
     // A quotient of quantities is read in one way.
     let quantity = judge("10 m / 2 s", "5 m/s", &none, &Options::default());
     assert!(!is_told(&quantity), "{quantity:?}");

@@ -45,7 +45,7 @@ pub struct GradeArgs {
     /// How strong a proof of equality has to be
     #[arg(long, value_enum, default_value_t = Strength::Identity)]
     proof: Strength,
-    /// How far a number may be off, such as 2%
+    /// How far a number may be off, such as 2% or 0.1 m
     #[arg(long)]
     tolerance: Option<String>,
     /// Demand on the form: simplified, factored, unit, digits=3, only=m,v; may be repeated
@@ -128,7 +128,7 @@ pub fn run(args: &GradeArgs) -> Result<u8, Failure> {
             let grade = grade::judge(expected, answer, &question(args)?, &options);
             if grade.note == "INVALID_EXPECTED" {
                 let shown = grade.error.as_ref();
-                let shown = shown.map_or(String::new(), |f| f.show(expected));
+                let shown = shown.map_or(grade.proof.words.clone(), |f| f.show(expected));
                 return Err(Failure::Input(format!("--expected: {shown}")));
             }
             grade
@@ -201,7 +201,7 @@ fn options(args: &GradeArgs) -> Result<Options, Failure> {
     if let Some(text) = &args.tolerance {
         let read = grade::Tolerance::read(text);
         options.tolerance = Some(read.ok_or_else(|| {
-            Failure::Input(format!("--tolerance {text}: expected a share such as 2%"))
+            Failure::Input(format!("--tolerance {text}: expected a share such as 2%, or an amount with its unit such as 0.1 m"))
         })?);
     }
     for text in &args.form {
@@ -222,6 +222,9 @@ fn question(args: &GradeArgs) -> Result<Question, Failure> {
         let (name, domain) = text
             .split_once('=')
             .ok_or_else(|| wrong("expected NAME=DOMAIN, such as e=0..1"))?;
+        if name == "pi" {
+            return Err(wrong("pi is the number π, and no symbol"));
+        }
         let value = match domain.split_once("..") {
             Some((low, high)) => {
                 let end = |t: &str| if t.is_empty() { Value::Null } else { json!(t) };

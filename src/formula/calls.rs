@@ -107,6 +107,18 @@ impl Parser<'_> {
                     shape => Written::new(shape, inner.start, inner.end),
                 }
             }
+            Tok::Open('[') if function == Function::Ln => {
+                let inner = self.primary()?;
+                match inner.shape {
+                    // As Mathematica writes it, `Log[b, x]`, the base comes first.
+                    Shape::List(mut parts) if parts.len() == 2 && exponent.is_none() => {
+                        let (above, stop) = (parts.remove(1), inner.end);
+                        let base = parts.remove(0).call(Function::Ln);
+                        return Ok(above.call(Function::Ln).over(base).at(start, stop));
+                    }
+                    shape => Written::new(shape, inner.start, inner.end),
+                }
+            }
             _ => self.taken_of(function, is_inverse, start, end)?,
         };
         let trigonometric = matches!(function, Function::Sin | Function::Cos | Function::Tan);
@@ -211,6 +223,7 @@ impl Parser<'_> {
     /// `sgn(x)` is x over |x|, which has no value at zero.
     pub(super) fn signum(&mut self, start: usize) -> Faulty<Written> {
         let above = self.primary()?;
+        self.copies(&above)?;
         let stop = above.end;
         let size = above.clone().inside(Shape::Abs);
         Ok(above.over(size).at(start, stop))

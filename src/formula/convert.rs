@@ -79,6 +79,10 @@ pub(crate) fn value(w: &Written, mode: Mode) -> Faulty<Value> {
                 _ => Err(w.fault("the index of a root is a whole number from 1 to 64")),
             }
         }
+        Shape::Call(Function::Abs, inner) if inner.is_vector() => match value(inner, mode)? {
+            Value::Vector(v) => scalar(dot(&v, &v).sqrt()),
+            _ => Err(inner.fault(UNREAD)),
+        },
         Shape::Call(function, argument) => scalar(Expr::call(*function, one(argument, mode)?)),
         Shape::Reciprocal(function, argument) => {
             scalar(Expr::call(*function, one(argument, mode)?).powi(-1))

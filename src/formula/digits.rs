@@ -77,19 +77,34 @@ impl Lexer<'_> {
 
     /// `\\binom{5}{2}` of whole numbers.
     pub(super) fn binomial(&mut self, start: usize) -> Faulty<Tok> {
-        let mut of = [0, 0];
+        let mut of = [""; 2];
         for number in &mut of {
             let (inside, end) = self.group(start)?;
-            let whole = inside
-                .trim()
-                .parse()
-                .ok()
-                .filter(|n| (0..=MAX_FACTORIAL).contains(n));
-            let message = format!("a binomial is read of whole numbers up to {MAX_FACTORIAL}");
-            *number = whole.ok_or_else(|| Fault::new(message, start, end))?;
+            *number = inside;
             self.pos = end;
         }
-        let [n, k] = of;
+        self.binomial_of(of, start)
+    }
+
+    /// The rest of `binomial(5, 2)`.
+    pub(super) fn binomial_of_list(&mut self, start: usize) -> Faulty<Tok> {
+        let inside = self.text[self.pos..].strip_prefix('(');
+        let inside = inside.and_then(|rest| rest.split_once(')'));
+        let list = inside.and_then(|(inside, _)| Some((inside.len(), inside.split_once(',')?)));
+        let Some((length, (n, k))) = list else {
+            return self.binomial_of([""; 2], start);
+        };
+        self.pos += length + 2;
+        self.binomial_of([n, k], start)
+    }
+
+    fn binomial_of(&self, of: [&str; 2], start: usize) -> Faulty<Tok> {
+        let whole = |text: &str| text.trim().parse().ok();
+        let small = |n: &i64| (0..=MAX_FACTORIAL).contains(n);
+        let [Some(n), Some(k)] = of.map(|text| whole(text).filter(small)) else {
+            let message = format!("a binomial is read of whole numbers up to {MAX_FACTORIAL}");
+            return Err(Fault::new(message, start, self.pos));
+        };
         let above: Vec<i64> = (n - k + 1..=n).collect();
         let below: Vec<i64> = (1..=k).collect();
         Ok(Tok::Number(counted(&above, &below)))

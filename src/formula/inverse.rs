@@ -11,6 +11,7 @@ impl Parser<'_> {
     pub(super) fn area(&mut self, function: Function, start: usize, end: usize) -> Faulty<Written> {
         let reciprocal = matches!(function, Function::Sin | Function::Cos | Function::Tan);
         let called = self.call(function, false, start, end)?;
+        self.copies(&called)?;
         match called.shape {
             Shape::Call(_, x) => Ok(inverse(function, reciprocal, *x, [start, called.end])),
             Shape::Power(base, exponent) => {

@@ -612,6 +612,13 @@ fn content(
         Content::Scalar(written) => {
             let blank = |c: char| c.is_whitespace() || c == '$';
             let unit_text = text[*start..*end].trim_matches(blank);
+            // That of `\qty{3}{m/s}` stands before the end of the number.
+            let in_braces = text[..*start].trim_end().strip_suffix('}');
+            let in_braces = in_braces.and_then(|t| Some(units::spelled(t.rsplit_once("}{")?.1)));
+            let unit_text = match (unit_text, &in_braces) {
+                ("", Some(spelled)) => spelled,
+                (shown, _) => shown,
+            };
             let quantity = Quantity::of(written, unit.clone(), unit_text);
             (Content::Quantity(Box::new(quantity)), None)
         }

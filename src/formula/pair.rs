@@ -12,6 +12,9 @@ impl Parser<'_> {
     /// y/(√(x² + y²) + x), and the greater of two numbers half of a + b + |a − b|.
     pub(super) fn pair(&mut self, function: Pair, start: usize) -> Faulty<Written> {
         let (one, other) = self.list_of_two(function.name())?;
+        for argument in [&one, &other] {
+            self.copies(argument)?;
+        }
         let end = other.end;
         let number = |k| whole_number(k, start, end);
         let bracket = |w: &Written| w.clone().inside(Shape::Bracket);

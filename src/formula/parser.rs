@@ -60,7 +60,12 @@ pub(crate) struct Parser<'a> {
     pub(super) arguments: u32,
     /// Units inside the current side.
     units: u32,
+    /// Pieces written more than once so far.
+    copied: usize,
 }
+
+/// Most pieces that a formula is written out with for functions of which an argument stands in several places.
+const MAX_COPIED: usize = 20_000;
 
 impl<'a> Parser<'a> {
     pub fn new(
@@ -78,6 +83,7 @@ impl<'a> Parser<'a> {
             bars: 0,
             arguments: 0,
             units: 0,
+            copied: 0,
         }
     }
 
@@ -140,6 +146,15 @@ impl<'a> Parser<'a> {
         match self.peeked.take() {
             Some(token) => Ok(token),
             None => self.lexer.next(),
+        }
+    }
+
+    /// Counts an argument that is about to be written more than once; such functions inside each other double what they hold.
+    pub(super) fn copies(&mut self, argument: &Written) -> Faulty<()> {
+        self.copied += argument.size();
+        match self.copied > MAX_COPIED {
+            true => Err(argument.fault("functions inside each other make this formula too large")),
+            false => Ok(()),
         }
     }
 

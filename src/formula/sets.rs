@@ -227,11 +227,11 @@ fn parts(text: &str, [from, stop]: [usize; 2], signs: &[&str], words: &[&str]) -
         let rest = &text[start..stop];
         // A letter or a word joins two intervals where it stands between their brackets.
         let between = |word: &str, at: usize| {
-            let closed = rest[..at].trim_end().ends_with([')', ']', '[']);
+            let closed = rest[..at].trim_end().ends_with([')', ']', '[', '}']);
             closed
                 && rest[at + word.len()..]
                     .trim_start()
-                    .starts_with(['(', ']', '['])
+                    .starts_with(['(', ']', '[', '{'])
         };
         let word = |word: &str| {
             let mut found = rest.match_indices(word).map(|(at, _)| at);

@@ -23,6 +23,7 @@ pub(super) fn is_likely(text: &str, held: Held) -> bool {
     held.joins()
         || held.any("|:") && held.any("{")
         || held.any("\x01") && text.contains(['∨', '∧', '∈'])
+        || held.all("{in") && (text.contains(" in ") || text.contains("\\in"))
         || held.any("\\") && text.match_indices('\\').any(|(at, _)| command(at))
 }
 

@@ -4,12 +4,15 @@ use super::fault::{Fault, Faulty};
 use super::lexer::Lexer;
 use super::note::Remark;
 use super::symbols::name;
-use super::symbols::{Parts, is_greek, letters_at};
+use super::symbols::{Parts, among, is_greek, letters_at};
 use super::token::{Before, Literal, Pair, Tok, function};
 use crate::expr::{Function, Symbol, ratio};
 
 /// Most different names in one formula.
 const MAX_NAMES: usize = 256;
+/// Functions that are not read, with brackets behind their names.
+const OTHER_FUNCTIONS: &str = "max min hypot floor ceil round trunc erf erfc gcd lcm mod sinc mean avg sum conj conjugate arg int \
+    integrate diff matrix heaviside Heaviside determinant trace transpose imag real cross dot lim limit solve factorial lambertw";
 /// Most faults reported together.
 const MAX_FAULTS: usize = 8;
 
@@ -132,6 +135,15 @@ impl Lexer<'_> {
                 self.pos = start + length;
                 return Ok(Some(Tok::Determinant));
             }
+            let called = rest[length..].starts_with('(') && self.symbols.find(word).is_none();
+            if called && matches!(word, "binomial" | "binom" | "choose" | "nCr") {
+                self.pos = start + length;
+                return self.binomial_of_list(start).map(Some);
+            }
+            if called && word == "norm" && !self.is_product(word) {
+                self.pos = start + length;
+                return Ok(Some(Tok::Call(Function::Abs)));
+            }
             let two = usize::from(rest[length..].starts_with("2("));
             let pair = Pair::named(&rest[..length + two]);
             let argued = rest[length + two..].starts_with('(');
@@ -143,6 +155,10 @@ impl Lexer<'_> {
             {
                 self.pos = start + length + two;
                 return Ok(Some(Tok::Pair(pair)));
+            }
+            if length == run && start == self.run_from && self.is_no_value(word) {
+                let message = format!("`{word}` is no value that is read here");
+                return Err(Fault::new(message, start, start + length));
             }
             if self.is_other_function(start, length) {
                 let two = rest[length..].starts_with("2(");
@@ -163,7 +179,9 @@ impl Lexer<'_> {
                 self.pos = start + length;
                 return Ok(Some(Tok::Number(Literal::of(ratio(0, 1)))));
             }
-            if word == "pi" {
+            let capital = word == "Pi" || word == "PI" && alone;
+            let spelled = capital && self.symbols.find(word).is_none() && !self.has_letter_of(word);
+            if word == "pi" || spelled {
                 self.pos = start + length;
                 return Ok(Some(Tok::Name("pi".into())));
             }
@@ -256,7 +274,8 @@ impl Lexer<'_> {
                 let argued = parted.is_some_and(|b| {
                     b.starts_with(|c: char| c.is_alphanumeric() || c == '(' || c == '\\')
                 });
-                b.starts_with('(') || attached && matches!(&digits[..count], "2" | "10") && argued
+                b.starts_with(['(', '['])
+                    || attached && matches!(&digits[..count], "2" | "10") && argued
             }),
         };
         let euler = ["_e", "_{e}"].iter().find_map(|e| rest.strip_prefix(e));
@@ -292,15 +311,38 @@ impl Lexer<'_> {
         let behind = &self.text[start + length..];
         let known = match word {
             "mod" if behind.starts_with(' ') => self.before != Before::Nothing,
-            "max" | "min" | "hypot" | "floor" | "ceil" | "round" | "trunc" | "erf" | "erfc"
-            | "gcd" | "lcm" | "mod" | "sinc" | "mean" | "avg" | "sum" => behind.starts_with('('),
             "atan" | "exp" => behind.starts_with("2("),
-            _ => false,
+            // γ times a number stands behind it, or with a sign.
+            "gamma" | "Gamma" => behind
+                .strip_prefix('(')
+                .and_then(|inside| inside.split_once(')'))
+                .is_some_and(|(inside, _)| !inside.is_empty() && is_number(inside)),
+            // `re(…)` and `tr(…)` may be products of two symbols.
+            _ => behind.starts_with('(') && among(OTHER_FUNCTIONS, word),
         };
-        let declared = |name: &str| self.symbols.find(name).is_some();
-        let letters = || (0..length).all(|at| declared(&word[at..=at]));
         let listed = || self.outside(start + length + 1, b',', b"").is_some();
-        known && !declared(word) && (listed() || !letters())
+        let declared = self.symbols.find(word).is_some();
+        known && !declared && (listed() || !self.is_product(word))
+    }
+
+    /// Whether a letter of a word is declared.
+    fn has_letter_of(&self, word: &str) -> bool {
+        (0..word.len()).any(|at| self.symbols.find(&word[at..=at]).is_some())
+    }
+
+    /// Whether all letters of a word are declared.
+    fn is_product(&self, word: &str) -> bool {
+        (0..word.len()).all(|at| self.symbols.find(&word[at..=at]).is_some())
+    }
+
+    /// Whether a word says that there is no number.
+    fn is_no_value(&self, word: &str) -> bool {
+        let small = word.to_ascii_lowercase();
+        among(
+            "nan inf infinity infty undefined none nothing solution solutions",
+            &small,
+        ) && self.symbols.find(word).is_none()
+            && !self.is_product(word)
     }
 
     /// A declared name with several indices, written exactly so: `v_bat_x` stays one name where `vb` is declared too.
@@ -645,4 +687,9 @@ pub(super) fn unit_vector(key: &str) -> Option<&'static str> {
         "k_hat" | "k_vec" | "z_hat" | "e_hat_z" | "e_vec_z" => "k_hat",
         _ => return None,
     })
+}
+
+/// Whether a text is a number in digits.
+fn is_number(text: &str) -> bool {
+    text.bytes().all(|b| b.is_ascii_digit() || b == b'.')
 }

@@ -125,6 +125,10 @@ impl Written {
     }
 
     /// The pieces it is made of.
+    pub(crate) fn size(&self) -> usize {
+        1 + self.pieces().into_iter().map(Written::size).sum::<usize>()
+    }
+
     pub(crate) fn pieces(&self) -> Vec<&Written> {
         match &self.shape {
             Shape::Sum(terms) => terms.iter().map(|(_, term)| term).collect(),

@@ -8,7 +8,8 @@ use std::collections::BTreeSet;
 use super::context::Context;
 use super::scalar::scalars;
 use super::{
-    Diagnosis, Grade, Key, Options, Strength, Verdict, number, partial, relation, show, unit,
+    Diagnosis, Grade, Key, Options, Strength, Tolerance, Verdict, number, partial, relation, show,
+    unit,
 };
 use crate::algebra;
 use crate::dimension::Dimension;
@@ -378,13 +379,22 @@ pub(super) fn values(ctx: &Context, expected: &Content, answer: &Content) -> Gra
         (Content::Quantity(e), Content::Scalar(a)) => unit::without(ctx, e, a),
         (Content::Scalar(e), Content::Quantity(a)) => unit::with(ctx, e, a),
         (Content::Vector(e), Content::Vector(a)) => {
-            all_of(ctx, e.iter().zip(a), |i| partial::vectors(ctx, e, a, i))
+            let room = room_beside(ctx, e);
+            let options = room.as_ref().unwrap_or(ctx.options);
+            let beside = Context::new(ctx.key, options, false);
+            let one = |e: &Expr, a: &Expr| match e.is_zero() {
+                true => scalars(&beside, e, a),
+                false => scalars(&ctx.plain(), e, a),
+            };
+            let pairs = e.iter().zip(a);
+            all_of(ctx, pairs, one, |i| partial::vectors(ctx, e, a, i))
         }
         (Content::Matrix(e), Content::Matrix(a)) => matrices(ctx, e, a),
         (Content::Either(e), Content::Either(a)) => several::lists(ctx, e, a),
         (Content::Either(e), Content::Scalar(a)) => {
             let right = e.iter().filter(|e| equal(ctx, e, a)).count();
-            if right == e.len() {
+            let together = ctx.options.tolerance.is_none() || several::distinct(ctx, e).len() == 1;
+            if right == e.len() && together {
                 return scalars(ctx, &e[0], a);
             }
             let one = right > 0;
@@ -398,11 +408,12 @@ pub(super) fn values(ctx: &Context, expected: &Content, answer: &Content) -> Gra
         }
         (Content::Scalar(e), Content::Either(a)) => {
             let right = a.iter().filter(|a| equal(ctx, e, a)).count();
-            if right == a.len() {
+            let together = ctx.options.tolerance.is_none() || several::distinct(ctx, a).len() == 1;
+            if right == a.len() && together {
                 return scalars(ctx, e, &a[0]);
             }
             let words = match right {
-                0 => "one value is expected",
+                all if all == 0 || all == a.len() => "one value is expected",
                 _ if a.len() > 2 => "one of the values is the expected one; the others are not",
                 _ => "one of the two values is the expected one; the other is not",
             };
@@ -452,7 +463,8 @@ fn matrices(ctx: &Context, expected: &[Vec<Expr>], answer: &[Vec<Expr>]) -> Grad
         ));
     }
     let pairs = expected.iter().flatten().zip(answer.iter().flatten());
-    all_of(ctx, pairs, |i| {
+    let one = |e: &Expr, a: &Expr| scalars(&ctx.plain(), e, a);
+    all_of(ctx, pairs, one, |i| {
         let turned = |(r, row): (usize, &Vec<Expr>)| {
             let mut entries = row.iter().enumerate();
             entries.all(|(c, e)| answer.get(c).is_some_and(|row| equal(ctx, e, &row[r])))
@@ -478,17 +490,28 @@ fn matrices(ctx: &Context, expected: &[Vec<Expr>], answer: &[Vec<Expr>]) -> Grad
     })
 }
 
+/// The tolerance of a component that vanishes: as a share of it would be nothing, it is that of the vector's length.
+fn room_beside(ctx: &Context, expected: &[Expr; 3]) -> Option<Options> {
+    let tolerance = ctx.options.tolerance.as_ref()?;
+    let length = Expr::sum(expected.iter().map(|e| e * e)).sqrt();
+    let [low, _] = number::bounds(&length)?;
+    Some(Options {
+        tolerance: Some(Tolerance::Absolute(tolerance.width(&low))),
+        ..ctx.options.clone()
+    })
+}
+
 /// Components or entries, one by one; the first that differs decides, and is explained.
 fn all_of<'e>(
     ctx: &Context,
     pairs: impl Iterator<Item = (&'e Expr, &'e Expr)>,
+    one: impl Fn(&Expr, &Expr) -> Grade,
     explained: impl Fn(usize) -> Vec<Diagnosis>,
 ) -> Grade {
-    let plain = ctx.plain();
     let mut undecided = None;
     let mut total: Option<Grade> = None;
     for (i, (e, a)) in pairs.enumerate() {
-        let mut finding = scalars(&plain, e, a);
+        let mut finding = one(e, a);
         match finding.verdict {
             Verdict::Equivalent => match &mut total {
                 None => total = Some(finding),

@@ -246,10 +246,11 @@ pub(super) fn unit_behind(
     }
 }
 
-/// What an author should know about an expected formula in which a slash could reach further or less far.
+/// What an author should know about an expected formula in which a slash or a root could reach further or less far.
 pub(super) fn told(expected: &str, reading: &Reading) -> Option<String> {
     let slash = |n: &&Note| match n.remark {
         Remark::Slash { .. } => reading.slashes,
+        Remark::Root { .. } => true,
         _ => is_quotient(n, expected),
     };
     let note = reading.notes.iter().find(slash)?;

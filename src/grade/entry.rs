@@ -245,7 +245,7 @@ fn limit(value: &Value, open: bool) -> Result<Option<Limit>, String> {
 pub fn tolerance(value: &Value) -> Result<Tolerance, String> {
     let wrong = || {
         format!(
-            "tolerance {value} is none of \"2%\", {{\"relative\": 0.02}}, {{\"absolute\": 0.1}}, {{\"significant\": 3}}"
+            "tolerance {value} is none of \"2%\", \"0.1 m\", {{\"relative\": 0.02}}, {{\"absolute\": 0.1}}, {{\"significant\": 3}}"
         )
     };
     let amount = |v: &Value| -> Option<Rational> {

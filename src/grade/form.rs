@@ -1,9 +1,11 @@
 //! Demands on the way an answer is written: simplified, factored, in given symbols, to so many digits, with a unit.
 
+use num_traits::Signed;
+
 use super::{Diagnosis, Grade, Key, Verdict};
 use crate::algebra::{Element, Field, tidy};
 use crate::expr::{Expr, Node, Symbol, ratio};
-use crate::formula::{Content, Link, Literal, Reading, Shape, Written};
+use crate::formula::{Content, Link, Literal, Reading, Shape, Sign, Written};
 
 /// A demand on the form of an answer.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -65,7 +67,10 @@ fn unmet(form: &Form, key: &Key, answer: &Reading) -> Option<(&'static str, Stri
         Form::Simplified if is_long(key, answer) => {
             ("DIFF_FORM_SIMPLIFIED", "it can be simplified".into())
         }
-        Form::Factored if !all.iter().all(|e| factored(e, key)) => {
+        Form::Factored
+            if !all.iter().all(|e| factored(e, key))
+                || answer.written.last().is_some_and(cancels) =>
+        {
             let words = "it is to be written as a product of factors";
             ("DIFF_FORM_FACTORED", words.into())
         }
@@ -104,7 +109,91 @@ fn is_long(key: &Key, answer: &Reading) -> bool {
             .min(shortest);
         tidy != usize::MAX && 2 * e.size() > 3 * tidy + 4 || repeats(e)
     };
-    answer.content.answer().exprs().iter().any(long) || answer.written.last().is_some_and(reducible)
+    let known = key.reading.content.exprs();
+    let common = |e: &&Expr| !known.contains(e) && divides(e, key);
+    let all = answer.content.answer().exprs();
+    let written = |w: &Written| reducible(w) || cancels(w);
+    all.iter().any(|e| long(e) || common(e)) || answer.written.last().is_some_and(written)
+}
+
+/// Whether a polynomial divides both sides of a fraction.
+fn divides(e: &Expr, key: &Key) -> bool {
+    let whole = |k: &Expr| k.as_number().is_some_and(|k| k.is_integer());
+    let plain = |part: &Expr| match part.node() {
+        Node::Power(_, k) => whole(k),
+        Node::Call(..) => false,
+        _ => true,
+    };
+    let shared = |factors: &[Expr]| {
+        let [mut above, mut below] = [Vec::new(), Vec::new()];
+        for factor in factors.iter().filter(|f| f.parts().all(plain)) {
+            match factor.node() {
+                Node::Power(base, k) if k.as_number().is_some_and(Signed::is_negative) => {
+                    below.push(base.clone());
+                }
+                _ => above.push(factor.clone()),
+            }
+        }
+        let [above, below] = [above, below].map(Expr::product);
+        let parts = |(field, [a, b]): (Field, [Element; 2])| {
+            let below: Vec<Expr> = field
+                .zeros(&b)
+                .iter()
+                .map(|part| field.expr(part))
+                .collect();
+            let shared = |part: &Element| below.contains(&field.expr(part));
+            field.zeros(&a).iter().any(shared)
+        };
+        let pair = Field::pair(&key.question.domains, &above, &below).ok();
+        !below.is_constant() && pair.is_some_and(|(field, a, b)| parts((field, [a, b])))
+    };
+    e.parts().any(|part| match part.node() {
+        Node::Product(factors) => shared(factors),
+        _ => false,
+    })
+}
+
+/// Whether the same factor stands above and below a fraction line as it is written.
+fn cancels(w: &Written) -> bool {
+    let mut sides = [Vec::new(), Vec::new()];
+    factors(w, false, &mut sides);
+    let [above, below] = &sides;
+    let shared = above.iter().any(|a| below.iter().any(|b| same(a, b)));
+    shared || w.pieces().into_iter().any(cancels)
+}
+
+/// What stands above the fraction line, and below it, without exponents.
+fn factors<'w>(w: &'w Written, below: bool, sides: &mut [Vec<&'w Written>; 2]) {
+    match &w.shape {
+        Shape::Product(parts) => {
+            for (i, (link, part)) in parts.iter().enumerate() {
+                factors(part, below != (i > 0 && *link == Link::Over), sides);
+            }
+        }
+        Shape::Fraction(a, b) => {
+            factors(a, below, sides);
+            factors(b, !below, sides);
+        }
+        Shape::Bracket(inside) => factors(inside, below, sides),
+        Shape::Power(base, exponent) if whole(exponent).is_some() => factors(base, below, sides),
+        _ => sides[usize::from(below)].push(w),
+    }
+}
+
+/// Whether two pieces are the same name, or the same sum of such.
+fn same(a: &Written, b: &Written) -> bool {
+    match (&a.shape, &b.shape) {
+        (Shape::Symbol(a), Shape::Symbol(b)) => a == b,
+        (Shape::Number(a), Shape::Number(b)) => a.value == b.value,
+        (Shape::Bracket(a), _) => same(a, b),
+        (_, Shape::Bracket(b)) => same(a, b),
+        (Shape::Sum(a), Shape::Sum(b)) => {
+            let pair =
+                |((s, a), (t, b)): (&(Sign, Written), &(Sign, Written))| s == t && same(a, b);
+            a.len() == b.len() && a.iter().zip(b).all(pair)
+        }
+        _ => false,
+    }
 }
 
 /// The digits of a number that surely count: those before the zeros at the end of a whole one, all of a decimal.
@@ -161,11 +250,18 @@ fn unfinished(w: &Written) -> bool {
         Shape::Product(factors) => factors.iter().skip(1).any(|(link, _)| *link == Link::Over),
         _ => false,
     };
+    let zero = |w: &Written| w.literal().is_some_and(|l| l.value == ratio(0, 1));
     match &w.shape {
         Shape::Sum(terms) => {
             let numbers = terms.iter().filter(|(_, term)| rational(term)).count();
-            let zero = |w: &Written| w.literal().is_some_and(|l| l.value == ratio(0, 1));
-            numbers > 1 || terms.len() > 1 && terms.iter().any(|(_, term)| zero(term))
+            let negative = |w: &Written| match &inside(w).shape {
+                Shape::Sum(terms) => matches!(terms[..], [(Sign::Minus, _)]),
+                _ => false,
+            };
+            let twice = |(sign, term): &(Sign, Written)| *sign == Sign::Minus && negative(term);
+            numbers > 1
+                || terms.iter().any(twice)
+                || terms.len() > 1 && terms.iter().any(|(_, term)| zero(term))
         }
         Shape::Product(factors) => {
             let over = |i: usize, link: &Link| i > 0 && *link == Link::Over;
@@ -187,7 +283,9 @@ fn unfinished(w: &Written) -> bool {
         }
         Shape::Power(base, exponent) => {
             let n = whole(exponent);
-            n == Some(1) || n.is_some() && whole(base).is_some_and(|base| base != 10)
+            n == Some(1)
+                || zero(exponent)
+                || n.is_some() && whole(base).is_some_and(|base| base != 10)
         }
         _ => false,
     }

@@ -367,6 +367,22 @@ fn judge_within(key: &Key, answer: &str, options: &Options) -> Grade {
     {
         return unreadable_key(fault.clone());
     }
+    if let Some(Tolerance::Measured(width)) = &options.tolerance {
+        return match unit::width_of(key.quantity.as_deref().unwrap_or(key), width) {
+            Ok(width) => {
+                let tolerance = Some(Tolerance::Absolute(width));
+                let options = Options {
+                    tolerance,
+                    ..options.clone()
+                };
+                judge_within(key, answer, &options)
+            }
+            Err(why) => {
+                let fault = Fault::new(why, 0, 0);
+                Grade::invalid("INVALID_TOLERANCE", "the tolerance does not fit", *fault)
+            }
+        };
+    }
     if key.quantity.is_some()
         && let Some(fault) = unit::unclear(answer)
     {
@@ -395,7 +411,7 @@ fn judge_within(key: &Key, answer: &str, options: &Options) -> Grade {
         && !key.quantity.as_deref().is_some_and(is_quantity)
     {
         let words = format!("the expected formula is ambiguous: {told}");
-        let hint = "authors write brackets around all that stands below a slash";
+        let hint = "authors write brackets around all that stands below a slash or under a root";
         grade
             .diagnosis
             .push(Diagnosis::new("EXPECTED_READING", words, hint));

@@ -4,8 +4,9 @@
 
 use num_traits::{Signed, Zero};
 
+use crate::dimension;
 use crate::expr::{Expr, Node, Rational, ratio};
-use crate::formula::Content;
+use crate::formula::{Content, Quantity};
 
 pub use crate::verify::rounding::{bounds, half_unit, ten_to};
 
@@ -16,6 +17,8 @@ pub enum Tolerance {
     Relative(Rational),
     /// At most this much, in the unit of the expected value.
     Absolute(Rational),
+    /// At most this much, in a unit of its own that has to fit the expected value.
+    Measured(Box<Quantity>),
     /// Equal when rounded to this many significant digits, up to half a unit of the last one.
     Significant(u32),
 }
@@ -26,6 +29,7 @@ impl Tolerance {
         match self {
             Tolerance::Relative(share) => expected.abs() * share,
             Tolerance::Absolute(width) => width.clone(),
+            Tolerance::Measured(width) => bounds(&width.value).map_or(ratio(0, 1), |[low, _]| low),
             Tolerance::Significant(digits) => half_unit(expected, *digits),
         }
     }
@@ -46,13 +50,32 @@ impl Tolerance {
                 "within {} of the expected value",
                 crate::expr::number::to_f64(width)
             ),
+            Tolerance::Measured(width) => format!(
+                "within {} {} of the expected value",
+                shown(&width.written),
+                width.unit_text
+            ),
             Tolerance::Significant(digits) => format!("equal to {digits} significant digits"),
         }
     }
 
-    /// Reads `2%`, `0.02` (relative); `None` for anything else.
+    /// Reads `2%`, `0.02` (relative) and `0.1 m` (absolute, with its unit); `None` for anything else.
     pub fn read(text: &str) -> Option<Tolerance> {
         let text = text.trim();
+        let width = match content(text) {
+            Some(Content::Quantity(width)) => Some(width),
+            // `1°` is read as a multiple of π.
+            Some(Content::Scalar(e)) if super::fraction(&e).is_none() => {
+                let degree = dimension::unit("deg").ok()?;
+                let written = &e / &degree.value();
+                Some(Box::new(Quantity::of(written, degree, "°")))
+            }
+            _ => None,
+        };
+        if let Some(width) = width {
+            let is_size = bounds(&width.value)?.iter().all(|end| !end.is_negative());
+            return is_size.then_some(Tolerance::Measured(width));
+        }
         let (number, percent) = match text.strip_suffix('%') {
             Some(number) => (number.trim(), true),
             None => (text, false),
@@ -69,11 +92,17 @@ impl Tolerance {
 
 /// An exact decimal number such as `0.02` or `1e-3`.
 pub fn decimal(text: &str) -> Option<Rational> {
-    if text.len() > 60 {
-        return None;
+    match content(text)? {
+        Content::Scalar(e) => super::fraction(&e),
+        _ => None,
     }
-    let reading = crate::formula::read(text, &crate::formula::Symbols::strict()).ok()?;
-    super::fraction(reading.expr()?)
+}
+
+/// What a short text without symbols says.
+fn content(text: &str) -> Option<Content> {
+    let symbols = crate::formula::Symbols::strict();
+    let reading = (text.len() <= 60).then(|| crate::formula::read(text, &symbols).ok());
+    Some(reading??.content)
 }
 
 /// An expression in plain notation; a number that is a decimal fraction of more than one digit as a decimal.
@@ -128,7 +157,7 @@ pub(super) fn aligned(
         let same = same.find(|e| near(&Expr::from(k.clone()), &Expr::from(e.split_number().0)));
         same.unwrap_or(term).clone()
     };
-    let relative = !matches!(tolerance, Tolerance::Absolute(_));
+    let relative = !matches!(tolerance, Tolerance::Absolute(_) | Tolerance::Measured(_));
     match (expected, answer) {
         (Content::Quantity(e), Content::Quantity(a)) if relative => {
             let same = e.unit.dimension == a.unit.dimension && near(&a.value, &e.value);

@@ -66,7 +66,7 @@ pub(crate) fn diagnose(ctx: &Context, expected: &Expr, answer: &Expr) -> Vec<Dia
         .or_else(|| trial.doubled(ctx))
         .or_else(|| trial.exchanged(ctx))
         .or_else(|| trial.special(ctx))
-        .or_else(|| trial.small_angle())
+        .or_else(|| found.is_empty().then(|| trial.small_angle())?)
         .or_else(|| trial.power())
         .or_else(|| trial.factor_of_symbols(ctx))
     {
@@ -82,6 +82,12 @@ pub(crate) fn numbers(expected: &Expr, answer: &Expr) -> Vec<Diagnosis> {
     let sign = |message: &str| Diagnosis::new("SIGN", message, "check the sign");
     if same_number(expected, &-answer) {
         return vec![sign("right up to the sign")];
+    }
+    let degree = &Expr::pi() * &Expr::ratio(1, 180);
+    if same_number(expected, &(answer * &degree)) {
+        let message = "right in degrees; without their sign a number counts as radians";
+        let hint = "in which unit is your angle?";
+        return vec![Diagnosis::new("DEGREES", message, hint)];
     }
     // An angle that is a fraction in degrees was rounded in degrees.
     let in_degrees = answer.is_arc().then(|| {

@@ -214,7 +214,7 @@ fn tolerant(ctx: &Context, expected: &Expr, answer: &Expr, tolerance: &Tolerance
                 let factor = Expr::from(answer.split_number().0);
                 number::within(&factor, &(&factor / &ratio), tolerance)?
             }
-            Tolerance::Absolute(_) => return None,
+            Tolerance::Absolute(_) | Tolerance::Measured(_) => return None,
         }
     };
     if inside {

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use super::context::Context;
 use super::scalar::scalars;
-use super::{Diagnosis, Grade, Key, Tolerance, Verdict};
+use super::{Diagnosis, Grade, Key, Tolerance, Verdict, number};
 use crate::dimension::{self, Clash, Dimension, Unit};
-use crate::expr::Expr;
+use crate::expr::{Expr, Rational, ratio};
 use crate::formula::{self, Content, Fault, Quantity, Reading, Remark, Symbols, write_plain};
 
 /// The unit behind a vector, a pair, or a formula in symbols, which carry none in their content.
@@ -221,6 +221,34 @@ fn asked(key: &Key) -> Option<Dimension> {
     let said = key.reading.content.answer().exprs().into_iter();
     let mut said = said.filter(|e| !e.is_zero() && !e.is_constant());
     said.find_map(|e| dimension::of(e, &known).ok()?)
+}
+
+/// A tolerance with a unit as so many of the unit that the expected value is compared in.
+pub(super) fn width_of(key: &Key, width: &Quantity) -> Result<Rational, String> {
+    let [unit, measures] = [&width.unit_text, &width.unit.dimension.to_string()];
+    let Some(asked) = asked(key) else {
+        let dimensionless = width.unit.dimension.is_none();
+        let why = "and the expected value has no unit";
+        return match dimensionless {
+            true => Ok(low(&width.value)),
+            false => Err(format!("the tolerance is in {unit}, {why}")),
+        };
+    };
+    if asked != width.unit.dimension {
+        return Err(format!(
+            "the tolerance is in {unit}, which measures {measures}, and {asked} is asked for"
+        ));
+    }
+    let own = match key.reading.content.answer() {
+        Content::Quantity(expected) => expected.unit.value(),
+        _ => Expr::one(),
+    };
+    Ok(low(&(&width.value / &own)))
+}
+
+/// The lower bound of a constant.
+fn low(e: &Expr) -> Rational {
+    number::bounds(e).map_or(ratio(0, 1), |[low, _]| low)
 }
 
 /// Two quantities with units.

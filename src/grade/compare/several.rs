@@ -356,32 +356,75 @@ fn by_name(ctx: &Context, expected: &[(Symbol, Content)], answer: &[(Symbol, Con
     total
 }
 
+/// Values without those that are an earlier one once more; within a tolerance alone these are to be told from near ones.
+pub(super) fn distinct<'e>(ctx: &Context, values: &'e [Expr]) -> Vec<&'e Expr> {
+    let mut own: Vec<&Expr> = Vec::new();
+    for value in values {
+        let again = |other: &&Expr| equality::identical(other, value, ctx.domains());
+        if ctx.options.tolerance.is_none() || !own.iter().any(again) {
+            own.push(value);
+        }
+    }
+    own
+}
+
+/// Leaves each expected value at most one of the answers that fit it, and each answer at most one value, so that as many values
+/// as can be have one: two values near each other are not both given by a number near both.
+fn one_to_one(fitting: &mut [Vec<(usize, Grade)>], answers: usize) {
+    fn place(i: usize, fits: &[Vec<usize>], of: &mut [Option<usize>], tried: &mut [bool]) -> bool {
+        fits[i].iter().any(|k| {
+            let new = !std::mem::replace(&mut tried[*k], true);
+            let free = new && of[*k].is_none_or(|other| place(other, fits, of, tried));
+            if free {
+                of[*k] = Some(i);
+            }
+            free
+        })
+    }
+    let fits = fitting
+        .iter()
+        .map(|here| here.iter().map(|(k, _)| *k).collect());
+    let fits: Vec<Vec<usize>> = fits.collect();
+    let mut of = vec![None; answers];
+    for i in 0..fits.len() {
+        place(i, &fits, &mut of, &mut vec![false; answers]);
+    }
+    for (i, here) in fitting.iter_mut().enumerate() {
+        here.retain(|(k, _)| of[*k] == Some(i));
+    }
+}
+
 /// Values in any order, of which each has to be given.
 pub(super) fn lists(ctx: &Context, expected: &[Expr], answer: &[Expr]) -> Grade {
     let plain = ctx.plain();
-    let mut found = vec![false; answer.len()];
-    let (mut total, mut undecided, mut lost) = (None::<Grade>, None, Vec::new());
-    for value in expected {
-        let mut here = None;
+    let [expected, answer] = [distinct(ctx, expected), distinct(ctx, answer)];
+    let mut fitting: Vec<Vec<(usize, Grade)>> = vec![Vec::new(); expected.len()];
+    let mut undecided = None;
+    for (value, here) in expected.iter().zip(&mut fitting) {
         for (k, mine) in answer.iter().enumerate() {
             let finding = scalars(&plain, value, mine);
             match finding.verdict {
-                Verdict::Equivalent => {
-                    found[k] = true;
-                    here = Some(finding);
-                }
+                Verdict::Equivalent => here.push((k, finding)),
                 Verdict::Different => {}
                 _ => undecided = Some(finding),
             }
         }
-        match (here, &mut total) {
-            (None, _) => lost.push(value),
-            (Some(finding), None) => total = Some(finding),
-            (Some(finding), Some(total)) => total.assume(finding.assumed),
+    }
+    if ctx.options.tolerance.is_some() {
+        one_to_one(&mut fitting, answer.len());
+    }
+    let mut found = vec![false; answer.len()];
+    let (mut total, mut lost) = (None::<Grade>, Vec::new());
+    for (value, mut here) in expected.iter().zip(fitting) {
+        here.iter().for_each(|(k, _)| found[*k] = true);
+        match (here.pop(), &mut total) {
+            (None, _) => lost.push(*value),
+            (Some((_, finding)), None) => total = Some(finding),
+            (Some((_, finding)), Some(total)) => total.assume(finding.assumed),
         }
     }
     let gained = answer.iter().zip(&found).filter(|(_, found)| !**found);
-    let gained: Vec<&Expr> = gained.map(|(value, _)| value).collect();
+    let gained: Vec<&Expr> = gained.map(|(value, _)| *value).collect();
     if let Some(total) = total.as_mut() {
         total.assumed.sort();
     }
@@ -395,11 +438,24 @@ pub(super) fn lists(ctx: &Context, expected: &[Expr], answer: &[Expr]) -> Grade 
             };
             Grade::told("DIFF_ONE_OF_TWO", "kind", words, "there are more values")
         }
+        ([], [_, ..], ..) if answer.len() > expected.len() && ctx.options.tolerance.is_some() => {
+            let words = format!(
+                "{} values are expected, and {} given",
+                expected.len(),
+                answer.len()
+            );
+            Grade::told(
+                "DIFF_ROOT_GAINED",
+                "kind",
+                words,
+                "check each of your values",
+            )
+        }
         (lost, gained, ..) => rounded(ctx, lost, gained).unwrap_or_else(|| match (lost, gained) {
             // What is wrong with the only value that is.
             ([lost], [beside]) => scalars(&plain, lost, beside),
             _ => {
-                let beside = gained.first().map_or(&answer[0], |value| value);
+                let beside = gained.first().unwrap_or(&answer[0]);
                 let said = match beside.as_number() {
                     Some(_) => number::shown(beside),
                     None => ctx.say(beside),

@@ -28,6 +28,8 @@ pub(in crate::grade) fn euler(
         matches!(part.node(), Node::Call(Ln | Sinh | Cosh | Tanh, _))
     };
     let logarithm = expected.parts().chain(answer.parts()).any(is_ln);
+    let is_euler = |part: &Expr| matches!(part.node(), Node::Call(Function::Exp, k) if k.is_one());
+    let alone = logarithm || expected.parts().any(is_euler);
     fn number(e: &Expr, alone: bool) -> Expr {
         match e.node() {
             Node::Power(base, k) if is_e(base) => Expr::call(Function::Exp, number(k, alone)),
@@ -36,8 +38,8 @@ pub(in crate::grade) fn euler(
             _ => e.map_parts(|part| number(part, alone)),
         }
     }
-    // Alone it is a number beside a logarithm or a hyperbolic function only: `ln x = 1` and `x = e`.
-    let number = |e: &Expr| number(e, logarithm);
+    // Alone it is a number beside a logarithm or a hyperbolic function only, `ln x = 1` and `x = e`, and for `exp(1)`.
+    let number = |e: &Expr| number(e, alone);
     let occurs = |content: &Content| content.mentions("e");
     if finding.verdict != Verdict::Different || occurs(expected) == occurs(answer) || key.declares_e
     {
@@ -176,29 +178,29 @@ fn agree_as_complex(difference: &Expr, domains: &Domains) -> bool {
 
 /// `x = n pi` for an equation in sines: its n may stand for any whole number, which is told of no symbol.
 pub(in crate::grade) fn any_whole_number(key: &Key, reading: &Reading, finding: &mut Grade) {
-    let asked = key.reading.content.symbols();
-    let said = reading.content.symbols();
+    let (expected, answer) = (&key.reading.content, &reading.content);
+    let count = counted_turns(expected, answer).or_else(|| counted_turns(answer, expected));
+    if let (Verdict::Different, Some(count)) = (finding.verdict, count) {
+        let words =
+            format!("{count} is read as a symbol; what holds for any whole number is not compared");
+        ambiguous(finding, &words, "give the solutions of one period");
+    }
+}
+
+/// The letter that counts turns in what is said of an equation in sines, which does not know it.
+fn counted_turns(equation: &Content, said: &Content) -> Option<Symbol> {
+    let known = equation.symbols();
     let is_count = |name: &Symbol| matches!(&**name, "n" | "k" | "m" | "N" | "j");
-    let mut counts = said
-        .iter()
-        .filter(|name| !asked.contains(*name) && is_count(name));
-    let Some(count) = counts.next() else {
-        return;
-    };
+    let mut counts = said.symbols().into_iter();
+    let count = counts.find(|name| !known.contains(name) && is_count(name))?;
     let is_turn = |part: &Expr| {
-        matches!(part.node(), Node::Product(_)) && part.mentions(count) && part.mentions("pi")
+        matches!(part.node(), Node::Product(_)) && part.mentions(&count) && part.mentions("pi")
     };
     let is_arc = |part: &Expr| {
         use Function::{Cos, Sin, Tan};
         matches!(part.node(), Node::Call(Sin | Cos | Tan, _))
     };
-    let turns = reading.content.parts().any(is_turn);
-    let periodic = key.reading.content.parts().any(is_arc);
-    if finding.verdict == Verdict::Different && turns && periodic {
-        let words =
-            format!("{count} is read as a symbol; what holds for any whole number is not compared");
-        ambiguous(finding, &words, "give the solutions of one period");
-    }
+    (said.parts().any(is_turn) && equation.parts().any(is_arc)).then_some(count)
 }
 
 /// Whether an exponent may count something: a whole number, a symbol, or a sum of such with positive factors.

@@ -9,7 +9,7 @@ use num_traits::Signed;
 use super::super::context::{Context, quotient};
 use super::super::{Diagnosis, fraction, number};
 use super::{GLANCES, simple};
-use crate::algebra::Field;
+use crate::algebra::{self, Field};
 use crate::dimension::Dimension;
 use crate::domain::{Coordinate, Domains, Roles, Sample, roles, samples};
 use crate::equality::identical as proved;
@@ -49,6 +49,10 @@ fn fits(values: &[Weighed], others: impl Iterator<Item = Weighed>) -> bool {
     }
     known
 }
+
+/// Orders at which two formulas are compared as an angle goes to zero, and the longest derivative looked at.
+const HIGHEST_ORDER: usize = 4;
+const LARGEST: usize = 2_000;
 
 const SIDE: &str = "check from which side the angle is measured";
 
@@ -198,6 +202,9 @@ impl<'a> Trial<'a> {
             return None;
         }
         let shown = field.expr(&q);
+        if shown.is_one() {
+            return None;
+        }
         let known = ctx.key.question.symbols.iter();
         let known: BTreeSet<Symbol> = known.map(|g| g.name.clone()).collect();
         let calls = shown.parts().any(|e| matches!(e.node(), Node::Call(..)));
@@ -396,8 +403,15 @@ impl<'a> Trial<'a> {
                 if value.is_one() && !number {
                     continue;
                 }
-                if self.is(&self.expected.put(&name, &value)) {
-                    let (code, words) = match turning && value.is_zero() {
+                let turning_at_zero = turning && value.is_zero();
+                // Nothing is no leading term.
+                if turning_at_zero && self.answer.is_zero() {
+                    continue;
+                }
+                if self.is(&self.expected.put(&name, &value))
+                    && (turning || self.only_at(&name, &value))
+                {
+                    let (code, words) = match turning_at_zero {
                         true => ("SMALL_ANGLE", format!("small {name} (to leading order)")),
                         false => ("SPECIAL_CASE", format!("{name} = {words}")),
                     };
@@ -414,7 +428,8 @@ impl<'a> Trial<'a> {
                 if ctx.dimension_of(a).is_none() || ctx.dimension_of(a) != ctx.dimension_of(b) {
                     continue;
                 }
-                if self.is(&self.expected.put(b, &Expr::symbol(a))) {
+                let other = Expr::symbol(a);
+                if self.is(&self.expected.put(b, &other)) && self.only_at(b, &other) {
                     let message = format!("right only for {b} = {a}");
                     let hint = format!("the answer should depend on {b}");
                     return Some(Diagnosis::new("SPECIAL_CASE", message, hint));
@@ -424,7 +439,8 @@ impl<'a> Trial<'a> {
         None
     }
 
-    /// The same leading term as an angle goes to zero.
+    /// The same as an angle goes to zero, up to the first order at which the expected formula varies with it. That two formulas
+    /// agree at zero alone says nothing: many wrong ones do.
     pub(super) fn small_angle(&self) -> Option<Diagnosis> {
         if !self.turns {
             return None;
@@ -432,32 +448,47 @@ impl<'a> Trial<'a> {
         let both = self.uses.iter().flat_map(|uses| uses.symbols.iter());
         let angles = both.filter(|(_, r)| r.turns).map(|(name, _)| name.clone());
         for name in angles.collect::<BTreeSet<Symbol>>() {
-            let at_zero = |e: &Expr| e.put(&name, &Expr::zero());
             let (mut e, mut a) = (self.expected.clone(), self.answer.clone());
-            for _ in 0..3 {
-                let (e0, a0) = (at_zero(&e), at_zero(&a));
+            for order in 0..=HIGHEST_ORDER {
+                let [e0, a0] = [&e, &a].map(|e| e.put(&name, &Expr::zero()));
                 let at = |e: &Expr| values(e, &self.points);
-                if Trial::apart(&at(&e0), &at(&a0)) {
+                let apart = Trial::apart(&at(&e0), &at(&a0));
+                if apart || e.size() > LARGEST || !proved(&e0, &a0, self.domains) {
                     break;
                 }
                 let nothing = vec![Weighed::from_rational(&ratio(0, 1)); self.points.len()];
-                let zero =
-                    |x: &Expr| self.may_be(&nothing, x) && proved(x, &Expr::zero(), self.domains);
-                match (zero(&e0), zero(&a0)) {
-                    (true, true) => {
-                        (e, a) = (e.derivative(&name), a.derivative(&name));
-                        continue;
-                    }
-                    (false, false) if proved(&e0, &a0, self.domains) => {
-                        let words = format!("right only for small {name}, to leading order");
-                        let hint = format!("right only where {name} is small");
-                        return Some(Diagnosis::new("SMALL_ANGLE", words, hint));
-                    }
-                    _ => break,
+                let may_vanish = self.may_be(&nothing, &e0);
+                if order > 0 && !(may_vanish && proved(&e0, &Expr::zero(), self.domains)) {
+                    let words = format!("right only for small {name}, to leading order");
+                    let hint = format!("right only where {name} is small");
+                    return Some(Diagnosis::new("SMALL_ANGLE", words, hint));
                 }
+                (e, a) = (e.derivative(&name), a.derivative(&name));
             }
         }
         None
+    }
+
+    /// Whether the answer is right on the domain where a symbol has a value and nowhere else: each part of the difference has one
+    /// sign throughout, or grows or falls throughout and vanishes at that value.
+    fn only_at(&self, name: &Symbol, value: &Expr) -> bool {
+        let domain = self.domains.symbols.get(name);
+        let reached = value
+            .as_number()
+            .is_none_or(|value| domain.map_or(!value.is_negative(), |d| d.admits(to_f64(value))));
+        let gap = self.expected - self.answer;
+        let Ok((field, x)) = Field::of(&self.domains.of(&[&gap]), &gap) else {
+            return false;
+        };
+        let strict = |e: &Expr| {
+            let sign = algebra::sign(e, &self.domains.of(&[&gap, e]));
+            sign.is_some_and(algebra::Sign::is_strict)
+        };
+        let only = |part: &Expr| {
+            let vanishes = || proved(&part.put(name, value), &Expr::zero(), self.domains);
+            strict(part) || strict(&part.derivative(name)) && vanishes()
+        };
+        reached && field.zeros(&x).iter().all(|part| only(&field.expr(part)))
     }
 
     pub(super) fn power(&self) -> Option<Diagnosis> {

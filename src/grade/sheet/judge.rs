@@ -255,6 +255,7 @@ impl Sheet {
         if told && !others.iter().any(|d| d.code == "OTHER_QUANTITY") {
             others.extend(self.another_answer(entry, answer));
         }
+        slip_first(&mut found, &mut grade.diagnosis);
         let mut all: Vec<Diagnosis> = sign.into_iter().chain(found).collect();
         all.append(&mut others);
         all.append(&mut grade.diagnosis);
@@ -444,7 +445,10 @@ impl Sheet {
             tolerance: options.tolerance.clone().or(Some(rounded)),
             ..options.clone()
         };
-        let mut grade = judge_against(&key, answer, &within);
+        let mut grade = judge_against(&key, answer, options);
+        if !grade.is_equivalent() {
+            grade = judge_against(&key, answer, &within);
+        }
         if grade.note == "EQUIV_TOLERANCE" && options.tolerance.is_none() {
             grade.note = "EQUIV_ROUNDED";
             grade.proof.words = format!("the exact value rounded to {digits} significant digits");
@@ -460,6 +464,17 @@ impl Sheet {
             crate::expr::number::to_f64(&half) * 1.000_001
         });
         Some((grade, room))
+    }
+}
+
+/// Puts a single slip that is right before two beliefs together, which explain less.
+fn slip_first(found: &mut Vec<Diagnosis>, others: &mut Vec<Diagnosis>) {
+    let slip = |d: &Diagnosis| matches!(d.code, "SYMBOL_SIGN" | "SIN_COS" | "EXCHANGED");
+    if !found.is_empty()
+        && found.iter().all(|d| d.code == "TWO_BELIEFS")
+        && let Some(at) = others.iter().position(slip)
+    {
+        found.insert(0, others.remove(at));
     }
 }
 
