@@ -131,7 +131,8 @@ fn a_velocity_before_printed_as_the_one_after_is_recognized() {
 
 #[test]
 fn answers_in_a_file_beside_the_scene_are_held_against_it() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/printed");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folder = root.join("tests/printed");
     let text = |name: &str| fs::read_to_string(folder.join(name)).expect("a file");
     let mut wrong = Vec::new();
     let mut known: Vec<(String, Vec<Finding>)> = Vec::new();
@@ -142,7 +143,14 @@ fn answers_in_a_file_beside_the_scene_are_held_against_it() {
             panic!("four cells: {line}")
         };
         if !known.iter().any(|(n, _)| n == name) {
-            let mut scene = scene::read(&text(&format!("{name}.json"))).expect("a sound scene");
+            // A scene beside the answers, or one that is shipped.
+            let folders = ["tests/printed", "derivations/book", "derivations/more"];
+            let mut paths = folders
+                .iter()
+                .map(|f| root.join(f).join(format!("{name}.json")));
+            let path = paths.find(|path| path.exists()).expect("a scene");
+            let shown = fs::read_to_string(path).expect("a file");
+            let mut scene = scene::read(&shown).expect("a sound scene");
             let answers = text(&format!("{name}.answers.json"));
             scene.printed = scene::read_printed(&answers).expect("a sound list");
             let (found, _) = command::printed(scene).expect("a derivation");

@@ -13,6 +13,7 @@ mod matrix;
 mod number;
 mod remainder;
 mod row;
+mod small;
 mod special;
 
 pub use cases::in_cases;
@@ -61,7 +62,7 @@ pub struct Finding {
 const MOST_READINGS: usize = 4;
 
 /// What is said where nothing explains a wrong thing.
-const UNEXPLAINED: &str = "no single slip of the pen leads to it";
+const UNEXPLAINED: &str = "no slip of the pen that was tried leads to it";
 
 /// What is said where some slip would lead to most numbers as short as the printed one.
 const FEW_DIGITS: &str = "it has too few digits to tell a slip of the pen from chance";
@@ -263,7 +264,7 @@ impl Desk<'_> {
         let pairs: Vec<(Expr, Expr)> = match (
             &bound,
             self.vectors.get(&name),
-            self.closed.get(&name),
+            self.answered(&name),
             reading.content.answer(),
         ) {
             (Some((_, value, derived)), ..) => vec![(derived.clone(), value.clone())],
@@ -297,13 +298,17 @@ impl Desk<'_> {
         };
         let mut shown = Vec::new();
         let mut all = Vec::new();
+        let mut is_whole = true;
         for (closed, value) in &pairs {
-            let closed = self.put_in(closed, printed)?;
-            shown.push(match is_said || !printed.at.is_empty() {
+            let (order, whole) = small::order(value, &printed.small);
+            is_whole &= whole;
+            let closed = self.put_in_to(closed, printed, order)?;
+            let is_special = !printed.at.is_empty() || !printed.small.is_empty();
+            shown.push(match is_said || is_special {
                 true => self.tidy(&closed),
                 false => self.say(&closed),
             });
-            all.push((closed, self.put_in(value, printed)?));
+            all.push((closed, self.put_in_to(value, printed, order)?));
         }
         shown.truncate(if pairs.len() == 3 { 2 } else { 1 });
         finding.carom = if shown.len() == 1 {
@@ -312,6 +317,7 @@ impl Desk<'_> {
             format!("[{}]", shown.join(", "))
         };
         self.identities(&all, printed, finding);
+        leave_open(is_whole, finding);
         let figure = self.figure(&all, text, printed);
         let figure = figure.filter(|_| finding.holds == Some(false));
         let is_number = figure.is_some_and(|figure| {
@@ -333,17 +339,22 @@ impl Desk<'_> {
         }
         if finding.holds == Some(false) && finding.explained.is_none() {
             self.caught(&all, printed, finding);
-            finding.explained = self
-                .before(item, &all)
-                .or_else(|| self.place(item, &all))
-                .or_else(|| self.factor(&all))
-                .or_else(|| self.exchanged(&all))
-                .or_else(|| self.sought(&all))
-                .or_else(|| self.slip(&all))
-                .or_else(|| self.component(&all))
-                .or_else(|| self.short_factor(&all));
+            finding.explained = self.explained(item, &all);
         }
         Ok(())
+    }
+
+    /// What led to a wrong formula for an item.
+    fn explained(&self, item: &str, all: &[(Expr, Expr)]) -> Option<String> {
+        self.before(item, all)
+            .or_else(|| self.place(item, all))
+            .or_else(|| self.factor(all))
+            .or_else(|| self.exchanged(all))
+            .or_else(|| self.sought(all))
+            .or_else(|| self.slip(all))
+            .or_else(|| self.slip_in_printed(all))
+            .or_else(|| self.component(all))
+            .or_else(|| self.short_factor(all))
     }
 
     /// Whether a formula gives the item something; one for another parameter, `m = …`, gives it nothing.
@@ -381,7 +392,7 @@ impl Desk<'_> {
         };
         let (name, truth) = match self.bounds.get(item) {
             Some((of, _, value)) => (of.as_symbol()?, value),
-            None => (item, self.closed.get(item)?),
+            None => (item, self.answered(item)?),
         };
         if left.as_symbol().is_some_and(|s| s == name || s == item) {
             return None;
@@ -401,11 +412,18 @@ impl Desk<'_> {
             return Err("an equation has two sides".into());
         };
         let mut values: Vec<Vec<Expr>> = Vec::new();
+        let orders = sides.iter().flat_map(Content::exprs);
+        let orders = orders.map(|e| small::order(e, &printed.small));
+        let order = orders.clone().map(|(order, _)| order).max().unwrap_or(0);
+        let is_whole = orders.clone().all(|(_, whole)| whole);
         for side in sides {
             let parts = self
                 .components(side)
                 .ok_or("a side of the equation is neither a number nor a vector")?;
-            let parts = parts.iter().map(|e| self.put_in(e, printed));
+            let parts = parts.iter().map(|e| {
+                let e = self.by_answer(e);
+                self.put_in_to(&e, printed, order)
+            });
             values.push(parts.collect::<Result<_, _>>()?);
         }
         let size = values.iter().map(Vec::len).max().unwrap_or(1);
@@ -429,6 +447,7 @@ impl Desk<'_> {
             });
             finding.carom = shown.collect::<Vec<_>>().join(" against ");
             self.identities(&pairs, printed, finding);
+            leave_open(is_whole, finding);
             if finding.holds == Some(false) {
                 self.caught(&pairs, printed, finding);
                 finding.explained = self
@@ -456,7 +475,7 @@ impl Desk<'_> {
         finding.because = match printed.small.is_empty() {
             true => "identity".to_string(),
             false => format!(
-                "identity to leading order in small {}",
+                "identity to the order printed in small {}",
                 printed.small.join(", ")
             ),
         };
@@ -498,6 +517,16 @@ impl Desk<'_> {
             }
         }
         finding.holds = holds;
+    }
+}
+
+/// Says of what holds and is more than powers of what is small that no more than its beginning was looked at.
+fn leave_open(is_whole: bool, finding: &mut Finding) {
+    if !is_whole && finding.holds == Some(true) {
+        let begins = finding
+            .because
+            .replace("the order printed", "leading order");
+        finding.because = format!("{begins}; what is printed beyond it is not checked");
     }
 }
 

@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use super::Way;
+use super::{Way, small};
 use crate::algebra::{Sign, sign, tidy};
 use crate::answer::{Answer, Form};
 use crate::dimension::Dimension;
@@ -26,6 +26,8 @@ pub(super) struct Desk<'a> {
     pub(super) is_so: bool,
     /// Closed forms by name.
     pub(super) closed: BTreeMap<Symbol, Expr>,
+    /// What is answered under the name of a parameter: in any other formula that name is the parameter itself.
+    pub(super) solved: BTreeMap<Symbol, Expr>,
     /// What an answer says of a parameter, a bound or the place of a maximum: of what, how it stands to what.
     pub(super) bounds: BTreeMap<Symbol, (Expr, Relation, Expr)>,
     /// Components of vectors by name.
@@ -119,6 +121,7 @@ impl<'a> Desk<'a> {
         closed.insert("unknowns".into(), whole(derivation.counting.unknowns));
         let motion = derivation.motion_by_name();
         closed.extend(motion.map(|(_, name, value)| (name, value)));
+        let mut solved = BTreeMap::new();
         let mut vectors: BTreeMap<Symbol, [Expr; 2]> = BTreeMap::new();
         let mut bounds = BTreeMap::new();
         let mut open = BTreeMap::new();
@@ -150,7 +153,10 @@ impl<'a> Desk<'a> {
                 if let Some((_, mu, relation)) = rough.find(|(of, ..)| *of == answer.name) {
                     bounds.insert(name.clone(), (Expr::symbol(mu), *relation, value.clone()));
                 }
-                closed.insert(name, value.clone());
+                match scene.parameter(&name) {
+                    Some(_) => solved.insert(name, value.clone()),
+                    None => closed.insert(name, value.clone()),
+                };
                 if answer.name != answer.question {
                     let vector = vectors
                         .entry(Symbol::from(answer.question.as_str()))
@@ -179,6 +185,7 @@ impl<'a> Desk<'a> {
             domains: way.domains(),
             is_so: way.is_so,
             closed,
+            solved,
             bounds,
             vectors,
             arrows,
@@ -201,7 +208,7 @@ impl<'a> Desk<'a> {
     pub(super) fn symbols(&self, printed: &Printed) -> Symbols {
         let mut symbols = Symbols::strict();
         self.scene.declare_parameters(&mut symbols);
-        for name in self.closed.keys() {
+        for name in self.closed.keys().chain(self.solved.keys()) {
             let latex = formula::latex_name(name);
             let dimension = self.dimensions.get(name).cloned();
             symbols.declare_as(name.clone(), Some(&latex), dimension);
@@ -275,18 +282,36 @@ impl<'a> Desk<'a> {
         }
     }
 
-    /// Abbreviations, then closed forms, then special values put in.
+    /// What the scene answers under a name.
+    pub(super) fn answered(&self, name: &str) -> Option<&Expr> {
+        self.solved.get(name).or_else(|| self.closed.get(name))
+    }
+
+    /// What stands by itself under a name that is answered, as it is in truth: `d` of the number for it, of `d = 2 b/3`.
+    pub(super) fn by_answer(&self, e: &Expr) -> Expr {
+        let solved = e.as_symbol().and_then(|name| self.solved.get(name));
+        solved.unwrap_or(e).clone()
+    }
+
+    /// Abbreviations, then closed forms, then special values put in; of what is small nothing but what stands without it.
     pub(super) fn put_in(&self, e: &Expr, printed: &Printed) -> Result<Expr, String> {
+        self.put_in_to(e, printed, 0)
+    }
+
+    /// The same with the powers of what is small up to one of them.
+    pub(super) fn put_in_to(
+        &self,
+        e: &Expr,
+        printed: &Printed,
+        order: usize,
+    ) -> Result<Expr, String> {
         let mut out = e.clone();
         let short = self.values_of(&printed.short, printed)?;
         // Abbreviations may use one another; as many rounds as there are settle it.
         for _ in &printed.short {
             out = out.substitute(&short);
         }
-        let mut special = self.special(printed)?;
-        for angle in &printed.small {
-            special.insert(Symbol::from(angle.as_str()), Expr::zero());
-        }
+        let special = self.special(printed)?;
         let parts = self.arrows.iter().flat_map(|(name, value)| {
             let axes = ["x", "y", "z"].iter().zip(value);
             axes.map(move |(axis, part)| (format!("{name}_{axis}").into(), part.clone()))
@@ -296,7 +321,11 @@ impl<'a> Desk<'a> {
         if symbols.iter().any(|name| self.arrows.contains_key(name)) {
             return Err("a vector stands where a number belongs".into());
         }
-        Ok(out.substitute(&special))
+        Ok(small::up_to(
+            &out.substitute(&special),
+            &printed.small,
+            order,
+        ))
     }
 
     /// What names stand for, as it is printed.

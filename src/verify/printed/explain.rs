@@ -171,6 +171,15 @@ impl Desk<'_> {
         }
     }
 
+    /// One change of the printed formula after which it is right: carom's own may be written otherwise.
+    pub(super) fn slip_in_printed(&self, pairs: &[(Expr, Expr)]) -> Option<String> {
+        let [(closed, value)] = pairs else {
+            return None;
+        };
+        let found = self.slip_of(value, closed)?;
+        Some(found.replacen("comes out when", "it would hold if", 1))
+    }
+
     /// One change of a printed side after which the equation holds.
     pub(super) fn slip_in_equation(&self, sides: &[Content], printed: &Printed) -> Option<String> {
         let [left, right] = sides else { return None };
@@ -277,7 +286,7 @@ impl Desk<'_> {
             places.extend(component.as_ref().map(|_| p.place.as_str()));
             formulas.extend(component);
         }
-        formulas.extend(self.put_in(of, printed));
+        formulas.extend(self.put_in(&self.by_answer(of), printed));
         let values = self.scene.all_given()?;
         let kin = |a: &Symbol, b: &Symbol| self.kin(a, b);
         let printed = formulas.iter().zip(&places).find(|(e, _)| {

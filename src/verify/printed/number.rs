@@ -8,7 +8,7 @@ use crate::dimension::{self, Dimension, Unit};
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Point, Rational, ratio};
 use crate::formula::{self, Content, Literal, Quantity, Symbols, Written, write_plain};
-use crate::scene::Printed;
+use crate::scene::{Print, Printed};
 use crate::verify::rounding::{bounds, fraction, magnitude_or_zero, ten_to};
 
 /// A number as it is printed.
@@ -84,11 +84,59 @@ impl Desk<'_> {
         of: &str,
         finding: &mut Finding,
     ) -> Result<(), String> {
+        if self.vectors.contains_key(of) {
+            return self.answer(printed, of, text, finding);
+        }
         let figure = Figure::read(text)?;
         let target = self.read(of, printed)?;
         let value = target.expr();
         let value = value.ok_or_else(|| format!("{of} is no single expression"))?;
-        self.rounded(printed, &figure, of, value, finding)
+        self.rounded(printed, &figure, of, value, finding)?;
+        match (&printed.what, finding.holds) {
+            (
+                Print::Number {
+                    from: Some(from), ..
+                },
+                Some(true),
+            ) => self.led_to(printed, from, (of, value), finding),
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether the formula that a right number is said to come from gives what the number is of, and not by chance at the values
+    /// of the scene; one with numbers put in gives no more than these.
+    fn led_to(
+        &self,
+        printed: &Printed,
+        from: &str,
+        (of, value): (&str, &Expr),
+        finding: &mut Finding,
+    ) -> Result<(), String> {
+        let read = self
+            .read(from, printed)
+            .inspect_err(|_| finding.holds = None)?;
+        let Some(formula) = read.expr().filter(|_| !from.contains('.')) else {
+            return Ok(());
+        };
+        let right = self.put_in(&self.by_answer(value), printed)?;
+        let pair = (right, self.put_in(formula, printed)?);
+        let mut found = Finding::default();
+        self.identities(std::slice::from_ref(&pair), printed, &mut found);
+        if found.holds == Some(false) {
+            let because = format!(
+                "the number is right, and {from} is not {of}: {}",
+                found.because
+            );
+            finding.holds = Some(false);
+            finding.because = because;
+            finding.carom = self.tidy(&pair.0);
+            self.caught(std::slice::from_ref(&pair), printed, finding);
+            finding.explained = self
+                .factor(std::slice::from_ref(&pair))
+                .or_else(|| self.exchanged(std::slice::from_ref(&pair)))
+                .or_else(|| self.slip(std::slice::from_ref(&pair)));
+        }
+        Ok(())
     }
 
     /// Whether a number is a value, which `of` names, rounded to the printed digits.
@@ -100,6 +148,7 @@ impl Desk<'_> {
         value: &Expr,
         finding: &mut Finding,
     ) -> Result<(), String> {
+        let (asked, value) = (value, &self.by_answer(value));
         // A number without a unit counts in that of the scene's data.
         let bare = (self.dimension(value)).filter(|d| figure.is_bare() && !d.is_none());
         let bare = bare.map(|dimension| self.scene.system().counted_in(&dimension));
@@ -170,7 +219,7 @@ impl Desk<'_> {
             });
         finding.explained = explained.or_else(|| {
             let [wanted, room] = [&written, &half].map(|v| to_f64(v) * unit);
-            self.slips(printed, value, wanted, room * 1.000_001)
+            self.slips(printed, asked, wanted, room * 1.000_001)
                 .or_else(|| remainder::digits(&written, &low, place))
         });
         Ok(())

@@ -29,12 +29,17 @@ impl Desk<'_> {
         let wrong: Vec<usize> = (0..pairs.len())
             .filter(|i| !self.same(&pairs[*i].0, &pairs[*i].1))
             .collect();
-        match wrong.as_slice() {
-            [i] if pairs.len() > 1 && pairs[*i].1.is_zero() => {
-                let axis = ["x", "y", "z"].get(*i)?;
+        let [i] = wrong.as_slice() else { return None };
+        let (axis, wrong) = (["x", "y", "z"].get(*i)?, &pairs[*i..=*i]);
+        match wrong {
+            _ if pairs.len() < 2 => None,
+            [(_, printed)] if printed.is_zero() => {
                 Some(format!("the {axis}-component is left out"))
             }
-            _ => None,
+            wrong => Some(format!(
+                "along {axis}, {}",
+                self.factor(wrong).or_else(|| self.slip(wrong))?
+            )),
         }
     }
 

@@ -138,7 +138,7 @@ impl Desk<'_> {
             let of = |axis: &str| Symbol::from(format!("{item}_{axis}"));
             return Some(vec![(of("x"), x), (of("y"), y)]);
         }
-        let figure = self.measured(place.or(self.closed.get(item))?, text, printed)?;
+        let figure = self.measured(place.or(self.answered(item))?, text, printed)?;
         Some(vec![(item.into(), figure)])
     }
 

@@ -19,7 +19,7 @@ impl Desk<'_> {
             if self.scene.parameter(name).is_none() {
                 return Err(format!("`at` names {name}, which is no parameter"));
             }
-            *value = value.substitute(&self.closed);
+            *value = self.by_answer(value).substitute(&self.closed);
         }
         Ok(special)
     }
