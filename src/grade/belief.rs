@@ -15,7 +15,7 @@ pub(super) use motions::{MOTIONS, in_stages};
 pub(super) use slips::other_shapes;
 use slips::{
     about_places, all_places, at, changed, each, frictionless, inertia, lengths, movable, of,
-    places, positions, restitution, rigid, spins, sticking, velocities,
+    places, positions, restitution, rigid, spins, sticking, struck, velocities,
 };
 
 /// A belief.
@@ -146,7 +146,7 @@ pub const BELIEFS: &[Belief] = &[
         hint: "which points approach and separate?",
         slips: |s| {
             let bounce = |c| changed(s, Change::CentersBounce(c), at(s, c));
-            frictionless(s).map(bounce).collect()
+            struck(s).map(bounce).collect()
         },
     },
     Belief {
@@ -154,7 +154,7 @@ pub const BELIEFS: &[Belief] = &[
         belief: "the touching points are taken to move together after, although the contact is frictionless",
         hint: "does the contact hold the points together, also along the surface?",
         slips: |s| {
-            each(s, frictionless(s), |scene, c| {
+            each(s, struck(s), |scene, c| {
                 scene.contacts[c].law = ContactLaw::Sticking;
                 Some(at(s, c))
             })
@@ -360,7 +360,7 @@ pub const BELIEFS: &[Belief] = &[
         belief: "the normal is taken along the surface",
         hint: "in which direction does a frictionless contact push?",
         slips: |s| {
-            each(s, frictionless(s), |scene, c| {
+            each(s, struck(s), |scene, c| {
                 let [x, y] = s.contacts[c].normal.clone()?;
                 scene.contacts[c].normal = Some([-y, x]);
                 Some(at(s, c))

@@ -333,6 +333,9 @@ fn check_with(
 ) -> (Worked, Vec<Needed>) {
     let mut desk = Desk::new(sheet, options);
     desk.closed.extend(meant.value.clone());
+    if let Some((name, _)) = &meant.value {
+        desk.count_otherwise(name);
+    }
     desk.know_accelerations(meant.value.as_ref());
     let of_center = meant
         .value

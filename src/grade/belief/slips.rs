@@ -70,6 +70,16 @@ pub(super) fn frictionless(s: &Scene) -> impl Iterator<Item = usize> + '_ {
     (0..s.contacts.len()).filter(|c| matches!(s.contacts[*c].law, ContactLaw::Frictionless { .. }))
 }
 
+/// Contacts without friction at which bodies strike: strings pull along themselves, and a support is at rest on what it bears.
+pub(super) fn struck(s: &Scene) -> impl Iterator<Item = usize> + '_ {
+    let strikes = |c: &usize| {
+        let contact = &s.contacts[*c];
+        let comes_in = contact.relative_velocity(s);
+        !contact.is_string && !comes_in.iter().all(Expr::is_zero)
+    };
+    frictionless(s).filter(strikes)
+}
+
 pub(super) fn sticking(s: &Scene) -> impl Iterator<Item = usize> + '_ {
     (0..s.contacts.len()).filter(|c| s.contacts[*c].law == ContactLaw::Sticking)
 }

@@ -389,6 +389,7 @@ impl<'a> Trial<'a> {
     /// The answer is the expected formula at a special value of one symbol.
     pub(super) fn special(&self, ctx: &Context) -> Option<Diagnosis> {
         let mine = self.answer.symbols();
+        let (mut cases, mut names): (Vec<String>, Vec<String>) = Default::default();
         for name in self.expected.symbols() {
             if mine.contains(&name) {
                 continue;
@@ -411,15 +412,20 @@ impl<'a> Trial<'a> {
                 if self.is(&self.expected.put(&name, &value))
                     && (turning || self.only_at(&name, &value))
                 {
-                    let (code, words) = match turning_at_zero {
-                        true => ("SMALL_ANGLE", format!("small {name} (to leading order)")),
-                        false => ("SPECIAL_CASE", format!("{name} = {words}")),
-                    };
-                    let message = format!("right only for {words}");
-                    let hint = format!("the answer should depend on {name}");
-                    return Some(Diagnosis::new(code, message, hint));
+                    if turning_at_zero {
+                        let message = format!("right only for small {name} (to leading order)");
+                        let hint = format!("the answer should depend on {name}");
+                        return Some(Diagnosis::new("SMALL_ANGLE", message, hint));
+                    }
+                    cases.push(format!("{name} = {words}"));
+                    names.push(name.to_string());
                 }
             }
+        }
+        if !cases.is_empty() {
+            let message = format!("right only for {}", cases.join(" or "));
+            let hint = format!("the answer should depend on {}", names.join(", "));
+            return Some(Diagnosis::new("SPECIAL_CASE", message, hint));
         }
         // Two masses taken as equal, and the like.
         let names: Vec<Symbol> = self.expected.symbols().into_iter().collect();

@@ -44,6 +44,8 @@ pub(super) struct Desk<'a> {
     pub believed: Vec<(usize, Values)>,
     /// How far the numbers of wrong lines may be off, as shares.
     pub coarse: BTreeMap<usize, Rational>,
+    /// Numbers that wrong lines come to by a slip of counting: the line, the number as it is written, and what it should be.
+    pub miscounts: Vec<(usize, String, Expr)>,
     /// The wrong lines themselves, left minus right, with the student's own names put in.
     pub wrong: Vec<(usize, Expr)>,
     /// Every equation so far that was decided, as left minus right with the student's own names put in, and the wrong line
@@ -105,8 +107,8 @@ pub(super) struct Desk<'a> {
     pub linked: Vec<Expr>,
     /// Parameters whose values the scene asks for.
     pub sought: Vec<Sought>,
-    /// Those of them of which it was stated what is supposed.
-    pub supposed: Vec<usize>,
+    /// Those of them of which it was stated what is supposed, each behind the line that states it.
+    pub supposed: Vec<(usize, usize)>,
     /// What is said last of each quantity.
     pub finals: BTreeMap<String, Final>,
     /// The wrong values that were given last, by what they are of.
@@ -144,6 +146,7 @@ impl<'a> Desk<'a> {
             primed: BTreeSet::new(),
             believed: Vec::new(),
             coarse: BTreeMap::new(),
+            miscounts: Vec::new(),
             wrong: Vec::new(),
             stated: Vec::new(),
             explained: BTreeSet::new(),

@@ -3,6 +3,7 @@
 //! In: a line that was read. Out: whether it holds, and the final answer that is kept of it, right or wrong.
 
 use super::super::{Diagnosis, Grade, Verdict};
+use super::cause::MOST_STEPS;
 use super::letters::ACCELERATIONS;
 use super::link::Values;
 use super::link::{Link, Weighed, equal};
@@ -10,7 +11,7 @@ use super::sought::Sought;
 use super::{Desk, Final, Found, Status};
 use crate::algebra::{self, Sign};
 use crate::answer::Answer;
-use crate::expr::{Expr, Function, Node, Symbol};
+use crate::expr::{Expr, Function, Node, Symbol, effort};
 use crate::formula::{self, Content, Reading, Relation};
 use crate::scene::Ask;
 
@@ -109,7 +110,12 @@ impl Desk<'_> {
         };
         self.give(question, text, verdict);
         let found = Some(grade.diagnosis).filter(|_| grade.verdict == verdict);
-        Some((status, found.unwrap_or_default()))
+        let mut found = found.unwrap_or_default();
+        // The sides of a chain agree by what a line above says.
+        if let Status::Carried(_) = status {
+            found.retain(|d| d.code != "CHAIN");
+        }
+        Some((status, found))
     }
 
     /// Whether the answers suppose of a parameter what a line says of it.
@@ -184,7 +190,7 @@ impl Desk<'_> {
     pub(super) fn asked_of(&self, name: &Symbol) -> Vec<String> {
         let named = |s: &&Sought| s.condition.is_some() && s.is_named(name);
         let all = self.sought.iter().filter(named);
-        let mut supposed = self.supposed.iter().rev().map(|i| &self.sought[*i]);
+        let mut supposed = self.supposed.iter().rev().map(|(_, i)| &self.sought[*i]);
         let last = supposed.find(named);
         let same = |s: &&Sought| last.is_none_or(|last| s.condition == last.condition);
         let asked: Vec<String> = all.filter(same).map(|s| s.question.clone()).collect();
@@ -295,10 +301,22 @@ impl Desk<'_> {
             match holds {
                 Some(true) => {}
                 Some(false) => return Status::Wrong,
+                None if self.says_a_bound([a, b], *sign) => {}
                 None => status = Status::Undecided,
             }
         }
         status
+    }
+
+    /// Whether an inequality says of a parameter what a bound that is asked for does.
+    fn says_a_bound(&self, sides: [&Expr; 2], sign: Relation) -> bool {
+        let [a, b] = sides.map(|e| formula::write_plain(&self.truth(e)));
+        let text = format!("{a} {} {b}", sign.sign());
+        let asked: Vec<String> = self.sheet.bounds().map(|bound| bound.name).collect();
+        let judged = effort::within(MOST_STEPS, || self.judged_as(&asked, &text));
+        judged
+            .iter()
+            .any(|(_, grade)| grade.verdict == Verdict::Equivalent)
     }
 
     /// Whether an answer by the names of others is right with the values that were given for these, wrong ones among them:
@@ -378,6 +396,18 @@ impl Desk<'_> {
     /// Keeps what a line says of a quantity that is asked for, where it ends in what is given; `there` are the values of another
     /// moment or case of which it speaks.
     pub(super) fn note_final(&mut self, text: &str, reading: &Reading, there: &Values) {
+        // `v_2 = v_3 = …` says what both are.
+        if let Content::Relations(sides, signs) = &reading.content
+            && sides.len() > 2
+            && sides[1].name().is_some()
+        {
+            let mut second = reading.clone();
+            second.content = Content::Relations(sides[1..].to_vec(), signs[1..].to_vec());
+            let behind = text
+                .split_once(['=', '≈'])
+                .map_or(text, |(_, behind)| behind);
+            self.note_final(behind.trim(), &second, there);
+        }
         if let Some(angle) = self.for_angle(reading) {
             return self.note_final(text, &angle, there);
         }

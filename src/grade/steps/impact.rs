@@ -63,6 +63,30 @@ pub(super) fn angular_momenta(sheet: &Sheet) -> Vec<Expr> {
     each.flat_map(|h| [-&h, h]).collect()
 }
 
+/// Kinetic energies just before and just after the impacts of a scene, of each body and of all together.
+pub(super) fn energies(sheet: &Sheet) -> Vec<Expr> {
+    let all = impacts(sheet);
+    let times = all
+        .iter()
+        .flat_map(|i| [false, true].map(|after| (i, after)));
+    let each = times.flat_map(|(impact, after)| {
+        let of = |b: usize| {
+            let body = &impact.scene.bodies[b];
+            let square = |part: usize| Some(impact.part(b, part, after)?.powi(2));
+            let turns = match body.is_particle() {
+                true => Expr::zero(),
+                false => &body.inertia * &square(2)?,
+            };
+            let moves = &body.mass * &(square(0)? + square(1)?);
+            Some(Expr::ratio(1, 2) * (moves + turns))
+        };
+        let parts: Vec<Expr> = impact.moving().into_iter().filter_map(of).collect();
+        let total = Expr::sum(parts.clone());
+        parts.into_iter().chain([total]).collect::<Vec<_>>()
+    });
+    each.filter(|e| !e.is_zero()).collect()
+}
+
 /// What names leave open.
 struct Meant {
     /// The bodies of which H and P are.

@@ -60,6 +60,10 @@ impl Desk<'_> {
         if point.is_none() && place != "G" || scene.bodies.iter().any(|b| b.name == place) {
             return None;
         }
+        // That of several about their common center is one of G as well.
+        if point.is_none() && self.is_inertia(value) {
+            return None;
+        }
         let about = |body: &Body| about(body, point.map_or(&body.center, |p| &p.at));
         let free = scene.bodies.iter().filter(|b| !b.is_fixed());
         let each: Vec<Expr> = free.map(about).take(MOST_BODIES).collect();

@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use super::super::Diagnosis;
 use super::super::sheet::judge;
+use super::super::{Diagnosis, read};
 use super::link::Values;
-use super::link::{self, Link, Weighed, gaps};
+use super::link::{self, Link, Weighed};
 use super::{CONDITION, Desk, Found, MOMENT, Needed, Status, arrows, names, open, text};
-use crate::expr::Expr;
+use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Reading};
+use crate::scene::Ask;
 
 impl Desk<'_> {
     /// A line is as good as its worst equation.
@@ -21,10 +22,12 @@ impl Desk<'_> {
             if self.is_supposed(text, equation) {
                 continue;
             }
-            let sensed = text::in_brackets_behind(text, equation);
+            let sensed = text::with_direction(text, equation);
             let sensed = sensed.and_then(|equation| self.with_sense(&equation));
             let turned = sensed.or_else(|| self.with_sense(equation));
             let equation = turned.as_deref().unwrap_or(equation);
+            let arrowed = self.with_arrows_at_dots(equation);
+            let equation = arrowed.as_deref().unwrap_or(equation);
             let (status, diagnosis) = self.equation(equation);
             self.note_clear(equation, &status);
             if status.weight() > line.0.weight() {
@@ -94,10 +97,7 @@ impl Desk<'_> {
                     first.1.extend(second.1);
                     return first;
                 }
-                // A name that looks like one of the scene's is a slip of the pen rather than a new name; V_y beside an own
-                // V_x is none.
-                let near = text::near(&fault, text);
-                let near = near.is_some_and(|meant| !self.own.contains_key(meant));
+                let near = text::near(&fault, text).is_some_and(|meant| !self.is_own(meant));
                 match self.looked_ahead(text) {
                     Some(reading) => reading,
                     None if near => return (Status::Unreadable(fault), Vec::new()),
@@ -145,20 +145,57 @@ impl Desk<'_> {
         found
     }
 
-    /// `ω = 3v/(4a) clockwise` and `P_y = m v downwards` with the sign the question counts by, on every side.
+    /// Whether a name that looks like one that is known is beside one of the student's own, as V_y beside V_x: no slip of the pen.
+    fn is_own(&self, meant: &str) -> bool {
+        let plain = |name: &str| name.replace('_', "");
+        self.own.keys().any(|own| plain(own) == plain(meant))
+    }
+
+    /// `ω = 3v/(4a) clockwise` and `P_y = m v downwards` with the sign by which the name counts, on every side.
     fn with_sense(&self, text: &str) -> Option<String> {
         let (name, right) = names::named(text)?;
-        let name = name.trim_end_matches(['\'', '^', '+']);
-        let mut questions = self.sheet.scene.questions.iter();
-        let (ask, component) = questions.find_map(|q| Some((q.ask.clone(), q.part(name)?)))?;
-        let (values, _) = super::super::read::sense(right)?;
+        // `P_C_y` is a component of P_C.
+        let left = text.split('=').next().unwrap_or_default().trim();
+        let name = formula::read_name(left, &self.symbols(text)).unwrap_or(name);
+        let (values, senses) = read::sense(right)?;
         let word = right[values.len()..].trim_start_matches([' ', ',', '(']);
-        judge::in_words(&ask, component, &format!("{values} {word}"))?;
-        let sides = values.split('=');
-        let sides: Option<Vec<String>> = sides
-            .map(|side| judge::in_words(&ask, component, &format!("{side} {word}")))
-            .collect();
+        let plain = name.trim_end_matches(['\'', '^', '+']);
+        let mut questions = self.sheet.scene.questions.iter();
+        let asked = questions.find_map(|q| Some((q.ask.clone(), q.part(plain)?)));
+        let one: Box<dyn Fn(&str) -> Option<String>> = match asked {
+            Some((Ask::Spin { .. }, _)) => {
+                let mut spins = self.spins.values();
+                let (_, clockwise) = spins.find(|(spin, _)| **spin == *plain)?;
+                let same = (senses[2] < 0) == *clockwise;
+                let turns = senses[2] != 0;
+                Box::new(move |side| turns.then(|| read::with_sign(side, same)))
+            }
+            Some((ask, component)) => {
+                Box::new(move |side| judge::in_words(&ask, component, &format!("{side} {word}")))
+            }
+            None => {
+                let same = senses[self.axis(&name)?];
+                Box::new(move |side| (same != 0).then(|| read::with_sign(side, same > 0)))
+            }
+        };
+        let sides: Option<Vec<String>> = values.split('=').map(one).collect();
+        let name = if self.of_bodies.contains_key(&name) {
+            &name
+        } else {
+            plain
+        };
         Some(format!("{name} = {}", sides?.join(" = ")))
+    }
+
+    /// Along which axis a name counts that is known and that nobody asks for: x, y, or that of a spin.
+    fn axis(&self, name: &Symbol) -> Option<usize> {
+        let known = self.closed.contains_key(name);
+        let of_body = self.of_bodies.get(name).map(|(_, part)| *part);
+        of_body.or_else(|| match name.chars().last()? {
+            'x' if known => Some(0),
+            'y' if known => Some(1),
+            _ => None,
+        })
     }
 
     fn judged(&mut self, text: &str, reading: &Reading) -> Found {
@@ -173,12 +210,8 @@ impl Desk<'_> {
             return found;
         }
         let fails = matches!(weighed, Weighed::Slip(_) | Weighed::Carried(_));
-        if fails && self.is_condition(&links, &weighed) {
-            let all = gaps(&links);
-            self.state(None, &all);
-            let words = "a condition the scene asks about, not a fact";
-            let found = Diagnosis::new(CONDITION, words, words);
-            return (Status::Holds, vec![found]);
+        if fails && let Some(found) = self.told_condition(reading, &links, &weighed) {
+            return found;
         }
         if let Weighed::Slip(_) = weighed
             && let Some((when, there, of)) = self.at_another_moment(&links)
@@ -238,8 +271,9 @@ impl Desk<'_> {
                 return (self.note(&other, &links, &again), found);
             }
         }
-        if let Weighed::Slip(_) = weighed {
+        if let Weighed::Slip(at) = weighed {
             self.note_coarse(text);
+            self.note_miscount(text, &links, at);
         }
         let status = self.note(reading, &links, &weighed);
         let found = match weighed {
@@ -253,7 +287,8 @@ impl Desk<'_> {
                 (!says).then(open::vanishes).into_iter().collect()
             }
             Weighed::Carried(cause) => self.carried_belief(reading, cause),
-            _ => Vec::new(),
+            Weighed::Holds | Weighed::Rounded => self.only_under(&links).into_iter().collect(),
+            Weighed::Open => Vec::new(),
         };
         (status, found)
     }

@@ -178,6 +178,9 @@ impl Desk<'_> {
         let exact = !matches!(weighed, Weighed::Slip(_) | Weighed::Carried(_));
         self.own
             .insert(name.clone(), if exact { first.clone() } else { last });
+        if let Weighed::Slip(at) = weighed {
+            self.note_miscount(text, &links, at);
+        }
         let cause = match weighed {
             Weighed::Slip(_) if self.is_unclear(&links) => {
                 return Some((Status::Undecided, Vec::new()));

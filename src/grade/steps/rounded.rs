@@ -11,6 +11,7 @@ use crate::dimension;
 use crate::equality;
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Node, Point, Rational, Symbol, ratio};
+use crate::formula;
 
 impl Desk<'_> {
     /// Whether a side in numbers is the value of the other, up to the rounding of the numbers in the line; the scene's
@@ -76,8 +77,41 @@ impl Desk<'_> {
             let constant = a.symbols().is_empty() && b.symbols().is_empty();
             // What is no rounded number may be the exact one.
             let same = || equality::vanishes(&(&a - &b), &self.sheet.scene.domains);
-            constant && (number::within(&b, &a, &room) == Some(true) || same())
+            // Half a unit of the last digit is half of the one that was rounded, whichever way that went.
+            let near = |a, b| number::within(b, a, &room) == Some(true);
+            constant && (near(&a, &b) || near(&b, &a) || same())
         })
+    }
+
+    /// Notes a number that a chain of numbers comes to by a slip, `2*3 + 1 = 8`, with what it should be.
+    pub(super) fn note_miscount(&mut self, text: &str, links: &[Link], at: usize) {
+        let written = pieces(text, links.len()).and_then(|pieces| {
+            let end = pieces[at + 1].trim();
+            let digits = end.find(|c: char| !(c.is_ascii_digit() || c == '.'));
+            Some(end[..digits.unwrap_or(end.len())].to_string()).filter(|number| number.len() > 1)
+        });
+        let right = links[at].sides[0].expr().map(|e| self.with_own(e));
+        if let (Some(written), Some(right)) = (written, right.filter(Expr::is_constant)) {
+            self.miscounts.push((self.number, written, right));
+        }
+    }
+
+    /// The line with a slip of counting whose number a link of a chain takes over.
+    pub(super) fn miscounted(&self, text: &str, links: &[Link], at: usize) -> Option<usize> {
+        let sides = pieces(text, links.len())?;
+        let (a, b) = (sides[at], sides[at + 1]);
+        let found = self.miscounts.iter().rev().find(|(_, written, right)| {
+            let right = format!("({})", formula::write_plain(right));
+            let [left, end] = [a, b].map(|side| with_number(side, written, &right));
+            let meant = format!("{left} = {end}");
+            let reading = formula::read(&meant, &self.symbols(&meant)).ok();
+            let link = reading.and_then(|reading| self.links(&reading)?.into_iter().next());
+            let none = Values::new();
+            (left != a || end != b)
+                && link
+                    .is_some_and(|link| self.holds(&link) || self.is_rounded(&meant, &link, &none))
+        });
+        found.map(|(line, ..)| *line)
     }
 
     /// Notes how far the numbers of a wrong line may be off.
@@ -186,9 +220,44 @@ pub(super) fn is_near(text: &str, [a, b]: [&Expr; 2], exact: &Values) -> bool {
     share.is_some_and(|room| number::within(b, a, &room) == Some(true))
 }
 
+/// The sides of a chain with so many signs of equality, as they are written, without the name that it defines.
+pub(super) fn pieces(text: &str, signs: usize) -> Option<Vec<&str>> {
+    let mut pieces: Vec<&str> = text.split(['=', '≈']).map(str::trim).collect();
+    let more = pieces.len().checked_sub(signs + 1)?;
+    (more < 2).then(|| pieces.split_off(more))
+}
+
+/// A text with something in the place of a number.
+fn with_number(text: &str, number: &str, other: &str) -> String {
+    let is_digit = |c: char| c.is_ascii_digit() || c == '.';
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some(at) = rest.find(number) {
+        let (before, behind) = (&rest[..at], &rest[at + number.len()..]);
+        let inside = before.ends_with(is_digit) || behind.starts_with(is_digit);
+        out.extend([before, if inside { number } else { other }]);
+        rest = behind;
+    }
+    out + rest
+}
+
+/// A line with decimal points for decimal commas.
+fn with_points(text: &str) -> String {
+    let before = std::iter::once(None).chain(text.chars().map(Some));
+    let behind = text.chars().skip(1).map(Some).chain([None]);
+    let is_digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+    let each = before.zip(text.chars()).zip(behind);
+    let point = each.map(|((before, c), behind)| match c {
+        ',' if is_digit(before) && is_digit(behind) => '.',
+        c => c,
+    });
+    point.collect()
+}
+
 /// How far numbers of a line may be off, as a share: half a unit in the last digit of the coarsest one. What stands last
 /// counts from two digits, what leads to it from three; values of the scene are exact. Also whether any has a decimal point.
 fn coarsest(text: &str, values: &Values) -> Option<(Rational, bool)> {
+    let text = &with_points(text);
     let last = text.rfind(['=', '≈']).unwrap_or(0);
     let share = |word: &str, least: usize| {
         let value = number::decimal(word).filter(Signed::is_positive)?;

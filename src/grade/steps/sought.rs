@@ -1,15 +1,16 @@
 //! Parameters whose values a scene asks for, and what a solution supposes of them: the conditions that it states, in the words of
 //! the scene or in others, and what holds where they do.
 
+use super::super::Diagnosis;
 use super::super::relation::{follows, proportional, solve_for};
 use super::super::sheet::Sheet;
-use super::Desk;
 use super::link::Values;
-use super::link::{Link, Weighed};
+use super::link::{Link, Weighed, gaps};
+use super::{CONDITION, Desk, Found, Status};
 use crate::algebra::{Field, quotient};
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol};
-use crate::formula::Content;
+use crate::formula::{Content, Reading};
 use crate::scene::Ask;
 
 /// A parameter whose value is sought.
@@ -74,7 +75,8 @@ pub(super) fn sought(sheet: &Sheet) -> Vec<Sought> {
 impl Desk<'_> {
     /// An expression at the values of parameters that are sought, where these were supposed.
     pub(super) fn at_sought(&self, e: Expr) -> Expr {
-        let supposed = self.supposed.iter().filter_map(|i| self.sought.get(*i));
+        let supposed = self.supposed.iter();
+        let supposed = supposed.filter_map(|(_, i)| self.sought.get(*i));
         supposed.fold(e, |e, s| match self.value_of(s) {
             Some(value) => e.put(&s.parameter, &value),
             None => e,
@@ -126,12 +128,12 @@ impl Desk<'_> {
             || self.solved_for.contains(sought.question.as_str())
     }
 
-    /// Whether a line states what is supposed of a parameter that is sought, as the scene does or, where it would be a slip
-    /// otherwise, in other words: it is supposed from here on.
-    pub(super) fn is_condition(&mut self, links: &[Link], weighed: &Weighed) -> bool {
+    /// The parameter that is sought of which a line states what is supposed, as the scene does or, where it would be a slip
+    /// otherwise, in other words.
+    pub(super) fn condition(&self, links: &[Link], weighed: &Weighed) -> Option<usize> {
         let stated = self.sought.iter().position(|s| self.states(links, s));
         // ½ m u² = μ m g d for s = d; ½ M u² = M g h where a body gets as high as h, in a solution that goes on to v = ….
-        let found = stated.or_else(|| {
+        stated.or_else(|| {
             let ([link], Weighed::Slip(_)) = (links, weighed) else {
                 return None;
             };
@@ -143,9 +145,60 @@ impl Desk<'_> {
             };
             let mut all = self.sought.iter();
             all.position(|s| in_words(s) && self.holds_where(link, s))
-        });
-        self.supposed.extend(found);
-        found.is_some()
+        })
+    }
+
+    /// What is found of a line that states a condition: it is supposed from here on where the solution goes on to its parameter.
+    pub(super) fn told_condition(
+        &mut self,
+        reading: &Reading,
+        links: &[Link],
+        weighed: &Weighed,
+    ) -> Option<Found> {
+        let at = self.condition(links, weighed)?;
+        let words = "a condition the scene asks about, not a fact";
+        let found = Diagnosis::new(CONDITION, words, words);
+        if self.is_gone_on_from(links, at) {
+            self.supposed.push((self.number, at));
+            self.state(None, &gaps(links));
+            return Some((Status::Holds, vec![found]));
+        }
+        // The line is wrong, and no name in it has another value.
+        let needed = self.needed.len();
+        let status = self.note(reading, links, weighed);
+        self.needed.truncate(needed);
+        Some((status, vec![found]))
+    }
+
+    /// Whether a condition is stated for the sake of its parameter: the solution goes on to that, or the line speaks of data
+    /// that come in by the condition alone. Else it is told as a fact, which it is not.
+    pub(super) fn is_gone_on_from(&self, links: &[Link], at: usize) -> bool {
+        let sought = &self.sought[at];
+        let mut all = links.iter().flat_map(|link| &link.differences);
+        self.is_solved_for(sought) || all.any(|one| self.brings_in(&self.with_own(one), sought))
+    }
+
+    /// What is said of a line about what is found that holds where a condition above it does, and nowhere else.
+    pub(super) fn only_under(&self, links: &[Link]) -> Option<Diagnosis> {
+        let all: Vec<Expr> = gaps(links).iter().map(|d| self.with_own(d)).collect();
+        let is_about = |s: &Sought| {
+            let found = |d: &Expr| d.symbols().iter().any(|n| self.closed.contains_key(n));
+            all.iter().any(found) && !all.iter().any(|d| self.brings_in(d, s))
+        };
+        let holds = |s: &Sought| {
+            links
+                .iter()
+                .all(|l| self.holds(l) || self.holds_where(l, s))
+        };
+        let above = self.supposed.iter().filter(|(line, _)| *line < self.number);
+        let mut above = above.map(|(line, at)| (line, &self.sought[*at]));
+        let (line, sought) = above.find(|(_, s)| holds(s) && is_about(s))?;
+        let is_fact = links.iter().all(|link| self.holds(link));
+        (!is_fact && !self.states(links, sought)).then(|| {
+            let words = format!("right only under the condition in line {line}");
+            let hint = "a condition is no fact: what rests on it answers no question in general";
+            Diagnosis::new("CONDITIONAL", words, hint)
+        })
     }
 
     /// Whether a line states the condition of a parameter that is sought; a chain `s = u²/(2 μ g) = d` does so between its
@@ -215,7 +268,8 @@ impl Desk<'_> {
 
     /// Whether an equality holds where what was supposed does: at the value it gives its parameter.
     pub(super) fn follows_condition(&self, link: &Link) -> bool {
-        let mut supposed = self.supposed.iter().filter_map(|i| self.sought.get(*i));
+        let supposed = self.supposed.iter();
+        let mut supposed = supposed.filter_map(|(_, i)| self.sought.get(*i));
         supposed.any(|s| self.holds_where(link, s))
     }
 

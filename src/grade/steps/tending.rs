@@ -56,7 +56,9 @@ fn tends(text: &str) -> bool {
     };
     let mut words = text.split(|c: char| !c.is_ascii_alphabetic());
     text.split('→').skip(1).any(is_end)
-        || PHRASES.split('|').any(|phrase| text.contains(phrase))
+        || PHRASES
+            .split('|')
+            .any(|phrase| text.to_lowercase().contains(phrase))
         || words.any(|word| WORDS.iter().any(|w| word.eq_ignore_ascii_case(w)))
 }
 

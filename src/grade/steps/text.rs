@@ -1,5 +1,6 @@
 //! The equations in a line as students write them, with words and arrows around them.
 
+use super::super::read;
 use crate::formula::{self, Fault, changes};
 
 /// Signs that relate two sides.
@@ -247,6 +248,14 @@ fn equation(text: &str) -> &str {
     {
         rest = behind.trim_start();
     }
+    // `The disc turns back for η > 4`
+    let stated = [" for ", " if ", " when "].into_iter();
+    if let Some((_, behind)) = stated
+        .filter_map(|word| rest.split_once(word))
+        .find(|(said, behind)| says(said, 3) && relates(behind) && !behind.contains('='))
+    {
+        rest = behind.trim_start();
+    }
     // A law or body named before a colon; a definition `a := b` has its sign behind the colon.
     if let Some((words, behind)) = rest.split_once(':')
         && !behind.starts_with('=')
@@ -281,8 +290,9 @@ fn equation(text: &str) -> &str {
             ""
         };
     }
-    let rest =
-        without_remark(without_reason(rest).trim_end_matches(['$', ' ', '.', ',', ';', ':']));
+    let rest = without_remark(
+        without_reason(rest).trim_end_matches(['$', ' ', '.', ',', ';', ':', '✓', '✔']),
+    );
     let moment = MOMENTS
         .split('|')
         .find_map(|words| rest.strip_suffix(words));
@@ -370,11 +380,13 @@ fn describes(left: &str) -> bool {
 
 /// Whether words in brackets say what stands before them, and are no factors: `the deceleration of the block`.
 fn describes_it(words: &str) -> bool {
+    // `(phidot - ω)` is a factor.
+    let subtracts = [" -", "- "].iter().any(|sign| words.contains(sign));
     let mut all = words.split([' ', ',', '-']).filter(|word| !word.is_empty());
     let plain = |word: &str| word.chars().all(char::is_alphabetic) && !changes(word);
     let name = |word: &str| formula::is_greek(word) || !is_word(word) || word.len() < 4;
     let says = all.clone().any(|word| !name(word)) && all.clone().count() > 1;
-    says && all.all(|word| plain(word) && !turns_sign(word))
+    says && !subtracts && all.all(|word| plain(word) && !turns_sign(word))
 }
 
 /// An equation without the number or the words in brackets behind it: `(downwards)`, `(by symmetry)`, `\\tag{3}`, and a `(3)`
@@ -411,12 +423,44 @@ pub(super) fn without_remark(text: &str) -> &str {
     }
 }
 
-/// An equation with the brackets that stand behind it in its line: `ω = 3v/(2l) (clockwise)`.
-pub(super) fn in_brackets_behind(line: &str, equation: &str) -> Option<String> {
-    let (_, behind) = line.split_once(equation)?;
-    let open = behind.trim_start_matches([' ', '$']).strip_prefix('(')?;
-    let (inside, _) = open.split_once(')')?;
-    Some(format!("{equation} ({inside})"))
+/// Words between an equation and the direction that is said of it: `ω = …, i.e. it turns clockwise`.
+const BEFORE_SENSES: &str = "a acting and directed hence i.e. in is it means moves points pointing rotates so that the thus turns which";
+
+/// An equation with the direction that its line says of it: behind it, `ω = 3v/(2l) (clockwise)` and `V = m u/M, to the left`, or
+/// before it, `Clockwise: ω = …`.
+pub(super) fn with_direction(line: &str, equation: &str) -> Option<String> {
+    if let Some((word, own)) = direction_before(equation) {
+        return Some(format!("{own} ({word})"));
+    }
+    let (before, behind) = line.split_once(equation)?;
+    if let Some((word, "")) = direction_before(&format!("{} ", before.trim())) {
+        return Some(format!("{equation} ({word})"));
+    }
+    let behind = behind.trim_start_matches([' ', '$', ',', '(']);
+    let ends = [", ", "; ", ")"].into_iter();
+    let end = ends.filter_map(|end| behind.find(end)).min();
+    let said = behind[..end.unwrap_or(behind.len())].trim_end_matches(['.', ' ', '$', ',', ';']);
+    let whole = format!("_ {said}");
+    let (body, _) = read::sense(&whole)?;
+    let mut words = body.split([' ', ',']).skip(1);
+    let led = words.all(|word| word.is_empty() || BEFORE_SENSES.split(' ').any(|w| w == word));
+    led.then(|| {
+        format!(
+            "{equation} ({})",
+            whole[body.len()..].trim_matches([' ', ','])
+        )
+    })
+}
+
+/// The word for a direction with which a text begins, and what follows it.
+fn direction_before(text: &str) -> Option<(&str, &str)> {
+    let ends = text.match_indices([':', ',', ' ']).map(|(at, _)| at);
+    let said = ends.filter_map(|at| {
+        let whole = format!("_ {}", &text[..at]);
+        (read::sense(&whole)?.0 == "_").then_some(at)
+    });
+    let at = said.last()?;
+    Some((&text[..at], text[at..].trim_start_matches([':', ',', ' '])))
 }
 
 /// Whether a refused name of several letters looks like a slip of the pen for a declared one, which begins alike and has an

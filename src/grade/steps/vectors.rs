@@ -84,6 +84,38 @@ fn is_vector(e: &Expr, is_one: &impl Fn(&Symbol) -> bool) -> bool {
 }
 
 impl Desk<'_> {
+    /// `v1·v2` with arrows, where both are vectors that are asked for.
+    pub(super) fn with_arrows_at_dots(&self, text: &str) -> Option<String> {
+        let symbols = self.symbols("");
+        let arrowed = |word: &str| {
+            let name = formula::read_name(word, &symbols)?;
+            let mut asked = self.sheet.scene.questions.iter();
+            asked.find(|q| *q.name == *name && !self.closed.contains_key(&name))?;
+            self.components(&name)?;
+            let latex = formula::latex_name(&name);
+            let (base, index) = latex.split_at(latex.find(['_', '^']).unwrap_or(latex.len()));
+            Some(format!("\\vec{{{base}}}{index}"))
+        };
+        let ends = |c: char| !(c.is_alphanumeric() || c == '_');
+        let dot = ["·", "\\cdot "]
+            .into_iter()
+            .find(|dot| text.contains(dot))?;
+        let (before, behind) = text.split_once(dot)?;
+        let (before, behind) = (before.trim_end(), behind.trim_start());
+        let start = before.rfind(ends).map_or(0, |at| {
+            at + before[at..].chars().next().map_or(1, char::len_utf8)
+        });
+        let end = behind.find(ends).unwrap_or(behind.len());
+        let [left, right] = [&before[start..], &behind[..end]].map(arrowed);
+        Some(format!(
+            "{}{} \\cdot {}{}",
+            &before[..start],
+            left?,
+            right?,
+            &behind[end..]
+        ))
+    }
+
     /// The vectors that a solution names, where the scene has a value for them: as it goes first, and at other moments and of
     /// other systems.
     pub(super) fn know_vectors(&mut self, text: &str) {

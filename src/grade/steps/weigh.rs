@@ -2,14 +2,16 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::super::Diagnosis;
+use num_traits::Signed;
+
 use super::super::relation::{size_in, solve_for, under_root};
+use super::super::{Diagnosis, Verdict, read};
 use super::cause::MOST_STEPS;
 use super::desk::all_of;
 use super::impact::Stand;
 use super::link::{Link, Values, Weighed, equal, gaps, mentions_vectors};
-use super::rounded::is_near;
-use super::text::{beside, equations, supposition};
+use super::rounded::{is_near, pieces};
+use super::text::{beside, equations, supposition, with_direction};
 use super::{Desk, Status};
 use crate::algebra::{self, Sign};
 use crate::answer::limit;
@@ -92,13 +94,41 @@ impl Desk<'_> {
             let turns = sense > 0 && TURNS.contains(&words[sense - 1]);
             (beside || turns).then(|| words[sense] == "clockwise")
         };
-        let clockwise = page.lines().find_map(says)?;
         let mut spins = self.spins.values();
         let (Some((spin, counted)), None) = (spins.next(), spins.next()) else {
             return None;
         };
+        // `m v d = I ω, clockwise`
+        let symbols = self.symbols("");
+        let behind = |line: &str| {
+            let turns = equations(line).into_iter().find_map(|equation| {
+                let whole = with_direction(line, equation);
+                let (own, [.., turns]) = read::sense(whole.as_deref().unwrap_or(equation))?;
+                let reading = formula::read(own, &symbols).ok()?;
+                reading.symbols().contains(spin).then_some(turns)
+            });
+            turns.filter(|turns| *turns != 0).map(|turns| turns < 0)
+        };
+        let mut lines = page.lines();
+        let clockwise = lines.find_map(|line| behind(line).or_else(|| says(line)))?;
         let value = self.closed.get(spin)?;
         (*counted != clockwise).then(|| (spin.clone(), -value))
+    }
+
+    /// Counts a spin in the other sense, where the name is that of one.
+    pub(super) fn count_otherwise(&mut self, name: &Symbol) {
+        let of_it = self.spins.iter_mut().filter(|(_, (spin, _))| spin == name);
+        for (arrow, (_, clockwise)) in of_it {
+            *clockwise = !*clockwise;
+            if let Some(part) = self.parts.get_mut(&*format!("{arrow}_z")) {
+                *part = -&*part;
+            }
+            for (_, values) in &mut self.moments {
+                if let Some(value) = values.get_mut(name) {
+                    *value = -&*value;
+                }
+            }
+        }
     }
 
     /// The components of a side; of names that are asked for only where a vector with an arrow stands `beside`.
@@ -142,7 +172,9 @@ impl Desk<'_> {
         let known = vector
             .as_symbol()
             .is_some_and(|name| self.closed.contains_key(name));
-        known && self.is_zero(&(vector - value))
+        // No speed is negative.
+        let negative = value.as_number().is_some_and(Signed::is_negative);
+        known && (negative || self.is_zero(&(vector - value)))
     }
 
     /// The links of a chain of equalities.
@@ -168,7 +200,7 @@ impl Desk<'_> {
         // `2 m` is a number of meters, though m be a mass.
         let read = |part: &str| {
             let reading = formula::read(part, &self.symbols(part)).ok()?;
-            Some(self.measured(part, &reading).unwrap_or(reading))
+            Some(self.in_its_unit(part, &reading).unwrap_or(reading))
         };
         let then: Vec<Reading> = behind.into_iter().map(read).collect::<Option<_>>()?;
         let is_parameter = |name: &Symbol| self.is_given(name);
@@ -189,7 +221,7 @@ impl Desk<'_> {
                     let mut all = self.sought.iter();
                     let found =
                         all.position(|s| self.states(&links, s) && self.holds_where(&given, s))?;
-                    self.supposed.push(found);
+                    self.supposed.push((self.number, found));
                     return Some(Status::Holds);
                 }
                 _ => return None,
@@ -232,7 +264,27 @@ impl Desk<'_> {
             });
             all_of(zero)
         };
-        Some(self.found(zero, Status::Undecided))
+        let status = self.found(zero, Status::Undecided);
+        self.note_place(text, &links, &there, &status);
+        Some(status)
+    }
+
+    /// Keeps `u = 0 for η = 4` as an answer where it is asked for which η that is so.
+    fn note_place(&mut self, text: &str, links: &[Link], there: &Values, status: &Status) {
+        let verdict = match status {
+            Status::Holds => Verdict::Equivalent,
+            Status::Wrong => Verdict::Different,
+            _ => return,
+        };
+        let mut names = there.keys();
+        let (Some(name), None) = (names.next(), names.next()) else {
+            return;
+        };
+        let mut all = self.sought.iter();
+        let asked = all.find(|s| s.parameter == *name && self.states(links, s));
+        if let Some(question) = asked.map(|s| s.question.clone()) {
+            self.give(question, text, verdict);
+        }
     }
 
     /// Judges links one by one.
@@ -248,10 +300,12 @@ impl Desk<'_> {
                 _ if self.is_rounded(text, link, &none) => rounded = true,
                 None => open = true,
                 Some(false) if self.follows_condition(link) => {}
-                Some(false) => match self.cause(text, link).or_else(|| self.carried_on(link)) {
-                    Some(cause) => carried = carried.or(Some(cause)),
-                    None => return Weighed::Slip(at),
-                },
+                Some(false) => {
+                    match (self.cause_of(text, link)).or_else(|| self.miscounted(text, links, at)) {
+                        Some(cause) => carried = carried.or(Some(cause)),
+                        None => return Weighed::Slip(at),
+                    }
+                }
             }
         }
         match (carried, open, rounded) {
@@ -324,6 +378,25 @@ impl Desk<'_> {
         ))
     }
 
+    /// The wrong line from which an equality follows, or the last of those from which its components do one by one.
+    fn cause_of(&self, text: &str, link: &Link) -> Option<usize> {
+        let whole = self.cause(text, link).or_else(|| self.carried_on(link));
+        whole.or_else(|| {
+            let [a, b] = link.sides.each_ref().map(|side| self.vector(side, true));
+            let parts = a?
+                .into_iter()
+                .zip(b?)
+                .filter(|(a, b)| !self.is_zero(&(a - b)));
+            let causes = parts.map(|(a, b)| {
+                let differences = vec![&a - &b];
+                let sides = [a, b].map(Content::Scalar);
+                let part = Link { sides, differences };
+                self.cause(text, &part).or_else(|| self.carried_on(&part))
+            });
+            causes.collect::<Option<Vec<usize>>>()?.into_iter().max()
+        })
+    }
+
     pub(super) fn carried_on(&self, link: &Link) -> Option<usize> {
         effort::within(MOST_STEPS, || self.again(link))
     }
@@ -394,12 +467,10 @@ impl Desk<'_> {
     pub(super) fn broken(&self, reading: &Reading, at: usize, text: &str) -> Option<Diagnosis> {
         let links = self.links(reading)?;
         let link = links.get(at)?;
-        // Vectors as they are written rather than by the names of their components.
-        let pieces: Vec<&str> = text.split(['=', '≈']).map(str::trim).collect();
-        let [a, b] = match pieces.get(at..at + 2) {
-            Some([a, b]) if pieces.len() == links.len() + 1 && mentions_vectors(&link.sides) => {
-                [(*a).to_string(), (*b).to_string()]
-            }
+        // As they are written, rather than as they are read.
+        let written = pieces(text, links.len());
+        let [a, b] = match written.as_deref().and_then(|pieces| pieces.get(at..at + 2)) {
+            Some([a, b]) => [(*a).to_string(), (*b).to_string()],
             _ => link.sides.each_ref().map(super::super::show),
         };
         Some(Diagnosis::new(

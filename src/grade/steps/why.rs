@@ -7,7 +7,7 @@ use super::super::behind::{Named, behind, keeps_energy};
 use super::super::belief::{BELIEFS, MOTIONS, other_shapes};
 use super::super::relation::{size_in, solve_for};
 use super::cause::MOST_STEPS;
-use super::impact::angular_momenta;
+use super::impact::{angular_momenta, energies};
 use super::inertias::is_other_inertia;
 use super::link::in_vectors;
 use super::sought::Sought;
@@ -372,7 +372,8 @@ impl Desk<'_> {
         other.collect()
     }
 
-    /// What the scene has that a value is: a moment of inertia, or a velocity or spin, also as it comes into an impact.
+    /// What the scene has that a value is: a moment of inertia, a kinetic energy, or a velocity or spin, also as it comes into an
+    /// impact.
     fn of_scene(&self, value: &Expr) -> Option<Expr> {
         let value = self.truth(value);
         if self.is_inertia(&value) {
@@ -386,7 +387,8 @@ impl Desk<'_> {
         let all = all.chain(before).chain(&momenta);
         let all: BTreeSet<&Expr> = all.filter(|e| !e.is_zero()).collect();
         let same = |truth: &&Expr| self.is_zero(&(&value - *truth));
-        all.into_iter().take(MOST_VALUES).find(same).cloned()
+        let found = all.into_iter().take(MOST_VALUES).find(same).cloned();
+        found.or_else(|| energies(self.sheet).into_iter().find(|e| same(&e)))
     }
 
     /// The arm of an impulse with which a balance of moments holds, where the scene has such a distance.
@@ -478,12 +480,31 @@ impl Desk<'_> {
                     .map(|(_, k)| tidied(term * k))
                     .collect()
             })?;
+            // The moment of inertia of a body about a point of the scene is none of another shape.
+            let [mine, theirs] = found.each_ref().map(|term| self.inertia_in(term));
+            if mine && !theirs {
+                return None;
+            }
             let [term, meant] = found.map(|e| formula::write_plain(&e));
             let words = format!(
                 "this line holds with {meant} in place of {term} (moment of inertia {words})"
             );
             let hint = "which shape has the moment of inertia you used, and about which point?";
             Some(Diagnosis::new("INERTIA", words, hint))
+        })
+    }
+
+    /// Whether a term has the moment of inertia of a body of the scene with a spin, as its momentum or its energy has it.
+    fn inertia_in(&self, term: &Expr) -> bool {
+        let found = |name: &Symbol| self.closed.contains_key(name);
+        let mut spins = term.symbols().into_iter().filter(found);
+        spins.any(|spin| {
+            let slope = term.derivative(&spin);
+            let slope = match slope.mentions(&spin) {
+                true => slope.derivative(&spin),
+                false => slope,
+            };
+            self.is_inertia(&slope) || self.is_inertia(&-&slope)
         })
     }
 
