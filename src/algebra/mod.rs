@@ -17,6 +17,7 @@ mod field;
 mod fuel;
 mod gcd;
 mod image;
+mod joined;
 mod minors;
 pub(crate) mod mono;
 mod parts;

@@ -5,7 +5,7 @@ use num_traits::{One, Signed, Zero};
 
 use super::Sign;
 use super::element::Element;
-use super::factor::{Parts, conjugates};
+use super::factor::{Parts, conjugates, square_part};
 use super::field::{Field, Kind};
 use super::poly::Poly;
 use crate::expr::{Expr, Int, Node, Rational, ratio};
@@ -196,7 +196,6 @@ impl Field {
     /// The product of a number and factors in their order: √a·√b/√c is written √(ab/c) where each of them is known to be real; if
     /// all but one are, so is that one.
     fn with_one_root(&self, number: Rational, factors: Vec<Factor>) -> Expr {
-        let mut out = vec![Expr::from(number)];
         let half = |f: &Factor| f.root.is_some() && *f.power.denom() == Int::from(2);
         let is_real = |v: usize| {
             let under = self.gens[v].relation.as_ref().map(|(_, p)| p);
@@ -232,11 +231,16 @@ impl Field {
                 f.base
             });
         }
+        let number = match numeric || all_below {
+            true => number,
+            false => with_number_inside(number, &mut inside, &rest),
+        };
         let root = (!inside.is_empty()).then(|| {
             // Nothing above: 1/√(ab).
             Expr::product(inside).power(Expr::ratio(if all_below { -1 } else { 1 }, 2))
         });
         rest.sort_by(|a, b| (a.rank, &a.base).cmp(&(b.rank, &b.base)));
+        let mut out = vec![Expr::from(number)];
         if numeric {
             out.extend(root);
             out.extend(rest.into_iter().map(Factor::written));
@@ -277,6 +281,65 @@ impl Field {
         let inside = (n == m).then(|| self.joined_conjugates(&f, &g))??;
         Some(inside.power(Expr::ratio(1, i64::from(n))))
     }
+}
+
+/// Takes of a number in front what stands shorter under the root behind it, and gives what stays in front: `√70 x/7` is
+/// `√(10 x/7)` and `2 √(6 x)/3` is `√(8 x/3)`. A number without a line below it stays: `2 √(6 x)`.
+fn with_number_inside(number: Rational, inside: &mut Vec<Expr>, rest: &[Factor]) -> Rational {
+    let under: Rational = inside.iter().filter_map(Expr::as_number).product();
+    if number.denom().gcd(under.numer()).is_one() || !under.is_positive() {
+        return number;
+    }
+    // √(2 g h), the speed of a fall, stays, unless no number is left in front.
+    let two = Rational::from(Int::from(2));
+    if under == two && *number.denom() != Int::from(2) {
+        return number;
+    }
+    let square = &(&number * &number) * &under;
+    let [(above, above_rest), (below, below_rest)] =
+        [square.numer(), square.denom()].map(square_part);
+    let splits = [
+        (number.abs(), under),
+        (
+            Rational::new(above, below),
+            Rational::new(above_rest, below_rest),
+        ),
+        (Rational::one(), square),
+    ];
+    let has_line = |x: &Rational| !x.denom().is_one();
+    let line_outside = rest.iter().any(|f| f.power.is_negative());
+    let line_inside = inside.iter().any(is_below);
+    // A line in a line costs as much as two digits more.
+    let cost = |(outside, under): &(Rational, Rational)| {
+        let all = [
+            outside.numer(),
+            outside.denom(),
+            under.numer(),
+            under.denom(),
+        ];
+        let seen = all.map(|n| if n.is_one() { 0 } else { n.to_string().len() });
+        let nested = (line_outside || has_line(outside)) && (line_inside || has_line(under));
+        (
+            seen.iter().sum::<usize>() + if nested { 2 } else { 0 },
+            all.into_iter().fold(Int::one(), |all, n| all * n),
+        )
+    };
+    let [first, others @ ..] = splits;
+    let sign = Rational::from(Int::from(if number.is_negative() { -1 } else { 1 }));
+    let best = others.into_iter().fold(
+        first,
+        |best, one| if cost(&one) < cost(&best) { one } else { best },
+    );
+    inside.retain(|e| e.as_number().is_none());
+    if !best.1.is_one() {
+        inside.insert(0, Expr::from(best.1));
+    }
+    sign * best.0
+}
+
+/// Whether a factor is a power below the line.
+fn is_below(e: &Expr) -> bool {
+    matches!(e.node(), Node::Power(_, k) if k.is_negative())
 }
 
 /// The negative of a sum, its positive terms in front again.
