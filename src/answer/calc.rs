@@ -403,9 +403,8 @@ pub(super) fn decisive(e: &Expr, domains: &Domains, open: bool) -> Expr {
     if let Some(inside) = inside.filter(|_| open) {
         return decisive(&inside, domains, open);
     }
-    squared(&e, domains)
-        .or_else(|| of_squares(&e, domains))
-        .unwrap_or(e)
+    let e = squared(&e, domains).unwrap_or(e);
+    of_squares(&e, domains).unwrap_or(e)
 }
 
 /// What has the sign of a difference of two squares: 1 − e² is above zero where 1 − e is, and M² − m² where M − m is.
@@ -433,8 +432,8 @@ fn of_squares(e: &Expr, domains: &Domains) -> Option<Expr> {
     difference(first, second).or_else(|| difference(second, first))
 }
 
-/// What has the sign of `a − √(b + c)` without the root, where a is known not to be negative; likewise for `√(b + c) − a`.
-/// A condition such as u ≥ μ √(2 g h) reads better as it is, and h ≥ √(H h) as h ≥ H.
+/// What has the sign of `a − √(b + c)` without the root, where a is known not to be negative, or is not where a² is as large
+/// as b + c; likewise for `√(b + c) − a`. A condition such as u ≥ μ √(2 g h) reads better as it is, and h ≥ √(H h) as h ≥ H.
 fn squared(e: &Expr, domains: &Domains) -> Option<Expr> {
     let Node::Sum(terms) = e.node() else {
         return None;
@@ -450,17 +449,25 @@ fn squared(e: &Expr, domains: &Domains) -> Option<Expr> {
         inside.any(|inside| inside.parts().any(is_sum))
     };
     let (rooted, plain): (Vec<&Expr>, Vec<&Expr>) = terms.iter().partition(has_root);
-    let ([root], plain) = (rooted.as_slice(), Expr::sum(plain.into_iter().cloned())) else {
-        return None;
+    let plain = Expr::sum(plain.into_iter().cloned());
+    let (root, plain) = match rooted.as_slice() {
+        [root] => (*root, plain),
+        [root, other] if plain.is_zero() => (*root, (*other).clone()),
+        _ => return None,
     };
     let proved = |e: &Expr| match sign(e, domains) {
         Seen::Proved(sign) => Some(sign.is_not_negative()),
         _ => None,
     };
     let difference = &plain.powi(2) - &root.powi(2);
-    let difference = match (proved(&plain)?, proved(root)?) {
-        (true, false) => difference,
-        (false, true) => -difference,
+    let there = |given: Expr| {
+        let sign = sign(&plain, &domains.given(&given, true));
+        matches!(sign, Seen::Proved(s) if s.is_not_negative())
+    };
+    let difference = match (proved(&plain), proved(root)?) {
+        (Some(true), false) => difference,
+        (Some(false), true) => -difference,
+        (None, false) if there(core(&difference, domains)) => difference,
         _ => return None,
     };
     let without = core(&difference, domains);

@@ -7,7 +7,7 @@ use super::motion::{arms, sense};
 use super::{StageTold, line};
 use crate::algebra::Sign;
 use crate::answer::Known;
-use crate::answer::calc::{Seen, essential, is_zero, sign, tidy};
+use crate::answer::calc::{Seen, beyond_zero, essential, is_zero, sign, tidy};
 use crate::domain::Domains;
 use crate::expr::{Expr, Vector, cross, minus};
 use crate::formula::{Sentence, sentence};
@@ -56,11 +56,11 @@ impl Grip {
                 ))
             }
             _ => Some(sentence!(
-                "`{}` grips, unless {}, so that it only pushes at the {} of `{}`",
+                "`{}` grips and can pull at the {} of `{}`, or {}",
                 name,
-                Sentence::not_negative(push),
                 *when,
-                motion
+                motion,
+                beyond_zero(push, domains, false)
             )),
         }
     }

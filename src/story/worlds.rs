@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use super::StageTold;
-use crate::answer::calc::{Seen, sign};
+use crate::answer::calc::{Seen, beyond_zero, sign};
 use crate::answer::{Answer, Known, Refused};
 use crate::domain::{Origin, Relation};
 use crate::expr::{Expr, Symbol};
@@ -113,8 +113,8 @@ pub(super) fn each(
             if k > 0 {
                 number_case(a, k + 1);
             }
-            let given =
-                (given.iter()).map(|(why, e)| sentence!("{} ({})", Sentence::not_negative(e), why));
+            let given = (given.iter())
+                .map(|(why, e)| sentence!("{} ({})", beyond_zero(e, &scene.domains, false), why));
             a.assumptions.extend(given);
             a.worlds = holds.clone();
         }

@@ -237,7 +237,7 @@ fn of_value<'a>(
     let needs = mine.flat_map(|a| &a.needs);
     let needs = needs.filter(move |(of, ..)| Some(of) == value);
     needs.map(|(_, excess, closed)| {
-        let so_that = format!("there is `{}`", question.name);
+        let so_that = format!("`{}` exists", question.name);
         let told = sentence!("{}, so that {}", beyond(excess, *closed), &so_that);
         Need::new(excess, *closed, Origin::Outcome(so_that), told)
     })
