@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::expr::{Expr, Vector};
+use crate::formula::latex_words;
 use crate::laws::{self, Place, Unknown};
 use crate::scene::{Ask, BlowImpulse, ImpulseAt, Scene};
 
@@ -220,10 +221,7 @@ fn made_name(scene: &Scene, unknown: Unknown, letters: &[&str; 4]) -> (String, S
     let made = |letter: &str, latex_letter: &str, of: &str, axis: Option<usize>, after: bool| {
         let plus = if after { "^{+}" } else { "" };
         // A letter is a point or a body, a word is upright.
-        let index = match of.len() == 1 && of.chars().all(|c| c.is_ascii_uppercase()) {
-            true => of.to_string(),
-            false => format!("\\mathrm{{{}}}", escape(of)),
-        };
+        let index = latex_words(of);
         match axis {
             Some(axis) => {
                 let x = AXES[axis];
@@ -270,8 +268,4 @@ fn identifier(name: &str) -> String {
         out.push('_');
     }
     out
-}
-
-fn escape(name: &str) -> String {
-    name.replace('_', "\\_")
 }

@@ -7,7 +7,7 @@ mod inline;
 pub(crate) mod latex;
 
 use crate::expr::Expr;
-use crate::formula::{is_hidden, latex_name};
+use crate::formula::{is_hidden, latex_name, latex_words};
 use crate::scene::Scene;
 
 /// Where a run stands against the line of text.
@@ -72,7 +72,10 @@ impl Label {
         let mut text = format!("\\vec{{{base}}}");
         if !index.is_empty() {
             text.push_str("_{");
-            text.push_str(&latex_name(index));
+            text.push_str(&match index.contains('_') {
+                true => latex_words(index),
+                false => latex_name(index),
+            });
             text.push('}');
         }
         if !mark.is_empty() {

@@ -4,6 +4,7 @@ use super::label::Label;
 use super::plane::{Pair, size};
 use super::stage::{Stage, center_name};
 use crate::expr::{Expr, Vector};
+use crate::formula::latex_words;
 use crate::scene::Ask;
 
 pub(super) fn vector_name(name: &str, latex: Option<&str>) -> Label {
@@ -80,10 +81,7 @@ pub(super) fn spin_name(stage: &Stage, body: usize, spin: f64) -> Label {
     let label = Label::latex(&if index.is_empty() {
         "\\omega^{+}".to_string()
     } else {
-        format!(
-            "\\omega_{{\\mathrm{{{}}}}}^{{+}}",
-            index.replace(['{', '}', '\\'], "")
-        )
+        format!("\\omega_{{{}}}^{{+}}", latex_words(&index))
     });
     if spin < 0.0 { label.negated() } else { label }
 }
@@ -95,10 +93,7 @@ pub(super) const LEGIBLE: usize = 11;
 pub(super) fn spin_before(stage: &Stage, body: usize) -> Label {
     match index(stage, body) {
         none if none.is_empty() => Label::latex("\\omega^{-}"),
-        index => Label::latex(&format!(
-            "\\omega_{{\\mathrm{{{}}}}}^{{-}}",
-            index.replace(['{', '}', '\\'], "")
-        )),
+        index => Label::latex(&format!("\\omega_{{{}}}^{{-}}", latex_words(&index))),
     }
 }
 

@@ -68,7 +68,7 @@ pub(crate) use together::values_of_one;
 pub use token::Literal;
 pub(crate) use units::plain_unit;
 pub use visible::{is_hidden, visible};
-pub use write::{latex_name, unicode_name, write_latex, write_plain, write_unicode};
+pub use write::{latex_name, latex_words, unicode_name, write_latex, write_plain, write_unicode};
 pub use written::{Link, Shape, Sign, Written};
 pub(crate) use written::{
     along_axes, along_axis, has_arrow, is_component, vector_name, with_arrow,

@@ -453,6 +453,31 @@ fn latex_index(index: &str) -> String {
     }
 }
 
+/// Words as an index, upright: `rear_cart` → `\mathrm{rear}\,\mathrm{cart}`; a letter by itself leans.
+pub fn latex_words(words: &str) -> String {
+    let mut index = String::new();
+    let mut word = String::new();
+    for c in words.chars().chain(['\0']) {
+        if c.is_alphanumeric() {
+            word.push(c);
+            continue;
+        }
+        match word.chars().count() {
+            0 => {}
+            1 => index.push_str(&word),
+            _ => index.push_str(&format!("\\mathrm{{{word}}}")),
+        }
+        word.clear();
+        match c {
+            '/' | ',' => index.push(c),
+            '\0' => {}
+            // Anything else in a name is a separator; nothing of it reaches TeX.
+            _ => index.push_str("\\,"),
+        }
+    }
+    index
+}
+
 /// The name in Unicode: `theta` → `θ`, `omega1` → `ω₁`, `v_G1` → `v_G1`, `v1^+` → `v₁⁺`.
 pub fn unicode_name(name: &str) -> String {
     if let Some((of, when)) = name.strip_suffix(')').and_then(|n| n.split_once('(')) {

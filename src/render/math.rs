@@ -3,7 +3,7 @@
 use num_traits::Signed;
 
 use crate::expr::{Expr, Node};
-use crate::formula::{visible, write_latex, write_unicode};
+use crate::formula::{latex_words, visible, write_latex, write_unicode};
 use crate::solution::{Line, Math, Name, Solution};
 
 /// Longest displayed line, in characters as they are set.
@@ -450,7 +450,7 @@ fn unicode_name(name: &Name) -> String {
     let sub = if index.is_empty() {
         String::new()
     } else {
-        format!("_{index}")
+        format!("_{}", index.replace('_', ""))
     };
     visible(&format!("{letter}{sub}{mark}"))
 }
@@ -517,25 +517,6 @@ fn latex_name(name: &Name) -> String {
     if name.index.is_empty() {
         return format!("{letter}{mark}");
     }
-    let mut index = String::new();
-    let mut word = String::new();
-    for c in name.index.chars().chain(['\0']) {
-        if c.is_alphanumeric() {
-            word.push(c);
-            continue;
-        }
-        match word.chars().count() {
-            0 => {}
-            1 => index.push_str(&word),
-            _ => index.push_str(&format!("\\mathrm{{{word}}}")),
-        }
-        word.clear();
-        match c {
-            '/' | ',' => index.push(c),
-            '\0' => {}
-            // Anything else in a name is a separator; nothing of it reaches TeX.
-            _ => index.push_str("\\,"),
-        }
-    }
+    let index = latex_words(&name.index);
     format!("{letter}_{{{index}}}{mark}")
 }
