@@ -95,7 +95,10 @@ impl SolidReader<'_> {
         if !self.has_its_fields(body) {
             return None;
         }
-        let mass = Expr::sum(parts.iter().map(|p| p.mass.clone()));
+        // In the order in which every formula has them.
+        let mut masses: Vec<Expr> = parts.iter().map(|p| p.mass.clone()).collect();
+        masses.sort();
+        let mass = Expr::sum(masses);
         if mass.is_zero() {
             let fault = Fault::new(body.span.opening(), "this composite has no mass");
             let fault = fault.hint("give one of its parts a mass");

@@ -7,8 +7,9 @@ use super::{Case, StageTold};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, essential, is_zero, sign};
 use crate::domain::Domains;
-use crate::expr::{Expr, minus};
-use crate::formula::listed;
+use crate::expr::{Expr, Vector, dot, minus};
+use crate::formula::{Sentence, listed, sentence};
+use crate::scene::{StageKind, Strung};
 use crate::story::UNDETERMINED;
 
 /// What becomes of every body that moves; those of which the same is said stand together.
@@ -38,6 +39,38 @@ pub(super) fn words(told: &StageTold, case: &Case) -> Vec<String> {
     }
     let told = all.into_iter();
     told.map(|(clause, names)| clause.of(&names)).collect()
+}
+
+/// Which strings of the motion before an impact lets go slack: the end that drew does not keep up with the other one.
+pub(super) fn slack(told: &StageTold, before: &StageTold) -> Option<Sentence> {
+    let (StageKind::Slide(slide), [case]) = (&before.placed.kind, told.cases.as_slice()) else {
+        return None;
+    };
+    let scene = &told.placed.scene;
+    let is_positive = |e: &Expr| sign(e, &scene.domains) == Seen::Proved(Sign::Positive);
+    let speed = |b: usize, along: &Vector| dot(&case.after.velocity[b], along) / dot(along, along);
+    let loosens = |string: &&Strung| {
+        let (Some(first), Some(last)) = (string.over.first(), string.over.last()) else {
+            return false;
+        };
+        let [head, tail] = [
+            (slide.body, &slide.along, first),
+            (string.to[0], &string.along, last),
+        ];
+        let centers = &told.before.center;
+        let [head_draws, tail_draws] = [head, tail].map(|(b, along, pulley)| {
+            is_positive(&dot(&minus(&centers[b], &centers[*pulley]), along))
+        });
+        let lead = &speed(head.0, head.1) - &speed(tail.0, tail.1);
+        head_draws != tail_draws && is_positive(&if head_draws { -lead } else { lead })
+    };
+    let strings = slide.strings.iter().filter(loosens);
+    let over = strings.flat_map(|s| &s.over);
+    let over: Vec<String> = over
+        .map(|b| format!("`{}`", scene.bodies[*b].name))
+        .collect();
+    let slack = sentence!("the string over {} goes slack", listed(&over));
+    (!over.is_empty()).then_some(slack)
 }
 
 /// What is said of a body.

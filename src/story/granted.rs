@@ -1,6 +1,7 @@
 //! What a story takes for granted, in sentences: that impacts take no time, and what holds of each kind of motion.
 
 use super::StageTold;
+use super::words::carried;
 use crate::formula::{Sentence, listed, sentence};
 use crate::scene::{OneSided, StageKind, Turn};
 
@@ -73,7 +74,7 @@ pub(super) fn assumed(readings: &[String], stages: &[StageTold]) -> Vec<Sentence
 /// What holds of the bodies of a rotation.
 fn in_a_turn(stages: &[StageTold], told: &StageTold, turn: &Turn) -> String {
     let about = &turn.about_name;
-    let each = turn.bodies().into_iter();
+    let each = carried(told, turn).into_iter();
     let each: Vec<_> = each.map(|b| &told.placed.scene.bodies[b]).collect();
     let names: Vec<String> = each.iter().map(|body| format!("`{}`", body.name)).collect();
     let all = listed(&names);

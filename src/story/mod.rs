@@ -31,6 +31,7 @@ pub use sheet::{
     Way, beginning, ends, impact, impacts, is_clockwise, moments, outcomes, sheet, ways,
 };
 pub(crate) use told::line;
+pub(crate) use words::carried;
 
 pub use told::{Balance, Case, Cluster, Kept, OnSpring, Part, StageTold, State, Step, Told};
 

@@ -229,6 +229,11 @@ fn falling(told: &StageTold, fall: &Fall) -> Vec<Sentence> {
     let scene = &told.placed.scene;
     let name = &scene.bodies[fall.body].name;
     let falls = goes_down(told, fall.body);
+    // Without a weight it may slide on ice as well.
+    let flies = match fall.gravity {
+        Some(_) => "flies freely",
+        None => "moves freely",
+    };
     let mut out = vec![match (&fall.until, &fall.gravity) {
         (FallEnd::Drop(h), Some(_)) if fall.rising => {
             sentence!("`{}` rises freely through {}", name, measured(&-h, "m"))
@@ -243,7 +248,7 @@ fn falling(told: &StageTold, fall: &Fall) -> Vec<Sentence> {
             (_, " lower") if falls => {
                 sentence!("`{}` falls freely through {}", name, measured(h, "m"))
             }
-            (down, " lower") => flown(name, (down, " lower")),
+            (down, " lower") => flown(name, flies, (down, " lower")),
             (up, _) => {
                 sentence!(
                     "`{}` flies freely until it comes down to a place {} higher",
@@ -257,13 +262,15 @@ fn falling(told: &StageTold, fall: &Fall) -> Vec<Sentence> {
             sentence!("`{}` falls freely for {}", name, measured(t, "s"))
         }
         (FallEnd::Time(t), _) => {
-            sentence!("`{}` flies freely for {}", name, measured(t, "s"))
+            sentence!("`{}` {} for {}", name, flies, measured(t, "s"))
         }
         (FallEnd::Turned(by), _) => {
-            sentence!("`{}` flies freely until it has turned through {}", name, by)
+            sentence!("`{}` {} until it has turned through {}", name, flies, by)
         }
-        (FallEnd::Range(s), _) => flown(name, counted(s, [" further right", " further left"])),
-        (FallEnd::Drop(h), None) => flown(name, counted(h, [" lower", " higher"])),
+        (FallEnd::Range(s), _) => {
+            flown(name, flies, counted(s, [" further right", " further left"]))
+        }
+        (FallEnd::Drop(h), None) => flown(name, flies, counted(h, [" lower", " higher"])),
     }];
     for cluster in &told.clusters {
         let names = cluster
@@ -284,7 +291,8 @@ fn falling(told: &StageTold, fall: &Fall) -> Vec<Sentence> {
         let other = &scene.bodies[*b].name;
         let verb = match fall.gravity.is_some() && goes_down(told, *b) {
             true => "falls",
-            false => "flies",
+            false if fall.gravity.is_some() => "flies",
+            false => "moves",
         };
         out.push(sentence!("`{}` meanwhile {} freely as well", other, verb));
     }
@@ -427,9 +435,9 @@ fn measured(e: &Expr, unit: &str) -> Sentence {
 }
 
 /// A flight that ends at a place so far away.
-fn flown(name: &str, (far, way): (Expr, &'static str)) -> Sentence {
+fn flown(name: &str, flies: &'static str, (far, way): (Expr, &'static str)) -> Sentence {
     let far = measured(&far, "m");
-    sentence!("`{}` flies freely until it is {}{}", name, far, way)
+    sentence!("`{}` {} until it is {}{}", name, flies, far, way)
 }
 
 /// A distance without the minus sign it may begin with, and the word for its direction.
@@ -444,10 +452,7 @@ fn counted(e: &Expr, [plus, minus]: [&'static str; 2]) -> (Expr, &'static str) {
 fn turning(stage: &Stage, told: &StageTold, turn: &Turn) -> Sentence {
     let domains = &stage.scene.domains;
     let name = |b: usize| format!("`{}`", stage.scene.bodies[b].name);
-    // A particle at the fixed point stays where it is.
-    let is_carried =
-        |b: &usize| !stage.scene.bodies[*b].is_particle() || told.before.center[*b] != turn.about;
-    let carried: Vec<usize> = turn.bodies().into_iter().filter(is_carried).collect();
+    let carried = carried(told, turn);
     let names: Vec<String> = carried.iter().map(|b| name(*b)).collect();
     let (before, after) = (&told.before.spin[turn.body], &told.after.spin[turn.body]);
     let sense = match super::motion::sense(stage, before, turn) {
@@ -485,6 +490,14 @@ fn turning(stage: &Stage, told: &StageTold, turn: &Turn) -> Sentence {
     };
     let turns = format!(" {turns}{sense} about `{}`", turn.about_name);
     sentence!("{}{}{}", listed(&names), turns, rate)
+}
+
+/// The bodies that a rotation moves: a particle at the fixed point stays where it is.
+pub(crate) fn carried(told: &StageTold, turn: &Turn) -> Vec<usize> {
+    let scene = &told.placed.scene;
+    let is_carried =
+        |b: &usize| !scene.bodies[*b].is_particle() || told.before.center[*b] != turn.about;
+    turn.bodies().into_iter().filter(is_carried).collect()
 }
 
 /// Whether what turns only gains speed, or only loses it: no more than half a turn, with moments of one sense at both ends.

@@ -19,7 +19,7 @@ use std::collections::BTreeSet;
 use std::iter::successors;
 
 use super::worlds::World;
-use super::{StageTold, Told, granted, line, second, spring, words, worlds};
+use super::{StageTold, Told, change, granted, line, second, spring, words, worlds};
 use crate::answer::{self, Answer, Check, Form, Known, Refused};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Piece, Sentence, sentence};
@@ -27,9 +27,12 @@ use crate::scene::{Ask, Question, Scene, Stage, StageKind};
 
 /// Answers all questions.
 pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Refused> {
-    for told in &mut stages {
-        if told.words.is_empty() {
-            told.words = words::stage(told);
+    for i in 0..stages.len() {
+        if stages[i].words.is_empty() {
+            let before = stages[i].branch.map(|(before, _)| &stages[before]);
+            let slack = before.and_then(|before| change::slack(&stages[i], before));
+            let words = words::stage(&stages[i]).into_iter().chain(slack);
+            stages[i].words = words.collect();
         }
     }
     let mut worlds = worlds::of(&stages);

@@ -246,7 +246,7 @@ impl Pulled<'_> {
                     "the pull of the string beyond the pulleys, from the forces on what it moves there"
                 }
             },
-            "its pull on this side of the pulleys, from the moment that turns them",
+            "its pull on the other side, from the moment that turns the pulleys",
         ];
         let letters = ["T", "S"];
         // A movable pulley hangs on two parts of the string, and moves half as fast.
