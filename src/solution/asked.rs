@@ -79,8 +79,12 @@ pub(super) fn beyond_motion(solution: &mut Solution, scene: &Scene, answers: &[A
             true => further(solution, ask, first),
             false => solution.section(0, heading(scene, ask, first)),
         }
-        if let Ask::Value { meaning, .. } = ask
-            && let Some(reason) = because(meaning)
+        let meaning = match ask {
+            Ask::Value { meaning, .. } => meaning.as_str(),
+            Ask::Friction { .. } => &first.words,
+            _ => "",
+        };
+        if let Some(reason) = because(meaning)
             && solution.detail != Detail::Brief
         {
             solution.say(reason);
@@ -119,9 +123,16 @@ fn slope(
     mine: &[Answer],
 ) -> bool {
     let place = mine.iter().find_map(|a| a.range.first());
-    let ([p], Some((at, Relation::Equal, place))) = (over, place) else {
+    let Some((at, Relation::Equal, place)) = place else {
         return false;
     };
+    // Of several in one combination, each does the same: one in whose first power it goes.
+    let share = |p: &Symbol| tidied(scene, &(at / &Expr::symbol(p)));
+    let alone = |p: &&Symbol| !share(p).mentions(p);
+    let Some(p) = over.iter().find(alone) else {
+        return false;
+    };
+    let place = &(place / &share(p));
     let known = answers.iter();
     let known = known.filter_map(|a| Some((Symbol::from(a.name.as_str()), a.formula()?.clone())));
     let slope = tidied(scene, &of.substitute(&known.collect()).derivative(p));
@@ -145,10 +156,10 @@ fn slope(
         }
         _ => return false,
     };
-    if at.as_symbol() != Some(p) || slope.size() > READABLE {
+    if slope.size() > READABLE {
         return false;
     }
-    solution.text(fill(lead, [words::formula(at)]));
+    solution.text(fill(lead, [words::formula(&Expr::symbol(p))]));
     let math = words::related(&slope, relation, &Expr::zero());
     solution.display(vec![Line::plain(math)]);
     true

@@ -1,8 +1,10 @@
 //! A formula as it comes from a law, tidied only as far as a hand would on the way: like factors as one power, no term that
 //! is zero, no quotient of two negative sums. What it is made of stays to be seen, which a normal form would hide.
 
+use num_traits::One;
+
 use crate::algebra::Field;
-use crate::expr::{Expr, Node};
+use crate::expr::{Expr, Int, Node, Rational};
 use crate::formula::write_plain;
 use crate::scene::Scene;
 
@@ -19,7 +21,7 @@ pub(super) fn neat(scene: &Scene, e: &Expr) -> Expr {
                     made
                 }
             });
-            let mut each: Vec<Expr> = each.collect();
+            let mut each: Vec<Expr> = without_opposites(each.collect());
             // What is taken away stands behind.
             each.sort_by_key(Expr::is_negative);
             Expr::sum(each)
@@ -38,6 +40,46 @@ pub(super) fn neat(scene: &Scene, e: &Expr) -> Expr {
         }
         _ => e.clone(),
     }
+}
+
+/// Terms without those that another one takes away, within brackets too: of `d + h − (h + s)` is left `d − s`.
+fn without_opposites(terms: Vec<Expr>) -> Vec<Expr> {
+    let opened = |term: &Expr| match (term.split_number(), term.terms().len()) {
+        ((sign, inside), 1) if sign == Rational::from(-Int::one()) => {
+            inside.terms().iter().map(|t| -t).collect()
+        }
+        _ => term.terms().to_vec(),
+    };
+    let mut left: Vec<Expr> = terms.iter().flat_map(opened).collect();
+    let opened = left.len();
+    let mut i = 0;
+    while i < left.len() {
+        match left.iter().position(|other| *other == -&left[i]) {
+            Some(j) if j != i => {
+                left.remove(i.max(j));
+                left.remove(i.min(j));
+                i = 0;
+            }
+            _ => i += 1,
+        }
+    }
+    if left.len() == opened { terms } else { left }
+}
+
+/// A sum in which equal terms stand as one: of `M + m + M` is made `2 M + m`.
+pub(super) fn counted(e: &Expr) -> Expr {
+    let mut counts: Vec<(Expr, i64)> = Vec::new();
+    for term in e.terms() {
+        match counts.iter_mut().find(|(other, _)| other == term) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((term.clone(), 1)),
+        }
+    }
+    Expr::sum(
+        counts
+            .into_iter()
+            .map(|(term, count)| Expr::from(count) * term),
+    )
 }
 
 fn product(scene: &Scene, factors: &[Expr]) -> Expr {

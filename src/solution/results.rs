@@ -1,6 +1,7 @@
 //! The results in one place, their abbreviations, and what was checked.
 
 use super::known;
+use super::neat::tidied;
 use super::opening::NUMBERS;
 use super::sentence::sentence;
 use super::words::{self, fill, say};
@@ -9,6 +10,12 @@ use crate::answer::Form;
 use crate::expr::{Expr, Symbol};
 use crate::formula::Sentence;
 use crate::scene::Scene;
+
+/// What stands for a long condition without which roots have no value.
+const REAL_ROOTS: &str = "real roots";
+
+/// Least size of such a condition, in nodes.
+const LONG_CONDITION: usize = 80;
 
 impl Writer<'_> {
     /// All answers, with abbreviations below.
@@ -274,13 +281,33 @@ impl Writer<'_> {
         let told = told.filter(|words| words.condition().is_none());
         for a in own.chain(told.map(ToString::to_string)) {
             let text = a.replace("the bodies approach", "bodies that approach");
-            let condition = words::condition(self.scene, &text);
+            let condition = self.or_real_roots(words::condition(self.scene, &text));
             if !all.contains(&condition) {
                 all.push(condition);
             }
         }
-        all.sort_by_key(|c| matches!(c, Inline::Text(words) if words == words::FURTHER));
+        all.sort_by_key(|c| matches!(c, Inline::Text(words) if words == REAL_ROOTS));
         all
+    }
+
+    /// A condition; a long one that only gives roots of the answers a value is told in words.
+    fn or_real_roots(&self, condition: Inline) -> Inline {
+        let Inline::Math(math) = &condition else {
+            return condition;
+        };
+        let [Math::Expr(e), Math::Op("≥"), Math::Expr(low)] = math.as_slice() else {
+            return condition;
+        };
+        if e.size() < LONG_CONDITION || !low.is_zero() {
+            return condition;
+        }
+        let own = tidied(self.scene, e);
+        let formulas = self.d.answers.iter().flat_map(|a| a.form.formulas());
+        let mut roots = formulas.flat_map(Expr::parts).filter_map(Expr::under_root);
+        match roots.any(|inside| tidied(self.scene, inside) == own) {
+            true => say(REAL_ROOTS),
+            false => condition,
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use super::words::{self, say};
 use super::{Inline, Math};
 use crate::expr::Expr;
 use crate::formula::{Piece, Sentence};
-use crate::scene::Scene;
+use crate::scene::{Scene, Stage, StageKind};
 use crate::story;
 
 /// A sentence with its formulas set, what stands around a relation in one piece with it, and bodies called as in the rest of
@@ -19,6 +19,10 @@ pub fn sentence(scene: &Scene, text: &Sentence) -> Vec<Inline> {
             _ => pieces.push(piece.clone()),
         }
     }
+    let pieces: Vec<Piece> = pieces
+        .into_iter()
+        .flat_map(|piece| with_symbols(scene, piece))
+        .collect();
     for piece in &pieces {
         match piece {
             Piece::Words(words) => {
@@ -52,6 +56,49 @@ pub fn sentence(scene: &Scene, text: &Sentence) -> Vec<Inline> {
         math.pop();
         out.push(say(format!(" {op} ")));
     }
+    out
+}
+
+/// A piece in which the backquoted names of quantities are formulas, as in "`theta0` exists".
+fn with_symbols(scene: &Scene, piece: Piece) -> Vec<Piece> {
+    let Piece::Words(words) = piece else {
+        return vec![piece];
+    };
+    let is_part = |of: &Scene, name: &str| {
+        let contacts = of.contacts.iter().map(|c| &c.name);
+        let joints = of.hinges.iter().map(|h| &h.name);
+        let mut all = contacts
+            .chain(joints)
+            .chain(of.blows.iter().map(|b| &b.name));
+        all.any(|part| part == name)
+    };
+    let is_support = |stage: &Stage, name: &str| match &stage.kind {
+        StageKind::Impact { one_sided, .. } => one_sided.iter().any(|o| o.name == name),
+        StageKind::Turn(turn) => turn.about_name == name,
+        _ => false,
+    };
+    let is_quantity = |name: &str| {
+        let is_named = scene.question(name).is_some() || scene.parameter(name).is_some();
+        let bodies = scene.bodies.iter().map(|b| &b.name);
+        let mut others = bodies.chain(scene.points.iter().map(|p| &p.name));
+        let mut stages = scene.stages.iter();
+        is_named
+            && !others.any(|other| other == name)
+            && !is_part(scene, name)
+            && !stages.any(|stage| {
+                stage.name == name || is_part(&stage.scene, name) || is_support(stage, name)
+            })
+    };
+    let mut out = vec![Piece::Words(String::new())];
+    for (i, part) in words.split('`').enumerate() {
+        match out.last_mut() {
+            Some(Piece::Words(words)) if i % 2 == 0 => words.push_str(part),
+            Some(Piece::Words(words)) if !is_quantity(part) => words.push_str(&format!("`{part}`")),
+            _ if i % 2 == 0 => out.push(Piece::Words(part.to_string())),
+            _ => out.push(Piece::Formula(Expr::symbol(part))),
+        }
+    }
+    out.retain(|piece| !matches!(piece, Piece::Words(words) if words.is_empty()));
     out
 }
 

@@ -344,10 +344,7 @@ pub fn condition(scene: &Scene, text: &str) -> Inline {
         if let Some((left, right)) = text.split_once(op)
             && let (Some(left), Some(right)) = (read(left), read(right))
         {
-            return match left.size() + right.size() > LONG_CONDITION {
-                true => say(FURTHER),
-                false => Inline::Math(related(&left, op, &right)),
-            };
+            return Inline::Math(related(&left, op, &right));
         }
     }
     say(text)
@@ -355,12 +352,6 @@ pub fn condition(scene: &Scene, text: &str) -> Inline {
 
 /// How the condition begins that is a sentence by itself.
 pub const AT_ONCE: &str = "all contacts act at the same instant";
-
-/// What stands for conditions that are too long for a sentence, behind those that are not.
-pub const FURTHER: &str = "the further conditions of this case";
-
-/// Longest condition, in nodes, that a sentence holds.
-const LONG_CONDITION: usize = 80;
 
 /// A sentence with the next of some pieces, words or formulas, in place of each `{}`.
 pub fn fill(form: &'static str, pieces: impl IntoIterator<Item = Inline>) -> Vec<Inline> {
@@ -478,7 +469,7 @@ pub fn assumptions(scene: &Scene, d: &Derivation, proof: &Proof) -> Vec<String> 
 }
 
 /// Commands besides those of letters that only set a symbol; nothing here reads files, defines macros or runs anything.
-const COMMANDS: &str = "vec hat bar dot ddot tilde mathrm mathbf mathit boldsymbol text prime _";
+const COMMANDS: &str = "vec hat bar dot ddot tilde mathrm mathbf mathit boldsymbol text prime _ ,";
 
 /// Whether the LaTeX a scene gives for a symbol only sets a symbol: known commands, balanced braces, plain characters.
 pub fn is_safe_latex(latex: &str) -> bool {

@@ -13,6 +13,7 @@ mod pivot;
 mod speeds;
 mod spring;
 mod swing;
+mod times;
 
 use super::asked;
 use super::known;
@@ -584,8 +585,8 @@ impl Page<'_> {
         let mut asks = self.scene.questions.iter().map(|q| &q.ask);
         let is_told = asks.any(|ask| matches!(ask, Ask::Unused(_)));
         if !self.told.unused.is_empty() && !is_told {
-            let mut text = vec![say("Not needed for any answer: ")];
-            text.extend(words::symbols(&self.told.unused, " and "));
+            let mut text = vec![say("No answer depends on ")];
+            text.extend(words::symbols(&self.told.unused, " or "));
             text.push(say("."));
             items.push(text);
         }

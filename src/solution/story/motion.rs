@@ -13,11 +13,23 @@ use crate::story::{StageTold, State};
 /// Largest equation of motion, in nodes, that is written out.
 const READABLE: usize = 90;
 
+/// A letter of a formula, and what it stands for.
+type Letter = (Math, &'static str);
+
 impl Page<'_> {
     /// A motion: inertia, work and energy, from the beginning to the end.
     pub(super) fn motion(&mut self, stage: &Stage, told: &StageTold) {
         if !told.steps.is_empty() {
-            return self.steps(told);
+            self.steps(told);
+            let is_timed = told.steps.iter().any(|s| s.letter == "t");
+            return match &stage.kind {
+                StageKind::Slide(slide)
+                    if slide.spring.is_none() && !is_timed && !self.is_steady(told) =>
+                {
+                    self.at_mean_speed(told, slide)
+                }
+                _ => {}
+            };
         }
         let Some([start, end]) = &told.energy else {
             return;
@@ -42,7 +54,9 @@ impl Page<'_> {
         if let Some((inertia, impulse)) = driven(told) {
             lines.extend(self.driven(told, [&inertia, &impulse]));
             if !named {
-                lines.extend(self.speed(stage, told));
+                let speed = self.speed(stage, told);
+                self.meant(speed.iter().flat_map(|(_, new)| new.clone()).collect());
+                lines.extend(speed.map(|(line, _)| line));
                 self.solution.display(lines);
                 return self.whirled(stage, told);
             }
@@ -64,7 +78,13 @@ impl Page<'_> {
             }
             _ => None,
         };
-        self.energies(told, stopping.is_some() || pressing.is_some());
+        let to_rest = stopping.is_some() || pressing.is_some();
+        let speed = (!to_rest).then(|| self.speed(stage, told)).flatten();
+        self.energies(
+            told,
+            to_rest,
+            speed.iter().flat_map(|(_, new)| new.clone()).collect(),
+        );
         let raw = self.energy_at(told, &told.before);
         let why = "kinetic energy at the beginning";
         lines.push(self.chain(vec![words::kinetic("", "-")], &raw, start, why));
@@ -85,7 +105,7 @@ impl Page<'_> {
             }
         }
         self.worked([start, end], told, named, &mut lines);
-        lines.extend(self.speed(stage, told));
+        lines.extend(speed.map(|(line, _)| line));
         if let (Some([inertia, _]), StageKind::Linkage(linkage)) = (&told.inertia, &stage.kind) {
             let square = self.rate(linkage, "dot").powi(2);
             let energy = Expr::ratio(1, 2) * inertia * square;
@@ -172,7 +192,7 @@ impl Page<'_> {
     }
 
     /// What the letters of a balance of energy stand for; where it comes to rest, only the first is needed.
-    fn energies(&mut self, told: &StageTold, to_rest: bool) {
+    fn energies(&mut self, told: &StageTold, to_rest: bool, speed: Vec<Letter>) {
         let mut letters = vec![(
             words::kinetic("", "-"),
             "the kinetic energy at the beginning",
@@ -193,7 +213,7 @@ impl Page<'_> {
             letters.push((words::kinetic("", "+"), "the kinetic energy at the end"));
         }
         // What is asked for stands in these equations before its box.
-        let mut sought: Vec<(Math, &str)> = Vec::new();
+        let mut sought: Vec<Letter> = Vec::new();
         for answer in self.answered(told) {
             let why = match self.ask(answer) {
                 Some(Ask::Velocity { point: None, .. }) if !to_rest => "the velocity at the end",
@@ -206,6 +226,7 @@ impl Page<'_> {
         if let [one] = sought.as_slice() {
             letters.push(one.clone());
         }
+        letters.extend(speed);
         self.meant(letters);
     }
 
@@ -277,67 +298,6 @@ impl Page<'_> {
         self.solution.display(vec![Line::plain(math)]);
     }
 
-    /// The time of a motion by its name, and its value, if it is asked for.
-    pub(super) fn time_asked(&self, told: &StageTold) -> Option<(Expr, Expr)> {
-        let asked = self.to(told, |ask| matches!(ask, Ask::Time))?;
-        Some((Expr::symbol(&asked.name), told.time.clone()?))
-    }
-
-    /// The time of a rotation at a steady rate: the angle divided by the spin, by the name of the answer that has it.
-    fn at_steady_rate(&mut self, told: &StageTold, turn: &Turn) {
-        let (Some((t, time)), Some(turned)) = (self.time_asked(told), &told.turned) else {
-            return;
-        };
-        if matches!(turn.until, Until::For(_)) {
-            return;
-        }
-        let spin = &told.before.spin[turn.body];
-        let (turned, spin) = match spin.is_negative() {
-            true => (-turned, -spin),
-            false => (turned.clone(), spin.clone()),
-        };
-        let mut spins = self
-            .told
-            .answers
-            .iter()
-            .filter(|a| a.formula() == Some(&spin));
-        let known = spins.find(|a| matches!(self.ask(a), Some(Ask::Spin { .. })));
-        let rate = known.map_or(spin.clone(), |a| Expr::symbol(&a.name));
-        let quotient = &turned / rate;
-        if alike(&quotient, &time) {
-            return;
-        }
-        let math = set("{} = {}", [t.into(), quotient.into()]);
-        let why = "the angle turned through, divided by the rate";
-        let line = self.claimed(math, &time, &(turned / spin), why);
-        self.solution.display(vec![line]);
-    }
-
-    /// The time of a motion along a line under constant forces: the way is the mean of the speeds at both ends, times it.
-    fn at_mean_speed(&mut self, told: &StageTold, slide: &Slide) {
-        let (Some((t, time)), Some(way)) = (self.time_asked(told), &told.way) else {
-            return;
-        };
-        if matches!(slide.until, SlideEnd::Time(_)) {
-            return;
-        }
-        let speeds = [&told.before, &told.after];
-        let speeds = speeds.map(|s| dot(&s.velocity[slide.body], &slide.along));
-        let mean = tidied(self.scene, &(Expr::ratio(1, 2) * Expr::sum(speeds)));
-        let during = &mean * &t;
-        let math = words::related(way, "=", &during);
-        let line = self.claimed(
-            math,
-            way,
-            &(mean * time),
-            "the mean of the speeds times the time",
-        );
-        self.solution.say(
-            "The acceleration is constant, so the distance is the mean of the speeds at the beginning and the end, times the time:",
-        );
-        self.solution.display(vec![line]);
-    }
-
     /// Whether another stage takes over where this one ends.
     pub(super) fn goes_on(&self, told: &StageTold) -> bool {
         let index = self.told.stages.iter().position(|s| std::ptr::eq(s, told));
@@ -384,7 +344,7 @@ impl Page<'_> {
     }
 
     /// The speed with which a motion ends, from its energy, where the next stage takes it over and no question asks for it.
-    fn speed(&mut self, stage: &Stage, told: &StageTold) -> Option<Line> {
+    fn speed(&mut self, stage: &Stage, told: &StageTold) -> Option<(Line, Option<Letter>)> {
         let [_, end] = told.energy.as_ref()?;
         let asks = |is: fn(&Ask) -> bool| self.asked(told, is);
         let goes_on = self.goes_on(told);
@@ -435,7 +395,7 @@ impl Page<'_> {
         if let Some(answer) = asked.filter(|_| letter == "v") {
             let energy = Expr::ratio(1, 2) * &inertia * Expr::symbol(&answer.name).powi(2);
             let math = set("{} = {}", [energy.into(), words::kinetic("", "+")]);
-            return Some(Line::plain(math));
+            return Some((Line::plain(math), None));
         }
         // No name of a scene ends so.
         let symbol = Symbol::from(format!("{letter}⁺").as_str());
@@ -452,9 +412,14 @@ impl Page<'_> {
                 (energy, words::kinetic("", "+"))
             }
         };
+        let why = match letter {
+            "v" => "the speed at the end",
+            _ => "the angular velocity at the end",
+        };
+        let new = (Math::Expr(symbol.clone()), why);
         let parts = [made.into(), of, symbol.into(), speed.into()];
         let math = set("{} = {} ⇒ {} = {}", parts);
-        Some(Line::plain(math))
+        Some((Line::plain(math), Some(new)))
     }
 
     /// The moment of inertia of bodies that turn as one, each by I + m r² about the fixed point.

@@ -171,7 +171,7 @@ impl Page<'_> {
     }
 
     /// Whether nothing speeds a motion along a line up or slows it down.
-    fn is_steady(&self, told: &StageTold) -> bool {
+    pub(super) fn is_steady(&self, told: &StageTold) -> bool {
         let mut steps = told.steps.iter();
         steps.any(|s| s.letter == "a" && s.value.is_zero())
     }

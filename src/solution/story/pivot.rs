@@ -9,7 +9,7 @@ use crate::solution::neat::{alike, neat, tidied};
 use crate::solution::opening::NUMBERS;
 use crate::solution::words::{self, fill, name, say, set, vector};
 use crate::solution::{Claim, Inline, Line, Math, Meaning, Part};
-use crate::story::{StageTold, is_clockwise};
+use crate::story::{StageTold, carried, is_clockwise};
 
 /// Largest component, in nodes, that is written out on the way.
 const READABLE: usize = 60;
@@ -117,14 +117,15 @@ impl Page<'_> {
         let tidy = |e: &Expr| tidied(self.scene, e);
         let lump = turn.lump(scene);
         let state = if at_end { &told.after } else { &told.before };
-        let places = turn.bodies();
+        let places = carried(told, turn);
+        let moving = Expr::sum(places.iter().map(|b| scene.bodies[*b].mass.clone()));
         let center = [0, 1].map(|axis| match places.as_slice() {
             [one] => state.center[*one][axis].clone(),
             all => {
                 let moments = all
                     .iter()
                     .map(|b| &scene.bodies[*b].mass * &state.center[*b][axis]);
-                Expr::sum(moments) / &lump.mass
+                Expr::sum(moments) / &moving
             }
         });
         let arm = minus(&center, &turn.about).map(|e| tidy(&e));
@@ -149,12 +150,12 @@ impl Page<'_> {
             return None;
         }
         self.solution.say(&format!(
-            "{} moves on a circle about {at}; Newton's second law gives the force on it there.",
+            "{} moves on a circle about {at}; Newton’s second law gives the force on it there.",
             words::capital(&who)
         ));
-        let mass = tidy(&lump.mass);
-        let weight = [Expr::zero(), &mass * g];
-        let (force, mass) = (vector("F", at, ""), Math::Factor(mass));
+        self.rates_meant(&rates, at);
+        let weight = [Expr::zero(), &tidy(&lump.mass) * g];
+        let (force, mass) = (vector("F", at, ""), Math::Factor(tidy(&moving)));
         let mut law = set("{} = {} {}", [force, mass, vector("a", &center_name, "")]);
         if !g.is_zero() {
             law.extend(set("+ {}", [weight.clone().into()]));
@@ -164,8 +165,8 @@ impl Page<'_> {
         let fresh = fresh.map(Line::plain).collect();
         self.solution.display(fresh);
         let force = [
-            &lump.mass * &acceleration[0],
-            &lump.mass * &acceleration[1] + &weight[1],
+            &moving * &acceleration[0],
+            &moving * &acceleration[1] + &weight[1],
         ];
         Some(neat(self.scene, &dot(&force, along)))
     }
@@ -192,7 +193,11 @@ impl Page<'_> {
                 self.solution.say(&format!("At the {when}:"));
             }
             let fresh = lines.into_iter().filter(|line| !self.solution.shows(line));
-            let fresh = fresh.map(Line::plain).collect();
+            let fresh: Vec<Line> = fresh.map(Line::plain).collect();
+            if let (false, Some(rates)) = (fresh.is_empty(), self.rates(told, turn, when == "end"))
+            {
+                self.rates_meant(&rates, about);
+            }
             self.solution.display(fresh);
         }
     }
@@ -267,17 +272,7 @@ impl Page<'_> {
             angular * &arm[0] - square * &arm[1],
         ];
         let acceleration = acceleration.map(|e| tidied(self.scene, &e));
-        // A letter that stands for something else has the point as its index.
-        let index = |letter: &str| {
-            let mut parameters = self.scene.parameters.iter();
-            let is_taken = parameters.any(|p| *p.name == *letter)
-                || self
-                    .told
-                    .answers
-                    .iter()
-                    .any(|a| a.name == letter && letter == "alpha");
-            if is_taken { about } else { "" }
-        };
+        let index = |letter: &str| self.index_of(letter, rates, about);
         let square_of = || name("omega", index("omega"), "2", false);
         let arm_name = || vector("r", &format!("{point}/{about}"), "");
         let mut lines = Vec::new();
@@ -315,6 +310,40 @@ impl Page<'_> {
         math.push(acceleration.clone().into());
         lines.push(math);
         (lines, acceleration)
+    }
+
+    /// The index of a letter of a rotation: the fixed point, where the letter alone stands for something else.
+    fn index_of<'n>(&self, letter: &str, rates: &Rates, about: &'n str) -> &'n str {
+        let mut parameters = self.scene.parameters.iter();
+        let is_it = |a: &Answer| {
+            let square = a.formula().map(|e| tidied(self.scene, &e.powi(2)));
+            letter == "omega" && square.as_ref() == Some(&rates.square)
+        };
+        let mut answers = self.told.answers.iter();
+        let is_taken = parameters.any(|p| *p.name == *letter)
+            || answers.any(|a| a.name == letter && !is_it(a));
+        if is_taken { about } else { "" }
+    }
+
+    /// What the letters of a rotation stand for that no answer has as its name.
+    fn rates_meant(&mut self, rates: &Rates, about: &str) {
+        let turns = [
+            (
+                "omega",
+                !rates.square.is_zero(),
+                "the angular velocity there",
+            ),
+            ("alpha", true, "the angular acceleration"),
+        ];
+        let new = turns.into_iter().filter(|(_, is_shown, _)| *is_shown);
+        let new = new.filter_map(|(letter, _, why)| {
+            let index = self.index_of(letter, rates, about);
+            let mut answers = self.told.answers.iter();
+            let is_answer = index.is_empty() && answers.any(|a| a.name == letter);
+            (!is_answer).then(|| (name(letter, index, "", false), why))
+        });
+        let new = new.collect();
+        self.meant(new);
     }
 
     /// The moments about the fixed point at one end of a rotation, counterclockwise.

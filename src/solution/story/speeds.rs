@@ -5,7 +5,7 @@ use super::motion::{driven, pulley};
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol};
 use crate::scene::{Ask, Body, Scene, StageKind};
-use crate::solution::neat::tidied;
+use crate::solution::neat::{counted, tidied};
 use crate::solution::words::{self, name, set, vector};
 use crate::solution::{Line, Math};
 use crate::story::StageTold;
@@ -119,10 +119,10 @@ impl Page<'_> {
             (Ask::Spin { .. }, Some([_, about])) => about.clone(),
             (Ask::Velocity { .. }, None) => {
                 let moved = told.placed.kind.moved().into_iter();
-                Expr::sum(moved.map(|b| match pulley(&told.placed, b) {
+                counted(&Expr::sum(moved.map(|b| match pulley(&told.placed, b) {
                     Some((_, apparent)) => tidied(self.scene, &apparent),
                     None => scene.bodies[b].mass.clone(),
-                }))
+                })))
             }
             _ => return None,
         };

@@ -97,12 +97,6 @@ impl Page<'_> {
         let balance = tidy(&(&spring.relaxed + Expr::sum(others) / &spring.stiffness));
         let is_quarter = balance.is_zero() && last.is_zero()
             || tidy(&(&balance - way)).is_zero() && first.is_zero();
-        if is_quarter {
-            let period = tidy(&(Expr::from(4) * time));
-            let words = "The motion is a quarter of a harmonic oscillation of period {}.";
-            let text = fill(words, [words::formula(&period)]);
-            return self.solution.text(text);
-        }
         let Some([start, end]) = &told.energy else {
             return;
         };
@@ -117,6 +111,27 @@ impl Page<'_> {
                 ));
             }
         };
+        if is_quarter {
+            let period = Expr::from(2) * Expr::pi() * (&mass / &spring.stiffness).sqrt();
+            let own = Expr::sum(
+                slide
+                    .company()
+                    .iter()
+                    .map(|b| told.placed.scene.bodies[*b].mass.clone()),
+            );
+            let turns = !tidy(&(&mass - &own)).is_zero();
+            let form = match turns {
+                true => {
+                    "The motion is a quarter of a harmonic oscillation, with the inertia of turning as that of a mass {}, of period {}."
+                }
+                false => {
+                    "The motion is a quarter of a harmonic oscillation, of the mass {} and of period {}."
+                }
+            };
+            return self
+                .solution
+                .text(fill(form, [&mass, &period].map(words::formula)));
+        }
         let rate = tidy(&(&spring.stiffness / &mass).sqrt());
         let [from, to] = [-&balance, way - &balance].map(|e| tidy(&e));
         let size = match (first.is_zero(), last.is_zero()) {
