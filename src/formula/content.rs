@@ -168,10 +168,7 @@ impl Content {
     /// Whether it holds an inequality.
     pub fn is_bounded(&self) -> bool {
         match self {
-            Content::Relations(_, signs) => signs.iter().any(|sign| {
-                use Relation::{Greater, GreaterEqual, Less, LessEqual};
-                matches!(sign, Less | LessEqual | Greater | GreaterEqual)
-            }),
+            Content::Relations(_, signs) => signs.iter().any(|sign| sign.is_order()),
             Content::Joined(_, parts) => parts.iter().any(Content::is_bounded),
             _ => false,
         }
@@ -207,6 +204,38 @@ impl Content {
             Content::Joined(join, parts) => {
                 let parts = parts.iter().map(|part| part.map(change)).collect();
                 Content::Joined(*join, parts)
+            }
+        }
+    }
+
+    /// It in plain notation; `write` writes an expression.
+    pub fn plain(&self, write: &dyn Fn(&Expr) -> String) -> String {
+        let all = |values: &[Expr]| values.iter().map(write).collect::<Vec<_>>();
+        let list = |values: &[Expr]| format!("[{}]", all(values).join(", "));
+        match self {
+            Content::Scalar(e) => write(e),
+            Content::Either(values) => all(values).join(" or "),
+            Content::Vector(components) => list(components),
+            Content::Matrix(rows) => {
+                let rows: Vec<String> = rows.iter().map(|row| list(row)).collect();
+                format!("[{}]", rows.join(", "))
+            }
+            Content::Quantity(q) => format!("{} {}", write(&q.written), q.unit_text),
+            Content::Relations(sides, signs) => {
+                let signs = signs.iter().map(|sign| format!(" {} ", sign.sign()));
+                let signs = std::iter::once(String::new()).chain(signs);
+                let sides = signs.zip(sides);
+                sides
+                    .map(|(sign, side)| sign + &side.plain(write))
+                    .collect()
+            }
+            Content::Joined(join, parts) => {
+                let part = |part: &Content| match (join, part) {
+                    (Join::And, Content::Joined(Join::Or, _)) => format!("({})", part.plain(write)),
+                    _ => part.plain(write),
+                };
+                let parts: Vec<String> = parts.iter().map(part).collect();
+                parts.join(join.word())
             }
         }
     }

@@ -28,7 +28,7 @@ mod worked;
 use crate::dimension::Dimension;
 use crate::domain::{Domain, Domains};
 use crate::expr::{Symbol, effort};
-use crate::formula::{self, Content, Fault, Join, Reading, Symbols};
+use crate::formula::{self, Content, Fault, Reading, Symbols};
 pub(crate) use crate::verify::rounding::fraction;
 
 pub use form::Form;
@@ -518,43 +518,9 @@ fn unreadable(fault: Fault) -> Grade {
     Grade::invalid("INVALID_SYNTAX", "the answer cannot be read", fault)
 }
 
-/// A content in plain notation.
+/// A content in plain notation, decimals as such.
 pub fn show(content: &Content) -> String {
-    match content {
-        Content::Scalar(e) => number::shown(e),
-        Content::Either(values) => {
-            let values: Vec<String> = values.iter().map(number::shown).collect();
-            values.join(" or ")
-        }
-        Content::Joined(join, parts) => {
-            let part = |part: &Content| match part {
-                Content::Joined(Join::Or, _) if *join == Join::And => format!("({})", show(part)),
-                part => show(part),
-            };
-            let parts: Vec<String> = parts.iter().map(part).collect();
-            parts.join(join.word())
-        }
-        Content::Vector(v) => {
-            let parts: Vec<String> = v.iter().map(number::shown).collect();
-            format!("[{}]", parts.join(", "))
-        }
-        Content::Matrix(rows) => {
-            let row = |row: &Vec<_>| {
-                let entries: Vec<String> = row.iter().map(formula::write_plain).collect();
-                format!("[{}]", entries.join(", "))
-            };
-            let rows: Vec<String> = rows.iter().map(row).collect();
-            format!("[{}]", rows.join(", "))
-        }
-        Content::Quantity(q) => format!("{} {}", number::shown(&q.written), q.unit_text),
-        Content::Relations(sides, signs) => {
-            let mut out = sides.first().map(show).unwrap_or_default();
-            for (side, sign) in sides.iter().skip(1).zip(signs) {
-                out.push_str(&format!(" {} {}", sign.sign(), show(side)));
-            }
-            out
-        }
-    }
+    content.plain(&number::shown)
 }
 
 #[cfg(test)]

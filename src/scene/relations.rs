@@ -25,13 +25,9 @@ pub(super) fn resolve(
         let Some((sides, relations)) = symbols.relations(text, faults) else {
             continue;
         };
-        let is_order = |r: &formula::Relation| {
-            use formula::Relation as R;
-            matches!(r, R::Less | R::LessEqual | R::Greater | R::GreaterEqual)
-        };
         if relations.is_empty()
             || sides.len() != relations.len() + 1
-            || !relations.iter().all(is_order)
+            || !relations.iter().all(|r| r.is_order())
         {
             let fault = Fault::new(text.span, "expected an inequality between parameters");
             faults.push(fault.hint(
@@ -41,9 +37,9 @@ pub(super) fn resolve(
         }
         for (pair, relation) in sides.windows(2).zip(&relations) {
             use formula::Relation as R;
-            let (small, large) = match relation {
-                R::Less | R::LessEqual => (&pair[0], &pair[1]),
-                _ => (&pair[1], &pair[0]),
+            let (small, large) = match relation.is_below() {
+                true => (&pair[0], &pair[1]),
+                false => (&pair[1], &pair[0]),
             };
             let closed = matches!(relation, R::LessEqual | R::GreaterEqual);
             if let Some(message) = symbols.clash(&pair[0], &pair[1]) {
@@ -57,7 +53,7 @@ pub(super) fn resolve(
             let [Some(small), Some(large)] = [small, large].map(Content::expr) else {
                 continue;
             };
-            let [left, right] = [&pair[0], &pair[1]].map(as_written);
+            let [left, right] = [&pair[0], &pair[1]].map(|side| side.plain(&formula::write_plain));
             let words = format!("{left} {} {right}", relation.sign());
             let known = scene.domains.relations.len();
             add(scene, [small, large], closed, words, text.span, faults);
@@ -72,14 +68,6 @@ pub(super) fn resolve(
 /// Whether a side is a number without a unit.
 fn is_bare_number(side: &Content) -> bool {
     matches!(side, Content::Scalar(e) if e.is_constant())
-}
-
-/// A side as it was written.
-fn as_written(side: &Content) -> String {
-    match side {
-        Content::Quantity(q) => format!("{} {}", formula::write_plain(&q.written), q.unit_text),
-        side => side.expr().map(formula::write_plain).unwrap_or_default(),
-    }
 }
 
 /// Lets the last relation, one of a parameter with a quantity, be the end of its domain: points are then found beyond it.

@@ -215,9 +215,7 @@ impl Desk<'_> {
         };
         let others = formula::other_readings(text, &self.symbols(printed), false);
         for other in others.iter().take(MOST_READINGS) {
-            let Some(shown) = plain(&other.content) else {
-                continue;
-            };
+            let shown = other.content.plain(&formula::write_plain);
             let mut found = Finding::default();
             let outcome = match &printed.what {
                 Print::Formula { item, .. } => self.answer(printed, item, &shown, &mut found),
@@ -528,17 +526,4 @@ fn leave_open(is_whole: bool, finding: &mut Finding) {
             .replace("the order printed", "leading order");
         finding.because = format!("{begins}; what is printed beyond it is not checked");
     }
-}
-
-/// An expression, or expressions with relations between them, in plain notation.
-fn plain(content: &Content) -> Option<String> {
-    let side = |side: &Content| side.expr().map(formula::write_plain);
-    let Content::Relations(sides, signs) = content else {
-        return side(content);
-    };
-    let mut out = side(sides.first()?)?;
-    for (sign, next) in signs.iter().zip(&sides[1..]) {
-        out.push_str(&format!(" {} {}", sign.sign(), side(next)?));
-    }
-    Some(out)
 }
