@@ -6,11 +6,11 @@
 use num_traits::Signed;
 
 use super::{Condition, Verdict};
-use crate::algebra::{self, Field, Sign};
-use crate::answer::calc::{constant, has_both_signs, soon_has_both_signs};
+use crate::algebra::{self, Sign};
+use crate::answer::calc::{constant, essential, has_both_signs, soon_has_both_signs};
 use crate::derive::Derivation;
 use crate::domain::{Domains, roles, samples_until};
-use crate::expr::{Expr, Node, Point, Rational, Scalar, Symbol, effort, number};
+use crate::expr::{Expr, Point, Rational, Scalar, Symbol, effort};
 use crate::interval::{Interval, Outcome, evaluate};
 use crate::laws::{self, Unknown};
 use crate::numeric::{self, Motion};
@@ -131,35 +131,6 @@ fn signs_agree(a: &Expr, b: &Expr, domains: &Domains) -> bool {
         apart
     });
     compared > 0 && !apart
-}
-
-/// The expression without factors known to be positive, which do not change where it is not negative; what is negative
-/// turns the rest round.
-fn essential(e: &Expr, domains: &Domains) -> Expr {
-    if effort::spent() {
-        return e.clone();
-    }
-    let normal = |e: &Expr| {
-        let read = Field::of(domains, e).ok();
-        read.map_or_else(|| e.clone(), |(field, x)| field.expr(&x))
-    };
-    let mut minus = false;
-    let mut rest = Vec::new();
-    for factor in normal(e).factors() {
-        match sign(factor, domains) {
-            Some(Sign::Positive) => {}
-            Some(Sign::Negative) => minus = !minus,
-            // 1/x has the sign of x.
-            _ => rest.push(match factor.node() {
-                Node::Power(base, n) if n.as_number().is_some_and(|n| number::is(n, -1, 1)) => {
-                    base.clone()
-                }
-                _ => factor.clone(),
-            }),
-        }
-    }
-    let rest = Expr::product(rest);
-    normal(&if minus { -&rest } else { rest })
 }
 
 /// Lets a condition that follows from a shorter one be that one: v² − u² ≥ 0 and e (v − u) ≥ 0 follow from v − u ≥ 0.
