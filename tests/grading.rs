@@ -6,12 +6,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use carom::command;
-use carom::grade::sheet::{self, Sheet};
+use carom::grade::sheet::Sheet;
 use carom::grade::{Given, Grade, Options, Question, Strength, Verdict, entry, judge};
 use carom::scene;
 use rayon::prelude::*;
 
-use crate::shared::clock;
+use crate::shared::{self, clock};
 #[path = "grading/manual.rs"]
 mod manual;
 
@@ -222,7 +222,7 @@ fn a_worked_solution_is_followed_beyond_its_first_slip() {
     use carom::grade::steps::{Status, check};
     let path = Path::new("derivations/book/falling-stick.json");
     let text = fs::read_to_string(root().join(path)).expect("a scene");
-    let sheet = sheet::sheet(scene::read(&text).expect("a sound scene")).expect("a derivation");
+    let sheet = shared::sheet(scene::read(&text).expect("a sound scene")).expect("a derivation");
     let solution = "Angular momentum about C is conserved.\n\
         J = m*l^2/12\n\
         m*v*l/2*cos(theta) = J*omega\n\

@@ -10,7 +10,7 @@ use std::fs;
 use carom::domain::Domains;
 use carom::expr::{Expr, Function, Node, Point};
 use carom::formula::{Content, write_latex, write_plain, write_unicode};
-use carom::grade::sheet::{Entry, Sheet, sheet};
+use carom::grade::sheet::{Entry, Sheet};
 use carom::grade::{Key, Options, Question, Strength, Verdict, judge, judge_against};
 use carom::numeric::{self, points::Needed, random::Rng};
 use carom::scene;
@@ -43,7 +43,9 @@ fn answers() -> Vec<(Sheet, Entry, Expr)> {
         let Ok(scene) = scene::read(&text) else {
             continue;
         };
-        let Ok(sheet) = sheet(scene) else { continue };
+        let Ok(sheet) = shared::sheet(scene) else {
+            continue;
+        };
         for name in sheet.quantities() {
             let Ok(entry) = sheet.entry(&name) else {
                 continue;

@@ -4,9 +4,10 @@ use std::fs;
 use std::path::Path;
 
 use carom::command;
-use carom::grade::sheet;
 use carom::scene;
 use carom::verify::printed::{self, Finding, Way};
+
+use crate::shared;
 
 fn findings(name: &str) -> Vec<Finding> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -15,7 +16,7 @@ fn findings(name: &str) -> Vec<Finding> {
     let text = fs::read_to_string(path).expect("a scene file");
     let scene =
         scene::read(&text).unwrap_or_else(|faults| panic!("{}", faults.render(name, &text)));
-    let sheet = sheet::sheet(scene).expect("a derivation");
+    let sheet = shared::sheet(scene).expect("a derivation");
     printed::check(&Way::of(&sheet.scene, &sheet.derivation, &sheet.all))
 }
 

@@ -10,7 +10,7 @@ use super::relation::{size_in, solve_for};
 use super::{Given, Key, Options, Question, key_of};
 use crate::algebra::{self, Sign};
 use crate::answer::{Answer, Form};
-use crate::derive::{self, Derivation, Moment};
+use crate::derive::{Derivation, Moment};
 use crate::domain::Domains;
 use crate::equality;
 use crate::expr::{Expr, Symbol};
@@ -96,26 +96,6 @@ pub struct Entry {
     pub key: Key,
 }
 
-/// Derives a scene's answers.
-pub fn sheet(scene: Scene) -> Result<Sheet, derive::Stop> {
-    let derivation = derive::derive(&scene)?;
-    Ok(Sheet {
-        scene,
-        derivation,
-        moments: Vec::new(),
-        all: Vec::new(),
-        impacts: Vec::new(),
-        ends: Vec::new(),
-        laws: Vec::new(),
-        accelerations: Vec::new(),
-        coefficients: Vec::new(),
-        story: None,
-        given: Vec::new(),
-        spoken: Vec::new(),
-        otherwise: Vec::new(),
-    })
-}
-
 /// Where an answer is asked for: a motion that does not get to its end has no speed there.
 fn where_it_is(chosen: &[&Answer], mut domains: Domains) -> Domains {
     let rests_on = chosen.iter().flat_map(|a| &a.assumptions);
@@ -133,7 +113,7 @@ impl Sheet {
             return (&self.scene, &question.ask);
         }
         let of = |impact: &'a Scene| {
-            let asked = impact.questions.iter().find(|q| q.name == question.name)?;
+            let asked = impact.question(&question.name)?;
             Some((impact, &asked.ask))
         };
         let found = self.impacts.iter().find_map(of);
