@@ -42,6 +42,11 @@ impl Seen {
         matches!(self, Seen::Proved(Sign::Negative) | Seen::Negative)
     }
 
+    /// Whether it is proved to be nowhere below zero.
+    pub fn is_not_negative(self) -> bool {
+        matches!(self, Seen::Proved(sign) if sign.is_not_negative())
+    }
+
     /// Whether it is above zero, or below, wherever it is not zero; `None` where that is not proved.
     pub fn side(self) -> Option<bool> {
         match self {
@@ -83,7 +88,7 @@ pub fn shorter(e: &Expr, domains: &Domains) -> Expr {
 pub fn has_root(e: &Expr, p: &Symbol) -> bool {
     e.parts().any(|part| match part.node() {
         Node::Power(base, k) => {
-            let is_whole = k.as_number().is_some_and(|k| k.is_integer());
+            let is_whole = k.is_integer();
             !is_whole && base.mentions(p)
         }
         _ => false,
@@ -95,7 +100,7 @@ pub fn square(e: &Expr, p: &Symbol, domains: &Domains) -> Option<Expr> {
     has_root(e, p).then_some(())?;
     let square = tidy(&e.powi(2), domains).ok()?;
     let is_free = !has_root(&square, p);
-    let is_never_negative = || matches!(sign(e, domains), Seen::Proved(s) if s.is_not_negative());
+    let is_never_negative = || sign(e, domains).is_not_negative();
     (is_free && is_never_negative()).then_some(square)
 }
 
@@ -391,11 +396,10 @@ pub(super) fn decisive(e: &Expr, domains: &Domains, open: bool) -> Expr {
     let e = essential(e, domains);
     // A root that has a value is positive where what stands under it is; so is the square of what is not negative.
     let square = |e: &Expr| match e.node() {
-        Node::Power(base, k) if k.as_number().is_some_and(|k| k.is_integer()) => Some(base.clone()),
+        Node::Power(base, k) if k.is_integer() => Some(base.clone()),
         _ => None,
     };
-    let is_size =
-        |base: &Expr| matches!(sign(base, domains), Seen::Proved(s) if s.is_not_negative());
+    let is_size = |base: &Expr| sign(base, domains).is_not_negative();
     let inside = e
         .under_root()
         .cloned()
@@ -425,7 +429,7 @@ fn of_squares(e: &Expr, domains: &Domains) -> Option<Expr> {
         square.factors().iter().all(is_even).then_some(())?;
         let root = tidy(&square.sqrt(), domains).ok()?;
         let is_plain = root.parts().all(|part| part.under_root().is_none());
-        let is_size = matches!(sign(&root, domains), Seen::Proved(s) if s.is_not_negative());
+        let is_size = sign(&root, domains).is_not_negative();
         (is_plain && is_size).then_some(root)
     };
     let difference = |large: &Expr, small: &Expr| Some(root(large)? - root(&-small)?);

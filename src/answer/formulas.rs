@@ -5,8 +5,6 @@
 
 use std::collections::BTreeSet;
 
-use num_traits::Signed;
-
 use super::calc::{Seen, beyond_zero, essential, is_zero, keeps_to, sign, tidy};
 use super::dimensions::kind_of;
 use super::powers::not_zero;
@@ -15,7 +13,7 @@ use super::{
 };
 use crate::algebra::Sign;
 use crate::dimension::{self, Dimension};
-use crate::domain::{self, Domain, Domains};
+use crate::domain::{self, Domains};
 use crate::equality::{self, Equality, How};
 use crate::expr::{Expr, Function, Node, Symbol, effort};
 use crate::formula::{Relation, write_plain};
@@ -131,8 +129,7 @@ fn with_put_in(
         .collect();
     let mut given = Vec::new();
     for (name, value) in &with {
-        let own = scene.domains.symbols.get(name).cloned();
-        let mut own = own.unwrap_or_else(Domain::positive);
+        let mut own = scene.domains.of_symbol(name);
         let ends = [&mut own.low, &mut own.high].into_iter().flatten();
         ends.for_each(|end| end.open = false);
         let needs = solve::placed(name, value, &own, &scene.domains)?.into_iter();
@@ -356,10 +353,8 @@ impl Work<'_> {
     /// What a value divides by and what is known, or was seen, to vanish somewhere on the domain.
     fn divided_by(&self, value: &Expr) -> Vec<Sentence> {
         let domains = &self.scene.domains;
-        let below = value.parts().filter_map(|part| match part.node() {
-            Node::Power(base, k) if k.as_number().is_some_and(Signed::is_negative) => Some(base),
-            _ => None,
-        });
+        let below = value.parts().filter_map(Expr::divides_by);
+        let below = below.map(|(base, _)| base);
         let vanishes = below.filter(|base| match sign(base, domains) {
             Seen::Proved(sign) => !matches!(sign, Sign::Positive | Sign::Negative),
             Seen::Positive | Seen::Negative => false,
@@ -580,9 +575,7 @@ fn gathered(e: &Expr) -> Expr {
     let mut bases: Vec<(Expr, Expr)> = Vec::new();
     for factor in factors {
         let (base, exponent) = match factor.node() {
-            Node::Power(base, k) if k.as_number().is_some_and(|k| k.is_integer()) => {
-                (base.clone(), k.clone())
-            }
+            Node::Power(base, k) if k.is_integer() => (base.clone(), k.clone()),
             _ => (factor.clone(), Expr::one()),
         };
         match bases.iter_mut().find(|(b, _)| *b == base) {

@@ -92,8 +92,7 @@ fn ordered(roots: &[Root], domains: &Domains) -> Option<Vec<Expr>> {
 
 /// Signs of the difference: below the first zero, between every two, above the last.
 fn between(parameter: &Symbol, gap: &Expr, zeros: &[Expr], domains: &Domains) -> Vec<Seen> {
-    let domain = domains.symbols.get(parameter).cloned();
-    let domain = domain.unwrap_or_else(Domain::positive);
+    let domain = domains.of_symbol(parameter);
     let (Some(first), Some(last)) = (zeros.first(), zeros.last()) else {
         return vec![sign(gap, domains)];
     };

@@ -107,8 +107,7 @@ pub(super) fn isolate(
 /// not keep to it.
 fn bounds(parameter: &Symbol, scene: &Scene) -> Vec<(Expr, bool, Sentence)> {
     let value = Expr::symbol(parameter);
-    let domain = scene.domains.symbols.get(parameter).cloned();
-    let domain = domain.unwrap_or_else(Domain::positive);
+    let domain = scene.domains.of_symbol(parameter);
     let outside = || Sentence::words("outside the domain");
     let low = domain.low.map(|l| (&value - &l.expr(), !l.open, outside()));
     let high = domain

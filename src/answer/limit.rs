@@ -5,8 +5,6 @@
 //! roots of the parameter stand, the powers themselves are read off. Whether a leading coefficient may vanish for special values of
 //! other parameters is proved, or told as a condition. Apart from that, the formula is tried in numbers close by.
 
-use num_traits::Signed;
-
 use super::Check;
 use super::calc::{Seen, in_bars, is_zero, sign, square, tidy};
 use super::powers::{self, Found, Tends, by_powers, not_zero};
@@ -44,7 +42,7 @@ pub fn comes(parameter: &Symbol, to: Option<&Expr>, domains: &Domains) -> bool {
 pub fn ends_above(of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) -> bool {
     let found = found(of, parameter, to, domains);
     found.is_some_and(|found| match found.tends {
-        Tends::To(value) => matches!(sign(&value, domains), Seen::Proved(s) if s.is_not_negative()),
+        Tends::To(value) => sign(&value, domains).is_not_negative(),
         Tends::Beyond(upwards) => upwards == Some(true),
         Tends::Apart => false,
     })
@@ -118,7 +116,7 @@ fn of_arcs(of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) 
     let is_inside = |e: &Expr| match e.node() {
         Node::Call(Function::Acos | Function::Asin, x) => {
             let room = Expr::one() - x.powi(2);
-            matches!(sign(&room, domains), Seen::Proved(s) if s.is_not_negative())
+            sign(&room, domains).is_not_negative()
         }
         _ => true,
     };
@@ -429,8 +427,7 @@ fn against(relation: &crate::domain::Relation) -> Sentence {
 
 /// The sides within the domain.
 fn side(parameter: &Symbol, to: &Expr, domains: &Domains) -> Side {
-    let domain = domains.symbols.get(parameter).cloned();
-    let domain = domain.unwrap_or_else(Domain::positive);
+    let domain = domains.of_symbol(parameter);
     let is_at = |l: &crate::domain::Limit| is_zero(&(to - &l.expr()), domains) == Some(true);
     let is_end = |limit: &Option<_>| limit.as_ref().is_some_and(is_at);
     if is_end(&domain.low) {
@@ -530,31 +527,15 @@ fn by_taylor(of: &Expr, p: &Symbol, to: &Expr, domains: &Domains) -> Option<Foun
 
 /// Numerator and denominator.
 pub(super) fn common(of: &Expr, domains: &Domains) -> Option<(Expr, Expr)> {
-    let over = |e: &Expr| -> (Expr, Expr) {
-        let (mut up, mut down) = (Vec::new(), Vec::new());
-        for f in e.factors() {
-            match f.node() {
-                Node::Power(base, k) if k.as_number().is_some_and(Signed::is_negative) => {
-                    down.push(base.power(-k));
-                }
-                _ => up.push(f.clone()),
-            }
-        }
-        (Expr::product(up), Expr::product(down))
-    };
+    let over = |e: &Expr| e.above_and_below().map(Expr::product);
     let tidied = tidy(of, domains).ok()?;
-    match tidied.node() {
-        Node::Sum(terms) => {
-            let parts: Vec<(Expr, Expr)> = terms.iter().map(over).collect();
-            let below = Expr::product(parts.iter().map(|p| p.1.clone()));
-            let above = Expr::sum(parts.iter().enumerate().map(|(i, p)| {
-                let others = parts.iter().enumerate().filter(|(j, _)| *j != i);
-                &p.0 * &Expr::product(others.map(|(_, q)| q.1.clone()))
-            }));
-            Some((above, below))
-        }
-        _ => Some(over(&tidied)),
-    }
+    let parts: Vec<[Expr; 2]> = tidied.terms().iter().map(over).collect();
+    let below = Expr::product(parts.iter().map(|[_, below]| below.clone()));
+    let above = Expr::sum(parts.iter().enumerate().map(|(i, [above, _])| {
+        let others = parts.iter().enumerate().filter(|(j, _)| *j != i);
+        above * &Expr::product(others.map(|(_, [_, below])| below.clone()))
+    }));
+    Some((above, below))
 }
 
 /// The formula against what stands for it, in doubles close by or far out: what is left out must shrink faster than the power

@@ -260,8 +260,7 @@ fn as_one(a: &[Sentence], b: &[Sentence], domains: &Domains) -> Option<Vec<Sente
         [b, c] => (b, c),
         _ => return None,
     };
-    let is_not_negative =
-        |e: &Expr| matches!(calc::sign(e, domains), calc::Seen::Proved(s) if s.is_not_negative());
+    let is_not_negative = |e: &Expr| calc::sign(e, domains).is_not_negative();
     let rest = [(b, c), (c, b)].into_iter().find(|(not, rest)| {
         let alike = [a, *not].iter().all(|s| s.0.last() == rest.0.last());
         let follows = excess(rest).is_some_and(|z| is_not_negative(&(z - &x)));

@@ -264,7 +264,7 @@ fn bounded(
         slope: tidy(&of_square(f, p, domains).derivative(p), domains)
             .map_err(|s| refused(s.to_string()))?,
         p,
-        domain: (domains.symbols.get(p).cloned()).unwrap_or_else(Domain::positive),
+        domain: domains.of_symbol(p),
         domains,
     };
     let ends = search.ends();
@@ -384,7 +384,7 @@ impl Search<'_> {
             } else {
                 &end - &root.value
             };
-            let passes = matches!(sign(&gap, &there), Seen::Proved(s) if s.is_not_negative());
+            let passes = sign(&gap, &there).is_not_negative();
             Ok(passes.then_some(end))
         };
         let end = match passes(true)? {
@@ -500,7 +500,7 @@ impl Search<'_> {
         let ends = [self.end(false)?, self.end(true)?];
         let is_pole = |(x, open): &(Expr, bool)| {
             let there = BTreeMap::from([(p.clone(), x.clone())]);
-            let mut divisors = self.f.parts().filter_map(|part| divisor(part, p));
+            let mut divisors = divisors(self.f, p);
             let is_zero = |d: &Expr| {
                 let seen = sign(&d.substitute(&there), self.domains);
                 !matches!(seen, Seen::Proved(Sign::Positive | Sign::Negative))
@@ -536,8 +536,7 @@ impl Search<'_> {
             let over = |other: &Expr| sign(&self.which.merit(&(&found[i].2 - other)), self.domains);
             others.map(|(_, (.., other))| over(other)).collect()
         };
-        let is_above =
-            |s: &Seen| s.is_positive() || matches!(s, Seen::Proved(s) if s.is_not_negative());
+        let is_above = |s: &Seen| s.is_positive() || s.is_not_negative();
         let mut all = (0..found.len()).map(|i| (&found[i], above(i)));
         let best = all.find(|(_, above)| above.iter().all(is_above));
         let Some(((place, end, _), above)) = best else {
@@ -586,7 +585,7 @@ fn of_square(f: &Expr, p: &Symbol, domains: &Domains) -> Expr {
 
 /// A divisor with the parameter in it that is not known to keep one sign.
 fn pole(f: &Expr, p: &Symbol, domains: &Domains) -> Option<Expr> {
-    let mut divisors = f.parts().filter_map(|part| divisor(part, p));
+    let mut divisors = divisors(f, p);
     let changes = |base: &&Expr| {
         let seen = sign(base, domains);
         !seen.is_positive() && !seen.is_negative()
@@ -594,13 +593,10 @@ fn pole(f: &Expr, p: &Symbol, domains: &Domains) -> Option<Expr> {
     divisors.find(changes).cloned()
 }
 
-/// What a power with a negative exponent divides by, where the parameter stands in it.
-fn divisor<'e>(part: &'e Expr, p: &Symbol) -> Option<&'e Expr> {
-    let negative = |k: &Expr| k.as_number().is_some_and(num_traits::Signed::is_negative);
-    match part.node() {
-        Node::Power(base, k) if negative(k) && base.symbols().contains(p) => Some(base),
-        _ => None,
-    }
+/// What the powers with negative exponents divide by, where the parameter stands in it.
+fn divisors<'e>(f: &'e Expr, p: &'e Symbol) -> impl Iterator<Item = &'e Expr> {
+    let all = f.parts().filter_map(Expr::divides_by);
+    all.map(|(base, _)| base).filter(|base| base.mentions(p))
 }
 
 /// The exponent k for which the formula depends on p·qᵏ alone.

@@ -200,12 +200,6 @@ fn solve_without_bars(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Ro
     Ok(out)
 }
 
-/// The interval of a symbol.
-fn domain_of(symbol: &Symbol, domains: &Domains) -> Domain {
-    let own = domains.symbols.get(symbol);
-    own.cloned().unwrap_or_else(Domain::positive)
-}
-
 /// The one end that a relation sets to a symbol, and whether it is the upper one.
 pub(super) fn end_of(
     symbol: &Symbol,
@@ -250,7 +244,7 @@ fn within_interval(e: &Expr, symbol: &Symbol, domains: &Domains) -> Result<Roots
     if factors.is_empty() && !has_zero {
         return Err(Unsolved::Absent);
     }
-    let domain = domain_of(symbol, domains);
+    let domain = domains.of_symbol(symbol);
     let mut out = Roots::default();
     if has_zero {
         if domain.contains(&crate::expr::ratio(0, 1)) {
@@ -413,7 +407,7 @@ pub fn real(value: &Expr, domains: &Domains) -> Vec<Expr> {
             _ => {}
         }
     }
-    gaps.retain(|gap| !matches!(sign(gap, domains), Seen::Proved(s) if s.is_not_negative()));
+    gaps.retain(|gap| !sign(gap, domains).is_not_negative());
     let mut out: Vec<Expr> = Vec::new();
     for gap in gaps {
         let need = decisive(&gap, domains, false);
@@ -490,7 +484,7 @@ pub(super) fn placed(
 /// product is to be above it.
 fn each_decisive(e: &Expr, domains: &Domains, open: bool) -> Vec<Expr> {
     let core = essential(e, domains);
-    let is_size = |f: &Expr| matches!(sign(f, domains), Seen::Proved(s) if s.is_not_negative());
+    let is_size = |f: &Expr| sign(f, domains).is_not_negative();
     match core.node() {
         Node::Product(factors) if open && factors.iter().all(is_size) => {
             // One over something is above zero wherever it has a value.

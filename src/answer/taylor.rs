@@ -120,7 +120,7 @@ pub(super) fn rooted(
 
 fn is_odd_half(k: &Expr) -> bool {
     let twice = Expr::from(2) * k;
-    let is_whole = |k: &Expr| k.as_number().is_some_and(|k| k.is_integer());
+    let is_whole = |k: &Expr| k.is_integer();
     is_whole(&twice) && !is_whole(k)
 }
 

@@ -13,7 +13,7 @@ use super::isolate::isolate;
 use super::solve::{Root, Roots, Unsolved, end_of, placing, solve};
 use super::{Answer, Form, intervals, limit, undo};
 use crate::algebra::Sign;
-use crate::domain::{Domain, Domains, Limit, Origin};
+use crate::domain::{Domains, Limit, Origin};
 use crate::expr::{Expr, Node, Symbol};
 use crate::formula::Relation;
 use crate::formula::{Sentence, sentence};
@@ -348,8 +348,7 @@ fn sides(
         return intervals::fill(out, parameter, gap, relation, &roots.inside, domains);
     };
     let value = &root.value;
-    let domain = domains.symbols.get(parameter).cloned();
-    let domain = domain.unwrap_or_else(Domain::positive);
+    let domain = domains.of_symbol(parameter);
     let [below, above] = match slope(&essential(gap, domains), parameter, domains) {
         Some(slope) => [Seen::Proved(slope.flip()), Seen::Proved(slope)],
         None => [(&domain.low, -1), (&domain.high, 1)]

@@ -261,6 +261,12 @@ impl Domain {
 }
 
 impl Domains {
+    /// Where a symbol lives: positive where nothing is declared of it.
+    pub fn of_symbol(&self, name: &Symbol) -> Domain {
+        let own = self.symbols.get(name);
+        own.cloned().unwrap_or_else(Domain::positive)
+    }
+
     /// The domain with every undeclared symbol of `roles` declared by the default, and the defaults used, in words.
     pub fn completed(&self, roles: &Roles) -> (Domains, Vec<String>) {
         let mut all = self.clone();

@@ -413,11 +413,8 @@ mod tests {
         assert_eq!(roles.symbols["phi"].divisor, 2);
         assert!(all.len() >= 4);
         for sample in all {
-            let value = evaluate::<Big<128>>(&phi, &sample.point(true))
-                .value()
-                .expect("a value")
-                .0;
-            let pi = crate::interval::Enclosure::pi(128);
+            let value = |e: &Expr| evaluate::<Big<128>>(e, &sample.point(true)).value();
+            let [value, pi] = [&phi, &Expr::pi()].map(|e| value(e).expect("a value").0);
             assert!(
                 pi.high < value.low && value.high < pi.scale(1).low,
                 "{}",

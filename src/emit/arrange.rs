@@ -321,12 +321,11 @@ fn fraction(factors: &[Expr]) -> (Vec<Expr>, Vec<Expr>) {
                 }
                 below.push(Expr::from(Rational::from(value.denom().clone())));
             }
-            Node::Power(base, exponent)
-                if exponent.as_number().is_some_and(Signed::is_negative) =>
-            {
-                below.push(base.power(-exponent));
+            _ => {
+                let [over, under] = factor.above_and_below();
+                above.extend(over);
+                below.extend(under);
             }
-            _ => above.push(factor.clone()),
         }
     }
     (above, below)

@@ -74,7 +74,7 @@ fn without_shared(e: &Expr) -> Expr {
     fn factors(term: &Expr) -> Vec<Expr> {
         match term.node() {
             Node::Product(parts) => parts.iter().flat_map(factors).collect(),
-            Node::Power(base, k) if k.as_number().is_some_and(|k| k.is_integer()) => {
+            Node::Power(base, k) if k.is_integer() => {
                 let parts = factors(base);
                 parts.iter().map(|part| part.power(k.clone())).collect()
             }

@@ -82,7 +82,7 @@ pub(crate) fn divisors(e: &Expr, domains: &Domains) -> Vec<Expr> {
     let mut out: Vec<Expr> = Vec::new();
     for part in e.parts() {
         let base = match part.node() {
-            Node::Power(base, _) if is_below(part) => above(base),
+            Node::Power(base, _) if part.divides_by().is_some() => above(base),
             Node::Call(Function::Tan, x) => x.cos(),
             _ => continue,
         };
@@ -97,16 +97,8 @@ pub(crate) fn divisors(e: &Expr, domains: &Domains) -> Vec<Expr> {
     out
 }
 
-/// Whether it stands below a fraction bar.
-fn is_below(e: &Expr) -> bool {
-    matches!(e.node(), Node::Power(_, k) if k.as_number().is_some_and(num_traits::Signed::is_negative))
-}
-
 /// What stands above the bar of a fraction: the rest is zero nowhere, `1/x` as little as x^(−2).
 fn above(e: &Expr) -> Expr {
-    match e.node() {
-        Node::Product(parts) => Expr::product(parts.iter().filter(|part| !is_below(part)).cloned()),
-        _ if is_below(e) => Expr::one(),
-        _ => e.clone(),
-    }
+    let [above, _] = e.above_and_below();
+    Expr::product(above)
 }

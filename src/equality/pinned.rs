@@ -7,7 +7,7 @@ use num_traits::{Signed, Zero};
 use super::Search;
 use super::proof::{self, Proof};
 use crate::domain::{Coordinate, Domain, Domains, Sample, samples};
-use crate::expr::{Expr, Rational, Symbol};
+use crate::expr::{Expr, Rational, Symbol, only};
 
 /// A symbol with the one value it has where both formulas have values.
 pub(super) struct Pin {
@@ -21,9 +21,7 @@ pub(super) struct Pin {
 pub(super) fn pins(needed: &[Expr], domains: &Domains) -> Vec<Pin> {
     let mut out: Vec<Pin> = Vec::new();
     for e in needed {
-        let symbols = e.symbols();
-        let mut names = symbols.iter();
-        let (Some(name), None) = (names.next(), names.next()) else {
+        let Some(name) = &only(e.symbols()) else {
             continue;
         };
         let tied = domains.is_component(name);

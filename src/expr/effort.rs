@@ -9,6 +9,7 @@
 //! more: each is undecided. Products go on, within limits of their own: an answer is written as far as it is known.
 
 use std::cell::Cell;
+use std::thread::LocalKey;
 
 thread_local! {
     static LEFT: Cell<Option<u64>> = const { Cell::new(None) };
@@ -25,46 +26,39 @@ pub(crate) fn scope() -> u64 {
     SCOPE.get()
 }
 
-/// Ends the limit, also where the work panics.
-struct Limited;
+/// Ends a limit, also where the work panics.
+struct Limited(&'static LocalKey<Cell<Option<u64>>>);
 
 impl Drop for Limited {
     fn drop(&mut self) {
-        LEFT.set(None);
+        self.0.set(None);
         SCOPE.set(SCOPE.get() + 1);
     }
 }
 
-/// Does work that may take this many steps; as a part of other work it takes the steps of that.
+/// Does work that may take what a store is filled with; as a part of other such work it takes what that has left.
+fn limited<T>(
+    store: &'static LocalKey<Cell<Option<u64>>>,
+    steps: u64,
+    work: impl FnOnce() -> T,
+) -> T {
+    if store.get().is_some() {
+        return work();
+    }
+    store.set(Some(steps));
+    SCOPE.set(SCOPE.get() + 1);
+    let _limited = Limited(store);
+    work()
+}
+
+/// Does work that may take this many steps.
 pub(crate) fn within<T>(steps: u64, work: impl FnOnce() -> T) -> T {
-    if LEFT.get().is_some() {
-        return work();
-    }
-    LEFT.set(Some(steps));
-    SCOPE.set(SCOPE.get() + 1);
-    let _limited = Limited;
-    work()
+    limited(&LEFT, steps, work)
 }
 
-/// Ends the work on a scene, also where it panics.
-struct Scene;
-
-impl Drop for Scene {
-    fn drop(&mut self) {
-        OF_SCENE.set(None);
-        SCOPE.set(SCOPE.get() + 1);
-    }
-}
-
-/// Works on a scene; as a part of other work on it with what that has left.
+/// Works on a scene.
 pub(crate) fn of_scene<T>(work: impl FnOnce() -> T) -> T {
-    if OF_SCENE.get().is_some() {
-        return work();
-    }
-    OF_SCENE.set(Some(SCENE));
-    SCOPE.set(SCOPE.get() + 1);
-    let _scene = Scene;
-    work()
+    limited(&OF_SCENE, SCENE, work)
 }
 
 /// Takes steps; false where the decision at hand has none left.

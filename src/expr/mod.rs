@@ -160,6 +160,31 @@ impl Expr {
         }
     }
 
+    /// What it divides by, as a power of a negative number stands below the line: the base, and that exponent.
+    pub fn divides_by(&self) -> Option<(&Expr, &Rational)> {
+        match self.node() {
+            Node::Power(base, k) => Some((base, k.as_number().filter(|k| k.is_negative())?)),
+            _ => None,
+        }
+    }
+
+    /// Its factors above the line and what stands below it, each to a positive power.
+    pub fn above_and_below(&self) -> [Vec<Expr>; 2] {
+        let mut parts = [Vec::new(), Vec::new()];
+        for factor in self.factors() {
+            match factor.divides_by() {
+                Some((base, k)) => parts[1].push(base.power(Expr::from(-k))),
+                None => parts[0].push(factor.clone()),
+            }
+        }
+        parts
+    }
+
+    /// Whether it is a whole number.
+    pub fn is_integer(&self) -> bool {
+        self.as_number().is_some_and(Rational::is_integer)
+    }
+
     /// Whether it is a negative number, or a product with one.
     pub fn is_negative(&self) -> bool {
         match self.node() {
@@ -364,4 +389,11 @@ impl fmt::Debug for Expr {
             }
         }
     }
+}
+
+/// The only one of several, where there is just one.
+pub fn only<T>(all: impl IntoIterator<Item = T>) -> Option<T> {
+    let mut all = all.into_iter();
+    let first = all.next()?;
+    all.next().is_none().then_some(first)
 }

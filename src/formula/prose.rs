@@ -4,6 +4,7 @@
 //! belong to the formula.
 
 use super::fault::{Fault, Faulty};
+use crate::expr::only;
 
 /// The ASCII characters of a text as bits; the first bit stands for all others, the second for those that Unicode has arrows
 /// and signs of relations among. Nearly all texts are a formula and nothing else, which one look at each character tells.
@@ -421,10 +422,7 @@ pub(crate) fn beside_condition(text: &str) -> Option<([&str; 3], [usize; 2])> {
     let begins =
         |at: &usize| is_in(WORDS, word(*at)) && text[at + word(*at).len()..].starts_with(' ');
     let behind = text.match_indices([' ', '(']).map(|(at, _)| at + 1);
-    let mut places = std::iter::once(0).chain(behind).filter(begins);
-    let (at, None) = (places.next()?, places.next()) else {
-        return None;
-    };
+    let at = only(std::iter::once(0).chain(behind).filter(begins))?;
     let clause = at + word(at).len();
     let (range, clause) = match text[..at].trim().is_empty() {
         false => {

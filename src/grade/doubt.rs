@@ -16,7 +16,7 @@ pub(super) fn power_of_function(content: &Content) -> Option<Content> {
     fn lifted(e: &Expr) -> Option<Expr> {
         if let Node::Call(f, x) = e.node()
             && let Node::Power(base, k) = x.node()
-            && k.as_number().is_some_and(|k| k.is_integer())
+            && k.is_integer()
         {
             return Some(Expr::call(*f, base.clone()).power(k.clone()));
         }

@@ -354,7 +354,7 @@ fn factored(e: &Expr, key: &Key) -> bool {
     let domains = &key.question.domains;
     let irreducible = |sum: &Expr| {
         let polynomial = |part: &Expr| match part.node() {
-            Node::Power(_, k) => k.as_number().is_some_and(|k| k.is_integer()),
+            Node::Power(_, k) => k.is_integer(),
             Node::Call(..) => false,
             _ => true,
         };
@@ -370,9 +370,7 @@ fn factored(e: &Expr, key: &Key) -> bool {
     match e.node() {
         Node::Sum(_) => irreducible(e),
         Node::Product(factors) => factors.iter().all(|f| factored(f, key)),
-        Node::Power(base, k) if k.as_number().is_some_and(|k| k.is_integer()) => {
-            factored(base, key)
-        }
+        Node::Power(base, k) if k.is_integer() => factored(base, key),
         _ => true,
     }
 }

@@ -35,7 +35,7 @@ use super::scalar::scalars;
 use super::{Apart, Grade, Verdict};
 use crate::algebra::{self, Element, Field, Sign};
 use crate::domain::{Domain, Domains, roles};
-use crate::expr::{Expr, Function, Node, Symbol};
+use crate::expr::{Expr, Function, Node, Symbol, only};
 use crate::formula::{Content, Join, Relation, is_angle_name, write_plain};
 use crate::interval::{Big, Outcome, evaluate};
 pub(super) use bounds::at_bounds;
@@ -141,8 +141,7 @@ pub(super) fn unsigned(content: &Content) -> Vec<Symbol> {
         _ => return Vec::new(),
     };
     let uses = roles(&content.exprs()).symbols;
-    let mut uses = uses.iter();
-    if let (Some((name, role)), None) = (uses.next(), uses.next()) {
+    if let Some((name, role)) = only(&uses) {
         let logarithm = |part: &Expr| matches!(part.node(), Node::Call(Function::Ln, x) if x.as_symbol() == Some(name));
         let positive = content.parts().any(logarithm);
         let either = !(role.turns || is_angle_name(name) || positive);
@@ -231,10 +230,7 @@ pub(super) fn at_zeros(
         return None;
     };
     let gap = left.expr()? - right.expr()?;
-    let mut names = gap.symbols().into_iter();
-    let (name, None) = (names.next()?, names.next()) else {
-        return None;
-    };
+    let name = only(gap.symbols())?;
     let mut all = domains.clone();
     all.symbols.insert(name.clone(), Domain::real());
     let zeros = zeros::zeros(&gap, &name, &all)?;

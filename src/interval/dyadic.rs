@@ -144,14 +144,6 @@ impl Dyadic {
         Dyadic::new(&self.mantissa * &other.mantissa, exponent)
     }
 
-    /// x/n for a positive integer, rounded.
-    pub fn div_small(&self, n: u64, bits: u32, to: Round) -> Dyadic {
-        let shift = u64::from(bits) + 2 + u64::from(64 - n.leading_zeros());
-        let shift = shift.saturating_sub(self.mantissa.bits());
-        let mantissa = div_round(&(&self.mantissa << shift), &BigInt::from(n), to);
-        Dyadic::new(mantissa, self.exponent - shift as i64).round(bits, to)
-    }
-
     /// 1/x for x ≠ 0, rounded.
     pub fn recip(&self, bits: u32, to: Round) -> Dyadic {
         let shift = u64::from(bits) + 1 + self.mantissa.bits();

@@ -58,11 +58,6 @@ impl Enclosure {
         Enclosure::new(end(Round::Down), end(Round::Up))
     }
 
-    /// The circle constant.
-    pub fn pi(bits: u32) -> Enclosure {
-        series::pi(bits)
-    }
-
     /// Whether the interval is one number.
     pub fn is_exact(&self) -> bool {
         self.low == self.high
@@ -126,12 +121,6 @@ impl Enclosure {
     pub fn square(&self, bits: u32) -> Enclosure {
         let a = self.abs();
         Enclosure::outwards(a.low.mul(&a.low), a.high.mul(&a.high), bits)
-    }
-
-    /// Quotient by a positive integer.
-    pub fn div_small(&self, n: u64, bits: u32) -> Enclosure {
-        let low = self.low.div_small(n, bits, Round::Down);
-        Enclosure::new(low, self.high.div_small(n, bits, Round::Up))
     }
 
     /// Reciprocal; `None` around zero.

@@ -9,11 +9,10 @@ use super::exact::solve_exact;
 use super::field::eliminate;
 use super::given::{Given, Reason, given};
 use super::no_answer::NoAnswer;
-use super::points::needed;
 use super::redundant::{Part, regular_part, solve_part};
 use super::solution::{Contradiction, Solution, motion};
 use super::system::{Law, System, Unknown, assemble};
-use super::values::{NoPoint, exact_values, given_values, unit_of};
+use super::values::{NoPoint, exact_values, given_values, point_of, unit_of};
 use crate::expr::arithmetic::Number;
 use crate::expr::number::to_f64;
 use crate::expr::{Expr, Point, Rational, Scalar};
@@ -191,23 +190,12 @@ fn told<T: Number>(
 
 /// The point of the scene's values, enclosed.
 fn enclosed_point<const BITS: u32>(scene: &Scene) -> Result<Point<Outcome<Big<BITS>>>, NoPoint> {
-    let needed = needed(scene);
     let value = |e: &Expr| evaluate::<Big<BITS>>(e, &Point::default());
-    let mut point = Point::default();
-    for (name, given) in given_values(scene)? {
-        if let Some(divisor) = needed.angles.get(&name) {
-            let part = &given * &Expr::ratio(1, i64::from(*divisor));
-            let unit = match unit_of(&part) {
-                Some(unit) => unit.each_ref().map(Scalar::from_rational),
-                None => [value(&part.cos()), value(&part.sin())],
-            };
-            point.directions.insert(name.clone(), (*divisor, unit));
-        }
-        if needed.plain.contains(&name) {
-            point.values.insert(name, value(&given));
-        }
-    }
-    Ok(point)
+    let unit = |part: &Expr| match unit_of(part) {
+        Some(unit) => unit.each_ref().map(Scalar::from_rational),
+        None => [value(&part.cos()), value(&part.sin())],
+    };
+    point_of(scene, |_, given| Ok(value(given)), |_, part| Ok(unit(part)))
 }
 
 #[cfg(test)]

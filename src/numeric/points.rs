@@ -112,8 +112,7 @@ pub fn point_of_any_size(needed: &Needed, domains: &Domains, seed: u64) -> Point
     let point = random_point(needed, domains, seed);
     let mut scaled = point.clone();
     for (name, value) in scaled.values.iter_mut() {
-        let domain = domains.symbols.get(name).cloned();
-        let domain = domain.unwrap_or_else(Domain::positive);
+        let domain = domains.of_symbol(name);
         let factors = [(1, 100), (1, 10), (1, 1), (10, 1), (100, 1)].map(|(p, q)| ratio(p, q));
         // Another sequence than the one that drew the value.
         let other = &*value * &factors[Rng::of(!seed, name).below(factors.len())];

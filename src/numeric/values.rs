@@ -52,19 +52,32 @@ pub fn values(scene: &Scene) -> Result<Point<f64>, NoPoint> {
 
 /// The point in exact fractions.
 pub fn exact_values(scene: &Scene) -> Result<Point<Rational>, NoPoint> {
+    let irrational = |name: &Symbol| NoPoint::Irrational(name.clone());
+    let number = |name: &Symbol, value: &Expr| {
+        let number = value.evaluate(&Point::<Rational>::default());
+        number.ok_or_else(|| irrational(name))
+    };
+    let unit = |name: &Symbol, part: &Expr| unit_of(part).ok_or_else(|| irrational(name));
+    point_of(scene, number, unit)
+}
+
+/// The point that the values make: of what stands plain the `number`, and of an angle cosine and sine of the part in use, `unit`.
+pub(super) fn point_of<T>(
+    scene: &Scene,
+    number: impl Fn(&Symbol, &Expr) -> Result<T, NoPoint>,
+    unit: impl Fn(&Symbol, &Expr) -> Result<[T; 2], NoPoint>,
+) -> Result<Point<T>, NoPoint> {
     let needed = needed(scene);
     let mut point = Point::default();
     for (name, value) in given_values(scene)? {
         if let Some(divisor) = needed.angles.get(&name) {
             let part = &value * &Expr::ratio(1, i64::from(*divisor));
-            let unit = unit_of(&part).ok_or_else(|| NoPoint::Irrational(name.clone()))?;
+            let unit = unit(&name, &part)?;
             point.directions.insert(name.clone(), (*divisor, unit));
         }
         if needed.plain.contains(&name) {
-            let number = value.evaluate(&Point::<Rational>::default());
-            point
-                .values
-                .insert(name.clone(), number.ok_or(NoPoint::Irrational(name))?);
+            let number = number(&name, &value)?;
+            point.values.insert(name, number);
         }
     }
     Ok(point)
@@ -76,12 +89,7 @@ pub(super) fn given_values(scene: &Scene) -> Result<Vec<(Symbol, Expr)>, NoPoint
     let mut found = Vec::new();
     let mut missing = Vec::new();
     for name in plain.into_iter().chain(angles.into_keys()) {
-        let value = scene
-            .parameters
-            .iter()
-            .find(|p| p.name == name)
-            .and_then(|p| p.value.clone());
-        match value {
+        match scene.parameter(&name).and_then(|p| p.value.clone()) {
             Some(value) => found.push((name, value)),
             None => missing.push(name),
         }

@@ -515,7 +515,7 @@ fn one_way(told: &StageTold, turn: &Turn, gains: bool) -> bool {
     let grows = Expr::from(if gains { way } else { -way });
     let rates = [false, true].map(|end| &grows * &angular(told, turn, way, end));
     let mut all = [half].into_iter().chain(rates);
-    all.all(|e| matches!(sign(&e, &stage.scene.domains), Seen::Proved(s) if s.is_not_negative()))
+    all.all(|e| sign(&e, &stage.scene.domains).is_not_negative())
 }
 
 /// Which forces have an impulse, and why; which have none.

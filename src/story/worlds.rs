@@ -137,7 +137,7 @@ fn put_in(scene: &Scene, question: &Question, worlds: &[World]) -> BTreeMap<usiz
             if world.given.iter().any(|(_, e)| seen(e).is_negative()) {
                 continue;
             }
-            let is_sure = |e: &Expr| matches!(seen(e), Seen::Proved(s) if s.is_not_negative());
+            let is_sure = |e: &Expr| seen(e).is_not_negative();
             world.given.retain(|(_, e)| !is_sure(e));
         }
         out.insert(w, world);

@@ -10,7 +10,7 @@ use super::{apart_in, chain, chain_apart, kind, values};
 use crate::algebra::Sign;
 use crate::dimension::{self, Dimension, Unit};
 use crate::domain::Sample;
-use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
+use crate::expr::{Expr, Function, Node, Rational, Symbol, only, ratio};
 use crate::formula::{self, Content, Quantity, Reading, Relation};
 use crate::grade::context::{Context, quotient};
 use crate::interval::{Interval, Outcome, evaluate};
@@ -25,13 +25,10 @@ pub(super) fn only_unknown(equation: &Content, value: &Content) -> Option<[Conte
         Content::Either(values) => values.iter().all(Expr::is_constant),
         _ => false,
     };
-    let mut symbols = equation.symbols().into_iter().filter(|s| &**s != "pi");
-    match (symbols.next(), symbols.next()) {
-        (Some(name), None) if constant && !equation.is_bounded() => {
-            Some([Content::Scalar(Expr::symbol(&name)), value.clone()])
-        }
-        _ => None,
-    }
+    let symbols = equation.symbols().into_iter();
+    let name = only(symbols.filter(|s| &**s != "pi"))?;
+    let found = constant && !equation.is_bounded();
+    found.then(|| [Content::Scalar(Expr::symbol(&name)), value.clone()])
 }
 
 /// A value, possibly with the name it is given to.

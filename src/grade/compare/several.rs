@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::{kind, values};
 use crate::dimension::Unit;
 use crate::equality;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Symbol, only};
 use crate::formula::{self, UNNAMED};
 use crate::formula::{Content, Join, Quantity, Reading, Relation};
 use crate::grade::context::Context;
@@ -185,10 +185,8 @@ pub(super) fn counted(expected: &Content, answer: &Content) -> Option<Content> {
     let (Content::Relations(..), Content::Joined(..)) = (expected, answer) else {
         return None;
     };
-    let mut symbols = expected.symbols().into_iter().filter(|s| &**s != "pi");
-    let (Some(name), None) = (symbols.next(), symbols.next()) else {
-        return None;
-    };
+    let symbols = expected.symbols().into_iter();
+    let name = only(symbols.filter(|s| &**s != "pi"))?;
     let same = counts(&name, answer)?.into_iter();
     let same = same.map(|other| (other, Expr::symbol(&name))).collect();
     formula::values_of_one(&answer.map(&|e| e.substitute(&same)))

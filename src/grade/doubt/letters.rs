@@ -205,7 +205,7 @@ fn counted_turns(equation: &Content, said: &Content) -> Option<Symbol> {
 
 /// Whether an exponent may count something: a whole number, a symbol, or a sum of such with positive factors.
 fn is_count(k: &Expr) -> bool {
-    let whole = |e: &Expr| e.as_number().is_some_and(|k| k.is_integer());
+    let whole = |e: &Expr| e.is_integer();
     match k.node() {
         Node::Symbol(_) => true,
         Node::Sum(terms) => terms.iter().all(is_count),

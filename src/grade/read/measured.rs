@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::super::{Key, Question, declare};
 use super::{along_axes, answer, quantitative, vector};
 use crate::dimension;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Symbol, only};
 use crate::formula::{self, Content, Reading, Symbols};
 
 /// An answer whose unit a sign ties to its number, or brackets enclose: `9.81*m/s^2`, `5 (m/s)`; and `2.4 s-1`.
@@ -96,13 +96,11 @@ fn measured(content: &Content) -> bool {
 /// Whether a formula, with nothing before it that would be passed over, begins with a letter that is no declared name.
 fn begins_unnamed(text: &str, question: &Question) -> bool {
     let plain = |b: u8| b.is_ascii() && !b"\\$>=:,".contains(&b);
-    let mut letters = text.chars().take_while(char::is_ascii_alphabetic);
-    match (letters.next(), letters.next()) {
-        (Some(letter), None) if letter != 'e' && text.bytes().all(plain) => {
-            !question.given().any(|g| g.name.starts_with(letter))
-        }
-        _ => false,
-    }
+    let letter = only(text.chars().take_while(char::is_ascii_alphabetic));
+    letter.is_some_and(|letter| {
+        let declared = || question.given().any(|g| g.name.starts_with(letter));
+        letter != 'e' && text.bytes().all(plain) && !declared()
+    })
 }
 
 /// Whether an answer to a key that is a quantity is one too, or a bare number.

@@ -5,7 +5,7 @@ use num_traits::Signed;
 
 use super::solved::solve_for;
 use crate::domain::Domains;
-use crate::expr::{Expr, Function, Node, Symbol};
+use crate::expr::{Expr, Function, Node, Symbol, only};
 use crate::formula::{Content, Join, Relation};
 
 /// `name  sign  value`.
@@ -20,10 +20,7 @@ impl Bound {
     /// A relation of two sides, solved for the one name in it, which stands in it with a number before it.
     fn of(left: &Content, sign: Relation, right: &Content) -> Option<Bound> {
         let difference = left.expr()? - right.expr()?;
-        let mut names = difference.symbols().into_iter();
-        let (name, None) = (names.next()?, names.next()) else {
-            return None;
-        };
+        let name = only(difference.symbols())?;
         let falls = difference.derivative(&name).as_number()?.is_negative();
         let sign = if falls { sign.turned() } else { sign };
         let value = solve_for(&difference, &name, &Domains::default())?;

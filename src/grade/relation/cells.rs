@@ -253,7 +253,7 @@ fn plain_divisors(e: &Expr, domains: &Domains) -> Vec<Expr> {
     let mut all = divisors(e, domains);
     let is_plain = |part: &Expr| match part.node() {
         Node::Call(..) => false,
-        Node::Power(_, k) => k.as_number().is_some_and(|k| k.is_integer()),
+        Node::Power(_, k) => k.is_integer(),
         _ => true,
     };
     all.retain(|e| e.parts().all(is_plain));

@@ -10,7 +10,7 @@ use super::normal::{Normal, holds};
 use crate::algebra::tidy;
 use crate::domain::Domains;
 use crate::equality::{self, Equality};
-use crate::expr::{Expr, Function, Node, Symbol};
+use crate::expr::{Expr, Function, Node, Symbol, only};
 use crate::formula::Relation;
 use crate::interval::{Big, Outcome, evaluate};
 
@@ -95,6 +95,5 @@ pub(super) fn cancelled(sides: [&Expr; 2], difference: &Expr) -> Vec<Normal> {
 
 pub(super) fn only_symbol(sides: [&Expr; 2]) -> Option<Symbol> {
     let all: BTreeSet<Symbol> = sides.iter().flat_map(|side| side.symbols()).collect();
-    let mut all = all.into_iter();
-    all.next().filter(|_| all.next().is_none())
+    only(all)
 }

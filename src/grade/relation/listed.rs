@@ -6,7 +6,7 @@ use super::solved::{lies_in, solve_for};
 use super::told::{LOST, OTHER, told};
 use super::zeros::{self, Number, zeros};
 use super::{Normal, cells, same_solutions};
-use crate::domain::{Domain, Domains};
+use crate::domain::Domains;
 use crate::equality::{self, Equality};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Relation, write_plain};
@@ -76,8 +76,7 @@ pub(super) fn values(expected: &Normal, answer: &Normal, domains: &Domains) -> O
         Some(along) => along.count[0]?,
         None => zeros(&other.difference, &name, domains)?.len(),
     };
-    let domain = domains.symbols.get(&name).cloned();
-    let domain = domain.unwrap_or_else(Domain::positive);
+    let domain = domains.of_symbol(&name);
     let mut inside: Vec<Enclosure> = Vec::new();
     let mut beside = None;
     for value in list {

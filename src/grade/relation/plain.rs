@@ -85,7 +85,7 @@ fn both(one: Any, other: Any) -> Option<Any> {
 fn is_plain(e: &Expr) -> bool {
     let simple = |part: &Expr| match part.node() {
         Node::Call(function, _) => *function == Function::Abs,
-        Node::Power(_, k) => k.as_number().is_some_and(|k| k.is_integer()),
+        Node::Power(_, k) => k.is_integer(),
         _ => true,
     };
     e.parts()
@@ -129,7 +129,7 @@ fn without(n: &Normal, domains: &Domains, depth: usize) -> Option<Any> {
         {
             return every(of_product(n.relation, factors));
         }
-        Node::Power(base, k) if k.as_number().is_some_and(|k| k.is_integer()) => {
+        Node::Power(base, k) if k.is_integer() => {
             return every(of_power(n, base, k.as_number()?));
         }
         _ => {}
@@ -146,18 +146,14 @@ fn tidied(e: &Expr) -> Expr {
     let e = e.map_parts(tidied);
     match e.node() {
         Node::Product(factors) if factors.iter().any(Expr::is_zero) => Expr::zero(),
-        Node::Power(base, k) if k.as_number().is_some_and(|k| k.is_integer()) => {
-            match base.node() {
-                _ if k.is_zero() => Expr::one(),
-                Node::Product(parts) => {
-                    Expr::product(parts.iter().map(|part| tidied(&part.power(k.clone()))))
-                }
-                Node::Power(inner, own) if own.as_number().is_some() => {
-                    tidied(&inner.power(own * k))
-                }
-                _ => e,
+        Node::Power(base, k) if k.is_integer() => match base.node() {
+            _ if k.is_zero() => Expr::one(),
+            Node::Product(parts) => {
+                Expr::product(parts.iter().map(|part| tidied(&part.power(k.clone()))))
             }
-        }
+            Node::Power(inner, own) if own.as_number().is_some() => tidied(&inner.power(own * k)),
+            _ => e,
+        },
         _ => e,
     }
 }

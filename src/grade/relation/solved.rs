@@ -107,14 +107,12 @@ pub(super) fn solution_apart(
 
 /// Whether a value lies in a symbol's domain, which is positive where nothing is declared.
 pub(super) fn lies_in(value: &Enclosure, name: &Symbol, domains: &Domains) -> bool {
-    let domain = domains.symbols.get(name).cloned();
-    holds_value(&domain.unwrap_or_else(Domain::positive), value)
+    holds_value(&domains.of_symbol(name), value)
 }
 
 /// Whether it does so and is no end of it.
 pub(super) fn lies_inside(value: &Enclosure, name: &Symbol, domains: &Domains) -> bool {
-    let domain = domains.symbols.get(name).cloned();
-    let mut domain = domain.unwrap_or_else(Domain::positive);
+    let mut domain = domains.of_symbol(name);
     for limit in [&mut domain.low, &mut domain.high].into_iter().flatten() {
         limit.open = true;
     }

@@ -11,8 +11,8 @@ use super::impact::{Impact, impacts};
 use super::letters::{MARKS, readings, used};
 use super::link::{Link, Values, names_in};
 use crate::dimension::{self, Dimension};
-use crate::equality::{self, Equality};
-use crate::expr::{Expr, Symbol, Vector};
+use crate::equality;
+use crate::expr::{Expr, Symbol, Vector, only};
 use crate::formula::{self, Reading, Relation};
 use crate::scene::Ask;
 
@@ -189,8 +189,7 @@ impl Desk<'_> {
             self.by_body.retain(|name| !used.contains(name));
             return false;
         }
-        let mut names = self.by_body.intersection(&used);
-        let (Some(name), None) = (names.next().cloned(), names.next()) else {
+        let Some(name) = only(self.by_body.intersection(&used)).cloned() else {
             return false;
         };
         self.by_body.remove(&name);
@@ -244,9 +243,7 @@ impl Desk<'_> {
         });
         let gap = other - side.substitute(way);
         // `m v = m v_1 + M v_2` says nothing of what comes in.
-        let domains = &self.sheet.scene.domains;
-        let same = equality::decide(&gap, &Expr::zero(), domains).equality;
-        told && !matches!(same, Equality::Same { .. }) && zero(gap)
+        told && !equality::vanishes(&gap, &self.sheet.scene.domains) && zero(gap)
     }
 
     /// Names in a side of a balance, each with the velocity before the impact of the one body whose mass it has.

@@ -3,8 +3,8 @@
 use super::super::belief::other_shapes;
 use super::super::{Diagnosis, Tolerance, number};
 use super::Desk;
-use crate::equality::{self, Equality};
-use crate::expr::{Expr, Symbol, ratio};
+use crate::equality;
+use crate::expr::{Expr, Symbol, only, ratio};
 use crate::scene::{Body, Shape};
 
 /// Most points about which a moment of inertia is tried.
@@ -95,7 +95,7 @@ impl Desk<'_> {
         let same = |other: &Expr| equality::decide(&mine, other, &scene.domains).equality;
         let is_other = |b: usize| {
             let mut others = other_shapes(scene, b).into_iter();
-            others.any(|(other, _)| matches!(same(&other), Equality::Same { .. }))
+            others.any(|(other, _)| same(&other).is_same())
         };
         let bodies = scene.bodies.iter().enumerate();
         let mut bodies = bodies.filter(|(_, body)| round(body));
@@ -116,7 +116,7 @@ impl Desk<'_> {
         points.into_iter().any(|point| {
             let each: Vec<Expr> = free().map(|b| about(b, point)).take(MOST_BODIES).collect();
             let same = |total| equality::decide(&value, &total, &scene.domains).equality;
-            together(&each).any(|total| matches!(same(total), Equality::Same { .. }))
+            together(&each).any(|total| same(total).is_same())
         })
     }
 
@@ -131,10 +131,7 @@ impl Desk<'_> {
         {
             return Some(body.inertia.clone());
         }
-        let mut free = scene.bodies.iter().filter(|b| !b.is_fixed());
-        let (Some(body), None) = (free.next(), free.next()) else {
-            return None;
-        };
+        let body = only(scene.bodies.iter().filter(|b| !b.is_fixed()))?;
         match place {
             "G" => Some(body.inertia.clone()),
             place => {

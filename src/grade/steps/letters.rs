@@ -7,7 +7,7 @@ use super::super::sheet::Sheet;
 use super::Desk;
 use crate::algebra::{Sign, sign};
 use crate::dimension::{self, Dimension};
-use crate::expr::{Expr, Symbol, dot};
+use crate::expr::{Expr, Symbol, dot, only};
 use crate::formula::{self, Content, Reading, Symbols};
 use crate::scene::{Ask, StageKind};
 
@@ -137,8 +137,8 @@ impl Desk<'_> {
     pub(super) fn along_normal(&mut self, text: &str) {
         let text = text.replace(['_', '{', '}'], "");
         let scene = &self.sheet.scene;
-        let mut normals = scene.contacts.iter().filter_map(|c| c.normal.as_ref());
-        let (Some([x, y]), None) = (normals.next(), normals.next()) else {
+        let normals = scene.contacts.iter().filter_map(|c| c.normal.as_ref());
+        let Some([x, y]) = only(normals) else {
             return;
         };
         let has_time = scene.parameter("t").is_some() || scene.question("t").is_some();

@@ -8,7 +8,7 @@ use super::letters::OF_CENTER;
 use super::link::Weighed;
 use super::{Desk, Found, Status};
 use crate::dimension::{self, Dimension};
-use crate::expr::{Expr, Node, Symbol};
+use crate::expr::{Expr, Node, Symbol, only};
 use crate::formula::{self, Content, Fault, Reading, Remark, Symbols};
 
 /// Most names a student may introduce.
@@ -350,13 +350,8 @@ impl Desk<'_> {
         }
         let left = text.split('=').next()?;
         let left = formula::read(left, &self.symbols(left)).ok()?;
-        let mut names = left
-            .symbols()
-            .into_iter()
-            .filter(|name| self.own.contains_key(name));
-        let (name, None) = (names.next()?, names.next()) else {
-            return None;
-        };
+        let names = left.symbols().into_iter();
+        let name = only(names.filter(|name| self.own.contains_key(name)))?;
         let said = self.ahead.iter().filter(|(other, _)| *other == name);
         if said.count() < 2 || !self.of_earlier_parts.contains(&name) {
             return None;

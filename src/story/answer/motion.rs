@@ -1,6 +1,6 @@
 //! What is asked of a motion: its end, how long and how far it went, places, angular momenta, the force of a fixed point.
 
-use crate::answer::calc::{Seen, is_zero, sign, tidy};
+use crate::answer::calc::{is_zero, sign, tidy};
 use crate::answer::{self, Answer, Check, Form, Refused};
 use crate::domain::Domains;
 use crate::expr::{Expr, Vector, cross, dot, minus};

@@ -93,7 +93,7 @@ fn never_arrives(stage: &Stage, body: usize, end: &Expr) -> Refused {
 
 /// What must hold so that a body gets to the end of a motion with this kinetic energy; nothing where that is proved.
 fn arrival(stage: &Stage, body: usize, end: &Expr, seen: Seen) -> Option<Sentence> {
-    let proved = matches!(seen, Seen::Proved(s) if s.is_not_negative());
+    let proved = seen.is_not_negative();
     let need = || crate::answer::calc::at_least_zero(end, &stage.scene.domains);
     (!proved).then(|| arrives(stage, body, need()))
 }

@@ -9,7 +9,7 @@ use crate::algebra::{Sign, sign, tidy};
 use crate::answer::{Answer, Form};
 use crate::dimension::Dimension;
 use crate::domain::Domains;
-use crate::expr::{Expr, Symbol, dot, minus};
+use crate::expr::{Expr, Symbol, dot, minus, only};
 use crate::formula::{
     self, Content, Reading, Relation, Sentence, Symbols, sentence, write_unicode,
 };
@@ -58,8 +58,7 @@ fn geometry(
         }
     }
     // The moment of inertia of the one body that can move about each point.
-    let mut free = scene.bodies.iter().filter(|b| !b.is_fixed());
-    if let (Some(body), None) = (free.next(), free.next()) {
+    if let Some(body) = only(scene.bodies.iter().filter(|b| !b.is_fixed())) {
         for point in &scene.points {
             let [x, y] = minus(&point.at, &body.center).map(|d| d.powi(2));
             let name = Symbol::from(format!("I_{}", point.name));

@@ -32,7 +32,7 @@ impl Desk<'_> {
     /// A velocity or spin before the collision, printed as the one after.
     pub(super) fn before(&self, item: &str, pairs: &[(Expr, Expr)]) -> Option<String> {
         use crate::scene::Ask;
-        let question = self.scene.asked_of_impact().find(|q| q.name == item)?;
+        let question = self.scene.question_of_impact(item)?;
         let before = match &question.ask {
             Ask::Velocity {
                 body,
@@ -48,9 +48,10 @@ impl Desk<'_> {
     }
 
     /// Whether two formulas are one on the domain.
-    fn is_same(&self, a: &Expr, b: &Expr) -> bool {
-        let found = equality::decide(a, b, &self.scene.domains).equality;
-        matches!(found, Equality::Same { .. })
+    pub(super) fn is_same(&self, a: &Expr, b: &Expr) -> bool {
+        equality::decide(a, b, &self.scene.domains)
+            .equality
+            .is_same()
     }
 
     /// The place of a largest or least value, printed as the value.

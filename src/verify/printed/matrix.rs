@@ -106,7 +106,7 @@ impl Desk<'_> {
                 ("on the right".to_string(), right)
             }
         };
-        let slip = match self.same(printed, &-&mend.value) {
+        let slip = match self.is_same(printed, &-&mend.value) {
             true => "the sign of one entry is turned",
             false => "one entry is misprinted",
         };

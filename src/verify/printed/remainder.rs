@@ -7,7 +7,6 @@ use num_traits::{Signed, Zero};
 
 use super::desk::Desk;
 use crate::algebra::Field;
-use crate::equality::{self, Equality};
 use crate::expr::{Expr, Rational};
 use crate::formula::Content;
 use crate::scene::Printed;
@@ -20,14 +19,14 @@ impl Desk<'_> {
     /// A component that is printed as zero and is not, or two in each other's place.
     pub(super) fn component(&self, pairs: &[(Expr, Expr)]) -> Option<String> {
         if let [(x, first), (y, second), ..] = pairs
-            && !self.same(x, y)
-            && self.same(x, second)
-            && self.same(y, first)
+            && !self.is_same(x, y)
+            && self.is_same(x, second)
+            && self.is_same(y, first)
         {
             return Some("the components along x and y stand exchanged".into());
         }
         let wrong: Vec<usize> = (0..pairs.len())
-            .filter(|i| !self.same(&pairs[*i].0, &pairs[*i].1))
+            .filter(|i| !self.is_same(&pairs[*i].0, &pairs[*i].1))
             .collect();
         let [i] = wrong.as_slice() else { return None };
         let (axis, wrong) = (["x", "y", "z"].get(*i)?, &pairs[*i..=*i]);
@@ -70,7 +69,8 @@ impl Desk<'_> {
         let [(left, right)] = pairs else { return None };
         let difference = right - left;
         let (name, _) = self.closed.iter().find(|(_, value)| {
-            !value.is_zero() && (self.same(value, &difference) || self.same(value, &-&difference))
+            !value.is_zero()
+                && (self.is_same(value, &difference) || self.is_same(value, &-&difference))
         })?;
         Some(format!("it would hold with {name} added to one side"))
     }
@@ -79,13 +79,9 @@ impl Desk<'_> {
     pub(super) fn sought(&self, pairs: &[(Expr, Expr)]) -> Option<String> {
         self.bounds.iter().find_map(|(item, (of, _, value))| {
             let at = BTreeMap::from([(of.as_symbol()?.clone(), value.clone())]);
-            let same = |a: &Expr, b: &Expr| {
-                let decided = equality::decide(a, b, &self.scene.domains).equality;
-                matches!(decided, Equality::Same { .. })
-            };
             let holds = pairs.iter().all(|(a, b)| {
                 let [a, b] = [a, b].map(|e| e.substitute(&at));
-                same(&a, &b) && !same(&a, &Expr::zero())
+                self.is_same(&a, &b) && !self.is_same(&a, &Expr::zero())
             });
             let (of, value) = (self.say(of), self.say(value));
             holds.then(|| {
@@ -118,11 +114,6 @@ impl Desk<'_> {
             "it would hold for {name} = {}",
             self.say(&field.expr(&value))
         ))
-    }
-
-    pub(super) fn same(&self, a: &Expr, b: &Expr) -> bool {
-        let found = equality::decide(a, b, &self.scene.domains).equality;
-        matches!(found, Equality::Same { .. })
     }
 }
 

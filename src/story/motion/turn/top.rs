@@ -35,8 +35,7 @@ pub(super) fn swung(stage: &Stage, turn: &Turn, spin: &Expr, r: &Vector) -> Opti
             let begins = &Expr::from(way) * &(bearing + half(&half_turn));
             let within = |e: &Expr| {
                 let gaps = [e + &half_turn, &half_turn - e];
-                gaps.iter()
-                    .all(|gap| matches!(sign(gap, domains), Seen::Proved(s) if s.is_not_negative()))
+                gaps.iter().all(|gap| sign(gap, domains).is_not_negative())
             };
             let mut turns = [0, -2, 2]
                 .map(|k| &begins + &(Expr::from(k) * Expr::pi()))
