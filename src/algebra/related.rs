@@ -8,7 +8,7 @@ use super::Sign;
 use super::field::{Field, Kind};
 use super::points::Points;
 use super::poly::Poly;
-use super::substitution::MOST_TERMS;
+use super::substitution::{MOST_TERMS, replaced};
 use crate::domain::{Domain, Relation};
 use crate::expr::{Expr, Rational, Symbol, effort, ratio};
 
@@ -340,23 +340,6 @@ impl<'a> Search<'a> {
         let signs = self.signs.get_or_init(find);
         signs.map(|seen| used.iter().fold(seen, given))
     }
-}
-
-/// The polynomial with top/below in the place of v, times the power of `below` that clears it.
-fn replaced(p: &Poly, v: usize, top: &Poly, below: &Poly) -> Option<Poly> {
-    let degree = p.degree(v);
-    let mut total = Poly::zero();
-    for (k, part) in p.by_power(v).iter().enumerate() {
-        if !part.is_zero() {
-            let k = k as u32;
-            let part = part.mul(&top.pow(k).ok()?).ok()?;
-            total = total.add(&part.mul(&below.pow(degree - k).ok()?).ok()?);
-        }
-        if total.len() > MOST_TERMS {
-            return None;
-        }
-    }
-    Some(total)
 }
 
 #[cfg(test)]

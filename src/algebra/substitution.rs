@@ -278,6 +278,24 @@ fn half_angle(p: &Poly, c: usize, s: usize) -> Result<(Poly, u32), Stop> {
     Ok((total, d))
 }
 
+/// The polynomial with above/below in the place of v, times the power of `below` that clears it; `None` where it grows too long.
+pub(crate) fn replaced(p: &Poly, v: usize, above: &Poly, below: &Poly) -> Option<Poly> {
+    let degree = p.degree(v);
+    let mut total = Poly::zero();
+    for (k, part) in p.by_power(v).iter().enumerate() {
+        if !part.is_zero() {
+            // What stands for the power is short, and multiplied out first.
+            let k = k as u32;
+            let power = above.pow(k).ok()?.mul(&below.pow(degree - k).ok()?);
+            total = total.add(&part.mul(&power.ok()?).ok()?);
+        }
+        if total.len() > MOST_TERMS {
+            return None;
+        }
+    }
+    Some(total)
+}
+
 impl Axis {
     /// The polynomial with the variable written as a positive one in the same place, up to a positive factor, and what that
     /// one may also be.
@@ -313,15 +331,7 @@ impl Axis {
             }
             (None, None) => return None,
         };
-        let mut total = Poly::zero();
-        for (k, part) in p.by_power(v).iter().enumerate() {
-            if !part.is_zero() {
-                // What stands for the power is short, and multiplied out first.
-                let k = k as u32;
-                let power = above.pow(k).ok()?.mul(&below.pow(degree - k).ok()?);
-                total = total.add(&part.mul(&power.ok()?).ok()?);
-            }
-        }
+        let total = replaced(p, v, &above, &below)?;
         let end = End {
             v,
             zero: !open,

@@ -151,65 +151,62 @@ impl<'t> Parser<'t> {
     }
 
     fn object(&mut self, depth: usize) -> Result<Value<'t>, Fault> {
-        let open = self.at;
-        let mut entries = Vec::new();
-        self.at += 1;
-        loop {
-            self.skip_blank()?;
-            match self.peek() {
-                Some(b'}') => break,
-                Some(b'"') => {}
-                None => return Err(never_closed(open, "{", "}")),
-                Some(_) => return Err(self.fault_here("expected a name in double quotes, or }")),
+        let entry = |own: &mut Self| {
+            if own.peek() != Some(b'"') {
+                return Err(own.fault_here("expected a name in double quotes, or }"));
             }
-            let start = self.at;
-            let key = self.string()?;
-            let key_span = Span::new(start, self.at);
-            self.skip_blank()?;
-            if self.peek() != Some(b':') {
-                return Err(self.fault_here("expected a colon after the name"));
+            let start = own.at;
+            let key = own.string()?;
+            let key_span = Span::new(start, own.at);
+            own.skip_blank()?;
+            if own.peek() != Some(b':') {
+                return Err(own.fault_here("expected a colon after the name"));
             }
-            self.at += 1;
-            self.skip_blank()?;
-            let node = self.value(depth + 1)?;
-            entries.push(Entry {
+            own.at += 1;
+            own.skip_blank()?;
+            Ok(Entry {
                 key,
                 key_span,
-                node,
-            });
-            self.skip_blank()?;
-            match self.peek() {
-                Some(b',') => self.at += 1,
-                Some(b'}') => break,
-                None => return Err(never_closed(open, "{", "}")),
-                Some(_) => return Err(self.fault_here("expected a comma or } after the value")),
-            }
-        }
-        self.at += 1;
-        Ok(Value::Object(entries))
+                node: own.value(depth + 1)?,
+            })
+        };
+        self.items(["{", "}"], entry).map(Value::Object)
     }
 
     fn list(&mut self, depth: usize) -> Result<Value<'t>, Fault> {
+        let items = self.items(["[", "]"], |own| own.value(depth + 1));
+        items.map(Value::List)
+    }
+
+    /// What stands between two brackets with commas, one behind the last allowed.
+    fn items<T>(
+        &mut self,
+        [from, to]: [&str; 2],
+        one: impl Fn(&mut Self) -> Result<T, Fault>,
+    ) -> Result<Vec<T>, Fault> {
         let open = self.at;
-        let mut items = Vec::new();
+        let mut out = Vec::new();
         self.at += 1;
         loop {
             self.skip_blank()?;
             match self.peek() {
-                Some(b']') => break,
-                None => return Err(never_closed(open, "[", "]")),
-                Some(_) => items.push(self.value(depth + 1)?),
+                Some(end) if to.as_bytes() == [end] => break,
+                None => return Err(never_closed(open, from, to)),
+                Some(_) => out.push(one(self)?),
             }
             self.skip_blank()?;
             match self.peek() {
                 Some(b',') => self.at += 1,
-                Some(b']') => break,
-                None => return Err(never_closed(open, "[", "]")),
-                Some(_) => return Err(self.fault_here("expected a comma or ] after the value")),
+                Some(end) if to.as_bytes() == [end] => break,
+                None => return Err(never_closed(open, from, to)),
+                Some(_) => {
+                    let message = format!("expected a comma or {to} after the value");
+                    return Err(self.fault_here(&message));
+                }
             }
         }
         self.at += 1;
-        Ok(Value::List(items))
+        Ok(out)
     }
 
     fn string(&mut self) -> Result<Cow<'t, str>, Fault> {

@@ -261,19 +261,20 @@ fn polar([x, y]: &Vector) -> Option<(&Expr, Option<(usize, &Expr)>)> {
         let parts = parts(e);
         parts.len() == 2 && parts.contains(size) && parts.contains(&of)
     };
-    x.factors().iter().find_map(|f| {
-        let Node::Call(_, angle) = f.node() else {
-            return None;
-        };
-        let to_x = is(x, angle.cos()) && is(y, angle.sin());
-        let to_y = is(x, angle.sin()) && is(y, angle.cos());
-        (to_x || to_y).then_some((size, Some((usize::from(!to_x), angle))))
-    })
+    turned(x, y, is).map(|at| (size, Some(at)))
 }
 
 /// The angle of a unit vector, (cosθ, sinθ) or (sinθ, cosθ) of either signs, with the axis that it is counted from.
 fn inclination([x, y]: &Vector) -> Option<(usize, &Expr)> {
-    let is = |e: &Expr, of: Expr| *e == of || *e == -of;
+    turned(x, y, |e, of| *e == of || *e == -of)
+}
+
+/// The axis and the angle to it of two components that are made of its cosine and its sine.
+fn turned<'e>(
+    x: &'e Expr,
+    y: &Expr,
+    is: impl Fn(&Expr, Expr) -> bool,
+) -> Option<(usize, &'e Expr)> {
     x.factors().iter().find_map(|f| {
         let Node::Call(_, angle) = f.node() else {
             return None;
@@ -346,7 +347,7 @@ fn of_wishes<'s>(scene: &'s Scene, out: &mut Vec<Use<'s>>) {
         };
         for (answer, wished) in [(left, right), (right, left)] {
             let name = answer.as_symbol();
-            let of = name.and_then(|name| scene.questions.iter().find(|q| q.name == **name));
+            let of = name.and_then(|name| scene.question(name));
             let Some(of) = of else { continue };
             let (what, body) = match &of.ask {
                 Ask::Angle { body, .. } => ("angle through which {} is to turn", Some(*body)),

@@ -2,6 +2,7 @@
 
 use crate::expr::Expr;
 use crate::scene::claim::Claim;
+use crate::scene::fault::Span;
 use crate::scene::formulas::Quantity;
 use crate::scene::record::{Formula, Text};
 use crate::scene::resolver::Resolver;
@@ -14,16 +15,21 @@ const ACCELERATION: Quantity = Quantity::other(
 pub(super) const FORCE: Quantity =
     Quantity::other([1, 1, -2], "a force is a mass times an acceleration");
 
-/// Whether a motion has one end.
-pub(super) fn is_one(given: &[bool]) -> bool {
-    given.iter().filter(|given| **given).count() == 1
-}
-
-/// What to do about a motion without an end, or with several.
-pub(super) fn one_end(lasts: Option<&Expr>) -> &'static str {
-    match lasts {
+/// Refuses a motion without an end, or with several: those given, and that of the motion `during` which it happens.
+pub(super) fn one_end(
+    r: &mut Resolver<'_>,
+    given: &[bool],
+    lasts: Option<&Expr>,
+    (span, message): (Span, &str),
+) -> Option<()> {
+    let given = given.iter().filter(|given| **given).count();
+    let hint = match lasts {
         None => "give one of them",
         Some(_) => "leave it out: the motion ends with the one `during` which it happens",
+    };
+    match given + usize::from(lasts.is_some()) {
+        1 => Some(()),
+        _ => r.refuse(span, message, hint),
     }
 }
 

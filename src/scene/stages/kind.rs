@@ -2,7 +2,7 @@
 //!
 //! In: the record of a stage and the scene it begins with. Out: a [`StageKind`].
 
-use super::fields::{company, is_one, one_end, optional, weight};
+use super::fields::{company, one_end, optional, weight};
 use super::slide::slide;
 use crate::expr::Expr;
 use crate::scene::Scene;
@@ -147,12 +147,9 @@ fn fall_of(
         fall.by.is_some(),
         fall.time.is_some(),
         fall.until.is_some(),
-        lasts.is_some(),
     ];
-    if !is_one(&ends) {
-        let message = "a fall ends after a `height`, a horizontal distance `range`, an angle `by` or a time `for`, or `until` its top";
-        return r.refuse(span, message, one_end(lasts));
-    }
+    let message = "a fall ends after a `height`, a horizontal distance `range`, an angle `by` or a time `for`, or `until` its top";
+    one_end(r, &ends, lasts, (span, message))?;
     let all = company(r, &fall.body, fall.with.as_deref());
     let gravity = weight(r, fall.gravity.as_ref())?;
     let until = match (&fall.height, &fall.range, &fall.by, &fall.time, lasts) {
@@ -233,17 +230,9 @@ fn turn_of(
     lasts: Option<&Expr>,
     span: Span,
 ) -> Option<Turn> {
-    let ends = [
-        turn.by.is_some(),
-        turn.until.is_some(),
-        turn.time.is_some(),
-        lasts.is_some(),
-    ];
-    if !is_one(&ends) {
-        let message =
-            "a rotation ends after an angle `by`, at a place `until`, or after a time `for`";
-        return r.refuse(span, message, one_end(lasts));
-    }
+    let ends = [turn.by.is_some(), turn.until.is_some(), turn.time.is_some()];
+    let message = "a rotation ends after an angle `by`, at a place `until`, or after a time `for`";
+    one_end(r, &ends, lasts, (span, message))?;
     if turn.gravity.is_some() && (turn.time.is_some() || lasts.is_some()) {
         let at = turn.time.as_ref().map_or(span, |time| time.span);
         let message = "a rotation under its weight ends at an angle, not after a time";

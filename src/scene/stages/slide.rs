@@ -2,7 +2,7 @@
 //!
 //! In: its record. Out: the motion, or what does not go together in it.
 
-use super::fields::{FORCE, coefficient, company, is_one, one_end, optional, weight};
+use super::fields::{FORCE, coefficient, company, one_end, optional, weight};
 use crate::expr::Expr;
 use crate::scene::fault::Span;
 use crate::scene::formulas::Quantity;
@@ -82,13 +82,10 @@ fn end(
         slide.distance.is_some(),
         slide.time.is_some(),
         slide.until.is_some(),
-        lasts.is_some(),
     ];
-    if !is_one(&ends) {
-        let message =
-            "a motion along a line ends after a `distance`, a time `for`, or where `until` says";
-        return r.refuse(span, message, one_end(lasts));
-    }
+    let message =
+        "a motion along a line ends after a `distance`, a time `for`, or where `until` says";
+    one_end(r, &ends, lasts, (span, message))?;
     match (&slide.distance, &slide.time, slide.until) {
         (Some(s), None, None) => r.read(s, Quantity::LENGTH).map(SlideEnd::Distance),
         (None, Some(t), None) => r.read(t, Quantity::TIME).map(SlideEnd::Time),
