@@ -210,20 +210,17 @@ fn meaning(scene: &Scene, value: &Value) -> Option<Meaning> {
     }
     let place = value["impulse"].as_str()?;
     let on = body(&value["on"])?;
-    let here = |name: &str, bodies: &[usize]| name == place && bodies.contains(&on);
-    let (mut contacts, mut hinges) = (scene.contacts.iter(), scene.hinges.iter());
-    let mut blows = scene.blows.iter();
-    let contact = contacts.position(|c| here(&c.name, &c.bodies));
-    let hinge = hinges.position(|h| here(&h.name, &h.bodies));
-    let blow = blows.position(|b| here(&b.name, &[b.body]));
-    let (from, direction) = match (contact, hinge, blow) {
-        (Some(c), ..) => (ImpulseAt::Contact(c), scene.contacts[c].normal.clone()),
-        (None, Some(h), _) => (ImpulseAt::Hinge(h), None),
-        (None, None, Some(i)) => {
+    let mut all = scene.acting();
+    let from = all
+        .find(|one| one.name == place && one.bodies.contains(&on))?
+        .from;
+    let direction = match from {
+        ImpulseAt::Contact(c) => scene.contacts[c].normal.clone(),
+        ImpulseAt::Hinge(_) => None,
+        ImpulseAt::Blow(i) => {
             let (BlowImpulse::Given(v) | BlowImpulse::Along(v)) = &scene.blows[i].impulse;
-            (ImpulseAt::Blow(i), Some(v.clone()))
+            Some(v.clone())
         }
-        _ => return None,
     };
     let along = match axis {
         Some(_) => None,

@@ -448,12 +448,8 @@ impl Work<'_> {
             matrix.rhs.push(known);
         };
         for name in rows {
-            let question = self
-                .scene
-                .asked_of_impact()
-                .find(|q| q.name == *name)
-                .map(|q| q.ask.clone());
-            if let Some(Ask::Balance { system, along }) = question {
+            let question = self.scene.question_of_impact(name);
+            if let Some(Ask::Balance { system, along }) = question.map(|q| q.ask.clone()) {
                 let (terms, known) = self.projected(unknowns, &system, &along)?;
                 push(name.clone(), &terms, known);
             } else if let Some(k) = self.scene.after.iter().position(|k| k.name == *name) {

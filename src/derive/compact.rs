@@ -283,8 +283,7 @@ impl Parts {
             let Form::Value { closed, short } = &mut answer.form else {
                 continue;
             };
-            let mut questions = work.scene.asked_of_impact();
-            let Some(question) = questions.find(|q| q.name == answer.question) else {
+            let Some(question) = work.scene.question_of_impact(&answer.question) else {
                 continue;
             };
             let written = match &question.ask {

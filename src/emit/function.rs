@@ -286,7 +286,7 @@ fn multiple_of_pi(factor: &Rational) -> Dd {
 }
 
 fn argument(scene: &Scene, symbol: &Symbol) -> Argument {
-    let parameter = scene.parameters.iter().find(|p| p.name == *symbol);
+    let parameter = scene.parameter(symbol);
     let domain = scene.domains.symbols.get(symbol);
     Argument {
         symbol: symbol.clone(),

@@ -160,7 +160,7 @@ fn item(
     let Some(answer) = entry.key.reading.content.expr() else {
         return Err(String::from("its components are asked one by one"));
     };
-    let is_given = |s: &Symbol| scene.parameters.iter().any(|p| p.name == *s);
+    let is_given = |s: &Symbol| scene.parameter(s).is_some();
     if !answer.symbols().iter().all(is_given) || answer.size() > LARGEST {
         return Err(String::from("its closed form goes over several lines"));
     }

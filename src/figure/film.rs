@@ -134,7 +134,7 @@ pub fn film(scene: &Scene, claim: Option<(&str, [f64; 2])>) -> Film {
         .as_ref()
         .zip(claim)
         .and_then(|(after, (name, value))| {
-            let asked = scene.questions.iter().find(|q| q.name == name)?;
+            let asked = scene.question(name)?;
             let of_last = asked
                 .stage
                 .is_none_or(|stage| stage + 1 == scene.stages.len());

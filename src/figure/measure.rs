@@ -177,10 +177,8 @@ fn line(sheet: &mut Sheet, ends: [Pair; 2], offset: Pair, label: Label) {
 fn distances(stage: &Stage, sheet: &mut Sheet, shown: &[Expr]) {
     let scene = stage.scene;
     let is_length = |name: &Symbol| {
-        scene
-            .parameters
-            .iter()
-            .any(|p| p.name == *name && p.dimension == Dimension::new(0, 1, 0))
+        let parameter = scene.parameter(name);
+        parameter.is_some_and(|p| p.dimension == Dimension::new(0, 1, 0))
     };
     let mut seen: Vec<Symbol> = shown.iter().flat_map(Expr::symbols).collect();
     let mut places: Vec<Vector> = Vec::new();

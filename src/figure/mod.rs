@@ -272,11 +272,7 @@ fn is_readable(scene: &Scene) -> bool {
 /// The pictures a scene has, in order.
 pub fn kinds(scene: &Scene) -> Vec<Which> {
     let mut movable: Vec<usize> = scene.moving().collect();
-    let touched = |i: &usize| {
-        let hinges = scene.hinges.iter().map(|h| &h.bodies);
-        let mut joints = hinges.chain(scene.contacts.iter().map(|c| &c.bodies));
-        joints.any(|bodies| bodies.contains(i)) || scene.blows.iter().any(|b| b.body == *i)
-    };
+    let touched = |i: &usize| scene.acting().any(|one| one.bodies.contains(i));
     // What nothing acts on shows nothing.
     if movable.iter().any(touched) {
         movable.retain(touched);

@@ -149,21 +149,8 @@ fn bat(long: f64) -> Vec<Pair> {
 
 /// Where others touch a body, as seen from its center.
 fn attached(scene: &Scene, values: &Values, body: usize, center: Pair) -> Option<Vec<Pair>> {
-    let contacts = scene
-        .contacts
-        .iter()
-        .filter(|c| c.bodies.contains(&body))
-        .map(|c| &c.at);
-    let hinges = scene
-        .hinges
-        .iter()
-        .filter(|h| h.bodies.contains(&body))
-        .map(|h| &h.at);
-    let blows = scene.blows.iter().filter(|b| b.body == body).map(|b| &b.at);
-    contacts
-        .chain(hinges)
-        .chain(blows)
-        .map(|v| values.pair(v).map(|p| minus(p, center)))
+    let own = scene.acting().filter(|one| one.bodies.contains(&body));
+    own.map(|one| Some(minus(values.pair(one.at)?, center)))
         .collect()
 }
 

@@ -75,8 +75,7 @@ pub fn spanning<'a>(
         .points
         .iter()
         .map(|p| &p.at)
-        .chain(scene.contacts.iter().map(|c| &c.at))
-        .chain(scene.hinges.iter().map(|h| &h.at))
+        .chain(scene.touching().map(|one| one.at))
     {
         points.push(values.pair(v)?);
     }

@@ -570,8 +570,9 @@ fn external<T: Number>(
     system: &[usize],
 ) -> Vec<([T; 2], [Affine<T>; 2])> {
     let mut all = Vec::new();
-    let mut joint = |bodies: [usize; 2], place: Place| {
-        let inside = bodies.map(|b| system.contains(&b));
+    for joint in scene.touching() {
+        let (place, _) = Place::of(scene, joint.from);
+        let inside = joint.bodies.map(|b| system.contains(&b));
         if inside[0] != inside[1] {
             let on_second = impulse_at(scene, g, place);
             let on_system = match inside[1] {
@@ -580,17 +581,7 @@ fn external<T: Number>(
             };
             all.push((g.place(place).clone(), on_system));
         }
-    };
-    scene
-        .contacts
-        .iter()
-        .enumerate()
-        .for_each(|(c, contact)| joint(contact.bodies, Place::Contact(c)));
-    scene
-        .hinges
-        .iter()
-        .enumerate()
-        .for_each(|(h, hinge)| joint(hinge.bodies, Place::Hinge(h)));
+    }
     for (i, blow) in scene.blows.iter().enumerate() {
         if system.contains(&blow.body) {
             all.push((g.blow[i].clone(), impulse_at(scene, g, Place::Blow(i))));

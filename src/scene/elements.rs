@@ -1,7 +1,7 @@
 //! What a scene consists of: given quantities, points, bodies, hinges, contacts, blows, forces, and what is known just after.
 
 use super::geometry::turned;
-use super::{Condition, Decided, Friction, Scene};
+use super::{Condition, Decided, Friction, ImpulseAt, Scene};
 use crate::dimension::{self, Dimension};
 use crate::expr::{Expr, Symbol, Vector, minus};
 
@@ -32,6 +32,19 @@ impl Parameter {
     pub fn is_angle(&self) -> bool {
         self.dimension.is_none() && dimension::unit(&self.unit).is_ok_and(|u| u.angle)
     }
+}
+
+/// What transmits an impulse to bodies: a contact, a hinge or a blow.
+#[derive(Clone, Copy, Debug)]
+pub struct Acting<'s> {
+    /// Which it is.
+    pub from: ImpulseAt,
+    /// Its name.
+    pub name: &'s String,
+    /// Its place \[m\].
+    pub at: &'s Vector,
+    /// The bodies, by index; of a blow twice the one it acts on.
+    pub bodies: [usize; 2],
 }
 
 /// A point with a name.

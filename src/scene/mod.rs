@@ -48,15 +48,15 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::dimension::{self, System};
 use crate::domain::{Domains, generic_point};
-use crate::expr::{Expr, Point, Scalar, Symbol, Vector, minus};
+use crate::expr::{Expr, Point, Scalar, Symbol, Vector, minus, only};
 use crate::formula::Symbols;
 use crate::formula::near::nearest;
 
 pub use ask::{Ask, Extremum, ImpulseAt, PlotAsk, Question};
 pub use drawing::{Drawn, Outline};
 pub use elements::{
-    Blow, BlowImpulse, Body, Contact, ContactLaw, Force, Hinge, Known, KnownQuantity, NamedPoint,
-    Parameter, Shape, with_noun,
+    Acting, Blow, BlowImpulse, Body, Contact, ContactLaw, Force, Hinge, Known, KnownQuantity,
+    NamedPoint, Parameter, Shape, with_noun,
 };
 pub use fault::{Fault, Faults, Span};
 pub use file::Support;
@@ -291,12 +291,37 @@ impl Scene {
         generic_point(self.symbols().chain(open), &self.domains)
     }
 
+    /// What acts between two bodies: contacts, then hinges.
+    pub fn touching(&self) -> impl Iterator<Item = Acting<'_>> {
+        let contacts = self.contacts.iter().enumerate().map(|(i, c)| Acting {
+            from: ImpulseAt::Contact(i),
+            name: &c.name,
+            at: &c.at,
+            bodies: c.bodies,
+        });
+        let hinges = self.hinges.iter().enumerate().map(|(i, h)| Acting {
+            from: ImpulseAt::Hinge(i),
+            name: &h.name,
+            at: &h.at,
+            bodies: h.bodies,
+        });
+        contacts.chain(hinges)
+    }
+
+    /// What acts on bodies in the impact: contacts, hinges, then blows.
+    pub fn acting(&self) -> impl Iterator<Item = Acting<'_>> {
+        let blows = self.blows.iter().enumerate().map(|(i, b)| Acting {
+            from: ImpulseAt::Blow(i),
+            name: &b.name,
+            at: &b.at,
+            bodies: [b.body; 2],
+        });
+        self.touching().chain(blows)
+    }
+
     /// Whether anything acts on a body in the impact.
     pub fn takes_part(&self, b: usize) -> bool {
-        let hinges = self.hinges.iter().map(|h| h.bodies);
-        let mut pairs = hinges.chain(self.contacts.iter().map(|c| c.bodies));
-        pairs.any(|bodies| bodies.contains(&b))
-            || self.blows.iter().any(|blow| blow.body == b)
+        self.acting().any(|one| one.bodies.contains(&b))
             || self.after.iter().any(|known| known.body == b)
     }
 
@@ -315,10 +340,10 @@ impl Scene {
     /// of mass of the one body that can move.
     pub fn arms(&self) -> Vec<(String, Vector)> {
         const MOST: usize = 8;
-        let mut free = self.bodies.iter().filter(|b| !b.is_fixed());
+        let free = self.bodies.iter().filter(|b| !b.is_fixed());
         let named = self.points.iter().map(|p| (p.name.as_str(), &p.at));
         let mut places: Vec<(&str, &Vector)> = named.collect();
-        if let (Some(body), None) = (free.next(), free.next())
+        if let Some(body) = only(free)
             && self.points.iter().all(|p| p.name != "G")
         {
             places.push(("G", &body.center));
@@ -338,15 +363,6 @@ impl Scene {
         let bodies = self.bodies.iter().map(|b| (&b.name, &b.center));
         let mut all = points.chain(bodies).filter(|(_, place)| *place == at);
         all.next().map(|(name, _)| name.as_str())
-    }
-
-    /// Where hinges, contacts and blows act.
-    pub fn acting_at(&self) -> impl Iterator<Item = &Vector> {
-        let hinges = self.hinges.iter().map(|h| &h.at);
-        let contacts = self.contacts.iter().map(|c| &c.at);
-        hinges
-            .chain(contacts)
-            .chain(self.blows.iter().map(|b| &b.at))
     }
 
     /// The system of units that its data are in.
@@ -396,6 +412,11 @@ impl Scene {
     pub fn counts_turns(&self, name: &str) -> bool {
         let mut asked = self.questions.iter();
         asked.any(|q| matches!(&q.ask, Ask::Turn { number, .. } if **number == *name))
+    }
+
+    /// The question of this name about the impact.
+    pub fn question_of_impact(&self, name: &str) -> Option<&Question> {
+        self.asked_of_impact().find(|q| q.name == name)
     }
 
     /// The parameter of this name.

@@ -118,9 +118,7 @@ impl Stage {
 
     /// What a question about the end of this stage asks, with the places known here.
     pub fn asked<'a>(&'a self, question: &'a Question) -> &'a Ask {
-        let mut own = self.scene.questions.iter();
-        let own = own.find(|q| q.name == question.name);
-        &own.unwrap_or(question).ask
+        &self.scene.question(&question.name).unwrap_or(question).ask
     }
 }
 
@@ -158,7 +156,7 @@ impl Scene {
         is_zero: impl Fn(&Expr) -> bool,
         tidied: impl Fn(Expr) -> Expr,
     ) {
-        let acting: Vec<Vector> = self.acting_at().cloned().collect();
+        let acting: Vec<Vector> = self.acting().map(|one| one.at.clone()).collect();
         for question in &mut self.questions {
             let Ask::Velocity {
                 body,

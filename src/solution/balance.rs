@@ -73,23 +73,10 @@ impl Writer<'_> {
     /// Impulses on a system from outside.
     pub(super) fn outside(&mut self, system: &[usize], about: Option<Place>) -> Vec<Outside> {
         let mut places = Vec::new();
-        let joints = self
-            .scene
-            .contacts
-            .iter()
-            .enumerate()
-            .map(|(c, k)| (Place::Contact(c), k.bodies))
-            .chain(
-                self.scene
-                    .hinges
-                    .iter()
-                    .enumerate()
-                    .map(|(h, k)| (Place::Hinge(h), k.bodies)),
-            );
-        for (place, bodies) in joints {
-            let inside = bodies.map(|b| system.contains(&b));
+        for joint in self.scene.touching() {
+            let inside = joint.bodies.map(|b| system.contains(&b));
             if inside[0] != inside[1] {
-                places.push((place, inside[1]));
+                places.push((Place::of(self.scene, joint.from).0, inside[1]));
             }
         }
         for (i, blow) in self.scene.blows.iter().enumerate() {

@@ -33,10 +33,7 @@ impl Writer<'_> {
         let from = from.unwrap_or_default();
         let center = words::center(self.scene, known.body);
         let scene = self.scene;
-        let contacts = scene.contacts.iter().map(|c| (&c.name, &c.at));
-        let hinges = scene.hinges.iter().map(|h| (&h.name, &h.at));
-        let blows = scene.blows.iter().map(|b| (&b.name, &b.at));
-        let mut places = contacts.chain(hinges).chain(blows);
+        let mut places = scene.acting().map(|one| (one.name, one.at));
         let is_center = *at == scene.bodies[known.body].center;
         let point = places
             .find(|(_, p)| *p == at)

@@ -17,13 +17,8 @@ pub(super) fn number(scene: &Scene, answer: &Answer) -> Option<String> {
     if is_plain && (formula.is_zero() || answer.dimension.is_none()) {
         return None;
     }
-    let values = scene
-        .parameters
-        .iter()
-        .filter_map(|p| Some((p.name.clone(), p.value.clone()?)))
-        .collect();
     let value = formula
-        .substitute(&values)
+        .substitute(&scene.values())
         .evaluate(&crate::expr::Point::<f64>::default())?;
     Some(format!(
         " = {}",

@@ -171,10 +171,7 @@ impl Writer<'_> {
     fn signs(&mut self) -> Vec<Vec<Inline>> {
         let mut items = Vec::new();
         for (answer, closed) in self.closed() {
-            let question = self
-                .scene
-                .asked_of_impact()
-                .find(|q| q.name == answer.question);
+            let question = self.scene.question_of_impact(&answer.question);
             let symbol = words::formula(&Expr::symbol(&answer.name));
             let ask = question.map(|q| q.ask.clone());
             if ask.as_ref().is_some_and(is_lost) && self.sign(&closed) == Some(Sign::Negative) {
@@ -255,10 +252,8 @@ impl Writer<'_> {
         let lone = [Dimension::new(0, 1, 0), Dimension::new(1, 0, 0)];
         let mut said: Vec<(Vec<Symbol>, Inline, bool)> = Vec::new();
         for (answer, closed) in self.closed() {
-            let mut questions = self.scene.asked_of_impact();
-            let ask = questions
-                .find(|q| q.name == answer.question)
-                .map(|q| &q.ask);
+            let ask = self.scene.question_of_impact(&answer.question);
+            let ask = ask.map(|q| &q.ask);
             let at_hinge = matches!(
                 ask,
                 Some(Ask::Impulse {

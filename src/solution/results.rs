@@ -322,7 +322,7 @@ pub(super) fn stated(scene: &Scene) -> Vec<Inline> {
             .any(|pair| pair.contains(name));
         let positive = *domain == crate::domain::Domain::positive();
         // What an earlier stage has found is no condition.
-        let is_found = !scene.parameters.iter().any(|p| p.name == *name);
+        let is_found = scene.parameter(name).is_none();
         if is_found || in_pair || positive || (domain.low.is_none() && domain.high.is_none()) {
             continue;
         }

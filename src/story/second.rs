@@ -507,8 +507,7 @@ pub(super) fn answers(
         answers,
     };
     let check = |(i, answer): (usize, &Answer)| {
-        let mut questions = second.scene.questions.iter();
-        let question = questions.find(|q| q.name == answer.question)?;
+        let question = second.scene.question(&answer.question)?;
         Some((i, asked.check(question, answer)?))
     };
     answers.iter().enumerate().filter_map(check).collect()

@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use super::StageTold;
-use crate::answer::calc::{Seen, beyond_zero, sign};
+use crate::answer::calc::{beyond_zero, sign};
 use crate::answer::{Answer, Known, Refused};
 use crate::domain::{Origin, Relation};
 use crate::expr::{Expr, Symbol};

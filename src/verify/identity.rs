@@ -161,11 +161,8 @@ impl<'a> Identities<'a> {
     /// The short form of an answer, with its definitions put in, against the closed form; an energy against that of the
     /// motion as well.
     pub(super) fn of_answer(&mut self, answer: &Answer, closed: &Expr, short: &Expr) -> Check {
-        let mut questions = self.scene.asked_of_impact();
-        let asked = questions
-            .find(|q| q.name == answer.question)
-            .map(|q| &q.ask);
-        let outcome = match asked {
+        let asked = self.scene.question_of_impact(&answer.question);
+        let outcome = match asked.map(|q| &q.ask) {
             Some(Ask::Energy { when, of }) if !self.derivation.named.is_empty() => {
                 self.is_energy(*when, *of, short)
             }

@@ -285,10 +285,7 @@ fn admissible(scene: &Scene, derivation: &Derivation, runs: &[Run<Rational>], pr
 
 /// What an answer's question asks for, and of a vector the component that the answer is.
 fn asked(scene: &Scene, answer: &Answer) -> Option<Ask> {
-    let question = scene
-        .asked_of_impact()
-        .find(|q| q.name == answer.question)?;
-    let mut ask = question.ask.clone();
+    let mut ask = scene.question_of_impact(&answer.question)?.ask.clone();
     // A component is asked for on its own: it may be determined where its vector is not.
     if let Some(axis) = answer.axis() {
         let unit = [0, 1].map(|i| if i == axis { Expr::one() } else { Expr::zero() });

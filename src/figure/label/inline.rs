@@ -20,11 +20,7 @@ pub(super) fn write(e: &Expr, scene: &Scene, out: &mut Label, depth: usize) {
     match e.node() {
         Node::Number(value) => out.push(&value.to_string().replace('-', "−"), false, Level::Base),
         Node::Symbol(name) => {
-            let latex = scene
-                .parameters
-                .iter()
-                .find(|p| p.name == *name)
-                .and_then(|p| p.latex.as_deref());
+            let latex = scene.parameter(name).and_then(|p| p.latex.as_deref());
             out.runs.extend(Label::symbol(name, latex).runs);
         }
         Node::Sum(terms) => {

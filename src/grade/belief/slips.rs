@@ -84,26 +84,17 @@ pub(super) fn sticking(s: &Scene) -> impl Iterator<Item = usize> + '_ {
     (0..s.contacts.len()).filter(|c| s.contacts[*c].law == ContactLaw::Sticking)
 }
 
-/// Every point at which something acts, with its name and the bodies it acts on.
-fn acting(s: &Scene) -> impl Iterator<Item = (&Vector, &String, [usize; 2])> {
-    let contacts = s.contacts.iter().map(|c| (&c.at, &c.name, c.bodies));
-    let hinges = s.hinges.iter().map(|h| (&h.at, &h.name, h.bodies));
-    let blows = s.blows.iter().map(|p| (&p.at, &p.name, [p.body; 2]));
-    contacts.chain(hinges).chain(blows)
-}
-
 /// The points at which something acts on a body, with names.
 pub(super) fn places(s: &Scene, b: usize) -> Vec<(Vector, String)> {
-    let own = acting(s).filter(|(.., bodies)| bodies.contains(&b));
-    own.map(|(at, name, _)| (at.clone(), name.clone()))
-        .collect()
+    let own = s.acting().filter(|one| one.bodies.contains(&b));
+    own.map(|one| (one.at.clone(), one.name.clone())).collect()
 }
 
 /// Every point about which somebody might take moments.
 pub(super) fn all_places(s: &Scene) -> Vec<(Vector, String)> {
     let points = s.points.iter().map(|p| (&p.at, p.name.clone()));
     let center = |b: usize| (&s.bodies[b].center, format!("the center {}", of(s, b)));
-    let others = acting(s).map(|(at, name, _)| (at, name.clone()));
+    let others = s.acting().map(|one| (one.at, one.name.clone()));
     let mut all: Vec<(Vector, String)> = Vec::new();
     for (at, name) in points.chain(movable(s).map(center)).chain(others) {
         if !all.iter().any(|(known, _)| known == at) {

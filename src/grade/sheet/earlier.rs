@@ -99,7 +99,7 @@ impl Sheet {
         let known = before.into_iter().chain(later);
         let known = known.filter_map(|a| Some((a.name.as_str().into(), a.formula()?.clone())));
         let mut values: BTreeMap<Symbol, Expr> = parts.into_iter().chain(known).collect();
-        let given = |name: &Symbol| self.scene.parameters.iter().any(|p| p.name == *name);
+        let given = |name: &Symbol| self.scene.parameter(name).is_some();
         let asked = |name: &Symbol| of(&entry.question.name).any(|a| *a.name == **name);
         values.retain(|name, _| !given(name) && !asked(name));
         let mut question = entry.key.question.clone();

@@ -220,7 +220,7 @@ impl Sheet {
             Content::Vector([x, y, z]) if x.is_zero() && y.is_zero() => vec![z.clone()],
             _ => return grade,
         };
-        let given = |s: &Symbol| self.scene.parameters.iter().any(|p| p.name == *s);
+        let given = |s: &Symbol| self.scene.parameter(s).is_some();
         let known = |e: &Expr| e.symbols().iter().all(given);
         if !values.iter().all(known) || values.iter().any(|e| e.size() > 2_000) {
             return grade;
@@ -353,7 +353,7 @@ impl Sheet {
     fn has_finite_force(&self, reading: &Reading) -> bool {
         let given = |s: &Symbol| {
             let answered = self.derivation.answers.iter().any(|a| *a.name == **s);
-            answered || self.scene.parameters.iter().any(|p| p.name == *s)
+            answered || self.scene.parameter(s).is_some()
         };
         let symbols = reading.symbols();
         let mut finite = (symbols.iter()).filter(|s| matches!(&***s, "g" | "t" | "dt"));

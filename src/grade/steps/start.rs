@@ -27,14 +27,12 @@ pub(super) fn true_values(sheet: &Sheet) -> (Values, BTreeSet<Symbol>) {
     }
     for answer in &d.answers {
         if let Form::Value { closed: value, .. } = &answer.form {
-            let mut asked = sheet.scene.asked_of_impact();
-            let question = asked.find(|q| q.name == answer.question);
+            let question = sheet.scene.question_of_impact(&answer.question);
             if question.is_some_and(|q| matches!(q.ask, Ask::Velocity { .. } | Ask::Spin { .. })) {
                 moving.insert(Symbol::from(answer.name.as_str()));
             }
             // What is asked of a parameter under a condition is not what the parameter is.
-            let mut parameters = sheet.scene.parameters.iter();
-            if parameters.any(|p| *p.name == *answer.name) {
+            if sheet.scene.parameter(&answer.name).is_some() {
                 continue;
             }
             closed.insert(Symbol::from(answer.name.as_str()), value.clone());

@@ -16,7 +16,7 @@ use super::{Desk, Status};
 use crate::algebra::{self, Sign};
 use crate::answer::limit;
 use crate::equality;
-use crate::expr::{Expr, Function, Symbol, effort, only};
+use crate::expr::{Expr, Function, Symbol, effort};
 use crate::formula::{self, Content, Reading, Relation};
 use crate::scene::{Ask, Question};
 

@@ -573,8 +573,7 @@ impl Desk<'_> {
     pub(super) fn named(&self, name: &Symbol, scene: &Scene) -> Option<Named> {
         let d = &self.sheet.derivation;
         if let Some(answer) = d.answers.iter().find(|a| *a.name == **name) {
-            let mut asked = scene.asked_of_impact();
-            let question = asked.find(|q| q.name == answer.question)?;
+            let question = scene.question_of_impact(&answer.question)?;
             return Some((name.clone(), question.ask.clone(), answer.axis()));
         }
         let mut unknowns = laws::unknowns(scene).into_iter();

@@ -132,7 +132,7 @@ pub fn of_a_turn(
         return Err(Unanswered::NotANumber);
     };
     // Nothing that is followed depends on it, so the values may be without it.
-    let given = scene.parameters.iter().find(|p| p.name == *number);
+    let given = scene.parameter(number);
     let given = given.and_then(|p| p.value.as_ref()?.evaluate(values));
     let number = values.values.get(number).copied().or(given);
     turns::answer(scene, followed, turns, (of, *total), number, values)
@@ -241,7 +241,7 @@ impl InStage<'_> {
                 (x - at[0]).hypot(y - at[1]) <= 1e-9 * size
             })
         };
-        is_named && !self.stage.scene.acting_at().any(is_there)
+        is_named && !self.stage.scene.acting().any(|one| is_there(one.at))
     }
 
     fn moved(&self) -> Result<&Moved, Unanswered> {

@@ -1,5 +1,6 @@
 //! Questions about one impact: velocities and spins just after, impulses, energies, balances, matrices.
 
+use crate::expr::only;
 use crate::scene::fault::Fault;
 use crate::scene::question_file::QuestionFile;
 use crate::scene::record::Text;
@@ -119,17 +120,14 @@ pub(super) fn velocity(
     };
     let body = match of {
         Some(of) => resolver.moving(of)?,
-        None => {
-            let mut moving = scene.moving();
-            match (moving.next(), moving.next()) {
-                (Some(only), None) => only,
-                _ => {
-                    let message = format!("the point `{}` may belong to several bodies", what.text);
-                    let hint = "say which: \"of\": the body's name";
-                    return resolver.refuse(what.span, message, hint);
-                }
+        None => match only(scene.moving()) {
+            Some(only) => only,
+            None => {
+                let message = format!("the point `{}` may belong to several bodies", what.text);
+                let hint = "say which: \"of\": the body's name";
+                return resolver.refuse(what.span, message, hint);
             }
-        }
+        },
     };
     Some((body, Some((what.text.clone(), at?))))
 }
@@ -142,38 +140,30 @@ fn impulse(
     on: Option<&Text>,
 ) -> Option<(ImpulseAt, usize)> {
     let name = &from.text;
-    let contact = scene.contacts.iter().position(|c| c.name == *name);
-    let hinge = scene.hinges.iter().position(|h| h.name == *name);
-    let blow = scene.blows.iter().position(|b| b.name == *name);
-    let (from_what, bodies) = match (contact, hinge, blow) {
-        (Some(i), ..) => (ImpulseAt::Contact(i), scene.contacts[i].bodies.to_vec()),
-        (_, Some(i), _) => (ImpulseAt::Hinge(i), scene.hinges[i].bodies.to_vec()),
-        (.., Some(i)) => (ImpulseAt::Blow(i), vec![scene.blows[i].body]),
-        _ => {
-            let file = resolver.file;
-            let (hinges, blows) = (keys(file.hinges.as_ref()), keys(file.blows.as_ref()));
-            let all = [keys(file.contacts.as_ref()), hinges, blows].concat();
-            let names: Vec<&str> = all.iter().map(|name| name.text.as_str()).collect();
-            // A contact that is there but could not be read has been reported.
-            if !names.contains(&name.as_str()) {
-                resolver.unknown(from, "contact, hinge or blow", |_| names);
-            }
-            return None;
+    let Some(found) = scene.acting().find(|one| one.name == name) else {
+        let file = resolver.file;
+        let (hinges, blows) = (keys(file.hinges.as_ref()), keys(file.blows.as_ref()));
+        let all = [keys(file.contacts.as_ref()), hinges, blows].concat();
+        let names: Vec<&str> = all.iter().map(|name| name.text.as_str()).collect();
+        // A contact that is there but could not be read has been reported.
+        if !names.contains(&name.as_str()) {
+            resolver.unknown(from, "contact, hinge or blow", |_| names);
         }
+        return None;
     };
     let on = match on {
         Some(on) => {
             let body = resolver.body_named(on)?;
-            if !bodies.contains(&body) {
+            if !found.bodies.contains(&body) {
                 let message = format!("`{name}` does not touch `{}`", on.text);
                 return Fault::new(on.span, message).add_to(&mut resolver.faults);
             }
             body
         }
         // Asked for is the impulse on something that moves.
-        None => *bodies.iter().rfind(|b| !resolver.is_fixed(**b))?,
+        None => (found.bodies.into_iter()).rfind(|b| !resolver.is_fixed(*b))?,
     };
-    Some((from_what, on))
+    Some((found.from, on))
 }
 
 /// Checks that the rows and unknowns of a matrix name questions of the right kind.

@@ -19,9 +19,7 @@ pub(super) fn from_above(base: &mut Resolver<'_>, scene: &Scene, i: usize, span:
     };
     let carried = match &crash.kind {
         StageKind::Impact { one_sided, .. } => {
-            let contacts = crash.scene.contacts.iter().map(|c| c.bodies);
-            let hinges = crash.scene.hinges.iter().map(|h| h.bodies);
-            let mut all = contacts.chain(hinges).flatten();
+            let mut all = crash.scene.touching().flat_map(|one| one.bodies);
             !one_sided.is_empty() || all.any(|b| crash.scene.bodies[b].is_fixed())
         }
         _ => true,

@@ -3,7 +3,7 @@
 use super::Page;
 use super::motion::driven;
 use crate::answer::Answer;
-use crate::expr::{Expr, Symbol, dot};
+use crate::expr::{Expr, Symbol, dot, only};
 use crate::scene::{Ask, EnergyWhen, Question, Scene, Slide, StageKind};
 use crate::solution::known;
 use crate::solution::neat::tidied;
@@ -388,10 +388,7 @@ impl Page<'_> {
                 return None;
             };
             let all = self.told.answers.iter();
-            let mut mine = all.filter(|a| a.question == question.name);
-            let (answer, None) = (mine.next()?, mine.next()) else {
-                return None;
-            };
+            let answer = only(all.filter(|a| a.question == question.name))?;
             let is_here = |s: &Symbol| self.answered(told).any(|a| *a.name == **s);
             let all_here = formula.symbols().iter().all(is_here);
             (meaning.starts_with("speed of ") && all_here).then_some((formula, answer))

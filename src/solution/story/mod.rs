@@ -107,7 +107,7 @@ fn blank(scene: &Scene, told: &Told, detail: Detail) -> Solution {
 
 /// Of what must be ≥ 0, that which is told in the parameters of the scene.
 fn needed<'a>(scene: &Scene, all: impl Iterator<Item = &'a Expr>) -> Vec<Expr> {
-    let is_known = |s: &Symbol| scene.parameters.iter().any(|p| p.name == *s);
+    let is_known = |s: &Symbol| scene.parameter(s).is_some();
     let known = all.filter(|need| need.symbols().iter().all(is_known));
     known.cloned().collect()
 }
@@ -431,7 +431,7 @@ impl Page<'_> {
             writer.checked();
         }
         for condition in writer.conditions() {
-            let known = |s: &Symbol| self.scene.parameters.iter().any(|p| p.name == *s);
+            let known = |s: &Symbol| self.scene.parameter(s).is_some();
             let all_known = sentence::symbols(&condition).all(|s| known(&s));
             if all_known && !self.valid.contains(&condition) {
                 self.valid.push(condition);
@@ -468,9 +468,8 @@ impl Page<'_> {
         let next = self.told.stages.iter().filter(|s| s.branch == Some((i, k)));
         let all = next.flat_map(|s| match &s.placed.kind {
             StageKind::Impact { .. } => {
-                let contacts = s.placed.scene.contacts.iter().flat_map(|c| c.bodies);
-                let hinges = s.placed.scene.hinges.iter().flat_map(|h| h.bodies);
-                contacts.chain(hinges).collect()
+                let joints = s.placed.scene.touching();
+                joints.flat_map(|one| one.bodies).collect()
             }
             kind => kind.moved(),
         });

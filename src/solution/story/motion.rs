@@ -238,9 +238,7 @@ impl Page<'_> {
 
     /// What an answer is the answer to.
     pub(super) fn ask(&self, answer: &Answer) -> Option<&Ask> {
-        let mut questions = self.scene.questions.iter();
-        let question = questions.find(|q| q.name == answer.question);
-        question.map(|q| &q.ask)
+        self.scene.question(&answer.question).map(|q| &q.ask)
     }
 
     /// How a moment alone stops a rotation: its work takes up the kinetic energy.

@@ -317,7 +317,7 @@ fn turns_back(told: &StageTold) -> bool {
             speed = speed - dot(&state.velocity[below.body], &slide.along);
         }
         let seen = sign(&(Expr::from(way) * speed), &told.placed.scene.domains);
-        seen.is_positive() || matches!(seen, Seen::Proved(s) if s.is_not_negative())
+        seen.is_positive() || seen.is_not_negative()
     };
     let keeps_on = |way: i64| goes(way, &told.before) && goes(way, &told.after);
     matches!(slide.until, SlideEnd::Rolls) && !(keeps_on(1) || slide.on.is_some() && keeps_on(-1))

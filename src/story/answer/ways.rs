@@ -179,8 +179,7 @@ fn threshold(question: &Question, ways: Vec<(usize, &StageTold, Way)>) -> Vec<An
     let mut out: Vec<Answer> = Vec::new();
     for (i, told, way) in ways {
         for (k, case) in told.cases.iter().enumerate() {
-            let asked = case.scene.questions.iter();
-            let Some(asked) = asked.into_iter().find(|q| q.name == question.name) else {
+            let Some(asked) = case.scene.question(&question.name) else {
                 continue;
             };
             let Ask::Value {

@@ -212,10 +212,8 @@ fn leaves_pivot(stage: &Stage, turn: &Turn, told: &mut StageTold) {
     let StageKind::Impact { one_sided, .. } = &stage.kind else {
         return;
     };
-    let hinges = stage.scene.hinges.iter().map(|h| (h.bodies, &h.at));
-    let contacts = stage.scene.contacts.iter().map(|c| (c.bodies, &c.at));
-    let supports = one_sided.iter().map(|o| (o.bodies, &o.at));
-    let mut said = hinges.chain(contacts).chain(supports);
+    let joints = stage.scene.touching().map(|one| (one.bodies, one.at));
+    let mut said = joints.chain(one_sided.iter().map(|o| (o.bodies, &o.at)));
     let is_said = said.any(|(bodies, at)| bodies.contains(&turn.body) && is_pivot(at));
     let moves = |after: &State| {
         let there = velocity_at(stage, after, turn.body, &turn.about);

@@ -29,11 +29,8 @@ pub(super) fn touches(
     one_sided: &[OneSided],
     before: &State,
 ) -> Result<(), Refused> {
-    let contacts = scene.contacts.iter().map(|c| (&c.name, c.bodies, &c.at));
-    let hinges = scene.hinges.iter().map(|h| (&h.name, h.bodies, &h.at));
-    let blows = scene.blows.iter().map(|b| (&b.name, [b.body; 2], &b.at));
-    let joints = contacts.chain(hinges).chain(blows);
-    let joints = joints.map(|(name, bodies, at)| (name, bodies, at, None));
+    let joints = scene.acting();
+    let joints = joints.map(|one| (one.name, one.bodies, one.at, None));
     let supports = one_sided
         .iter()
         .map(|o| (&o.name, o.bodies, &o.at, Some(o)));
@@ -280,10 +277,7 @@ fn multiple(e: &Expr, value: &Expr, domains: &Domains) -> Option<Expr> {
 
 /// The bodies on which an impulse acts.
 fn acted_on(scene: &Scene) -> Vec<usize> {
-    let contacts = scene.contacts.iter().flat_map(|c| c.bodies);
-    let hinges = scene.hinges.iter().flat_map(|h| h.bodies);
-    let all = contacts.chain(hinges);
-    all.chain(scene.blows.iter().map(|b| b.body)).collect()
+    scene.acting().flat_map(|one| one.bodies).collect()
 }
 
 /// The question by whose name all motion that is handed on to an impact is told, each part in few symbols, where its value is

@@ -131,11 +131,8 @@ fn picked<T: Clone>(all: &[T], keeps: impl Fn(&T) -> bool) -> (Vec<usize>, Vec<T
 
 /// Bodies that touch, in pairs; a blow or a known value touches its body alone.
 fn links(scene: &Scene, one_sided: &[OneSided]) -> Vec<[usize; 2]> {
-    let joints = scene.hinges.iter().map(|h| h.bodies);
-    let contacts = scene.contacts.iter().map(|c| c.bodies);
-    let alone = scene.blows.iter().map(|b| [b.body; 2]);
     let known = scene.after.iter().map(|k| [k.body; 2]);
-    let all = joints.chain(contacts).chain(alone).chain(known);
+    let all = scene.acting().map(|one| one.bodies).chain(known);
     all.chain(one_sided.iter().map(|o| o.bodies)).collect()
 }
 
