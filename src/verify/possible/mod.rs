@@ -297,20 +297,8 @@ impl Judge<'_> {
             self.relative(contact, &contact.at, true),
         ];
         let impulse = self.impulse(i);
-        if !sticks
-            && !contact.passes
-            && !contact.is_string
-            && let Some(why) = sides::misfit(self.scene, contact)
-        {
-            self.conditions.push(Condition {
-                rule: Rule::Place,
-                words: format!("the outlines fit each other at `{name}`"),
-                otherwise: why,
-                verdict: Verdict::Nowhere,
-                essential: None,
-                is_equation: false,
-                at_values: None,
-            });
+        if !sticks && !contact.passes && !contact.is_string {
+            self.outlines_fit(contact);
         }
         let sides = sides::of(self.scene, contact);
         if sides.list.is_empty() && contact.passes {
@@ -384,6 +372,21 @@ impl Judge<'_> {
         }
         if !contact.passes {
             self.along_sides(contact, &before, &sides);
+        }
+    }
+
+    /// Whether the outlines of two bodies leave room for each other and have the normal that is given.
+    fn outlines_fit(&mut self, contact: &Contact) {
+        if let Some(why) = sides::misfit(self.scene, contact) {
+            self.conditions.push(Condition {
+                rule: Rule::Place,
+                words: format!("the outlines fit each other at `{}`", contact.name),
+                otherwise: why,
+                verdict: Verdict::Nowhere,
+                essential: None,
+                is_equation: false,
+                at_values: None,
+            });
         }
     }
 
