@@ -170,12 +170,15 @@ impl Desk<'_> {
         Some((status, vec![found]))
     }
 
-    /// Whether a condition is stated for the sake of its parameter: the solution goes on to that, or the line speaks of data
-    /// that come in by the condition alone. Else it is told as a fact, which it is not.
+    /// Whether a condition is stated for the sake of its parameter: the solution goes on to that, or the line speaks of what is
+    /// given alone, or of data that come in by the condition alone. Else it is told as a fact, which it is not.
     pub(super) fn is_gone_on_from(&self, links: &[Link], at: usize) -> bool {
         let sought = &self.sought[at];
-        let mut all = links.iter().flat_map(|link| &link.differences);
-        self.is_solved_for(sought) || all.any(|one| self.brings_in(&self.with_own(one), sought))
+        let all: Vec<Expr> = gaps(links).iter().map(|d| self.with_own(d)).collect();
+        let is_found = |d: &Expr| d.symbols().iter().any(|n| self.closed.contains_key(n));
+        self.is_solved_for(sought)
+            || !all.iter().any(is_found)
+            || all.iter().any(|one| self.brings_in(one, sought))
     }
 
     /// What is said of a line about what is found that holds where a condition above it does, and nowhere else.

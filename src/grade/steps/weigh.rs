@@ -378,10 +378,13 @@ impl Desk<'_> {
         ))
     }
 
-    /// The wrong line from which an equality follows, or the last of those from which its components do one by one.
+    /// The wrong line from which an equality follows, or the last of those from which the components in a list do one by one.
     fn cause_of(&self, text: &str, link: &Link) -> Option<usize> {
         let whole = self.cause(text, link).or_else(|| self.carried_on(link));
         whole.or_else(|| {
+            if mentions_vectors(&link.sides) {
+                return None;
+            }
             let [a, b] = link.sides.each_ref().map(|side| self.vector(side, true));
             let parts = a?
                 .into_iter()
