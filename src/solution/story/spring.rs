@@ -113,24 +113,18 @@ impl Page<'_> {
         };
         if is_quarter {
             let period = Expr::from(2) * Expr::pi() * (&mass / &spring.stiffness).sqrt();
-            let own = Expr::sum(
-                slide
-                    .company()
-                    .iter()
-                    .map(|b| told.placed.scene.bodies[*b].mass.clone()),
-            );
-            let turns = !tidy(&(&mass - &own)).is_zero();
-            let form = match turns {
-                true => {
-                    "The motion is a quarter of a harmonic oscillation, with the inertia of turning as that of a mass {}, of period {}."
-                }
-                false => {
-                    "The motion is a quarter of a harmonic oscillation, of the mass {} and of period {}."
-                }
+            let spins = |state: &State| slide.company().iter().any(|b| !state.spin[*b].is_zero());
+            let text = match spins(&told.before) || spins(&told.after) {
+                true => fill(
+                    "The motion is a quarter of a harmonic oscillation, with the inertia of turning as that of a mass {}, of period {}.",
+                    [&mass, &period].map(words::formula),
+                ),
+                false => fill(
+                    "The motion is a quarter of a harmonic oscillation of period {}.",
+                    [words::formula(&period)],
+                ),
             };
-            return self
-                .solution
-                .text(fill(form, [&mass, &period].map(words::formula)));
+            return self.solution.text(text);
         }
         let rate = tidy(&(&spring.stiffness / &mass).sqrt());
         let [from, to] = [-&balance, way - &balance].map(|e| tidy(&e));
