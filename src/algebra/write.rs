@@ -128,18 +128,13 @@ impl Field {
         }
     }
 
-    /// A quotient with what stands above with the whole denominator taken out: `(g (M + m) − F)/(M + m)` is `g − F/(M + m)`, and
-    /// `(m d u + P)/(m d)` is `u + P/(m d)`.
+    /// A quotient with what stands above with the whole denominator taken out: `(g (M + m) − F)/(M + m)` is `g − F/(M + m)`.
     fn parted(&self, x: &Element) -> Option<Expr> {
         let den = &x.den.factors;
-        let is_product = den.is_empty() && x.num.len() == 2 && powers(&x.den.mono).count() > 1;
-        if den.is_empty() != is_product || !(2..=MOST_PARTED).contains(&x.num.len()) {
+        if den.is_empty() || !(3..=MOST_PARTED).contains(&x.num.len()) {
             return None;
         }
-        let whole = match is_product {
-            true => Poly::term(&x.den.mono, x.den.int.clone()),
-            false => multiplied(Poly::one(), den)?,
-        };
+        let whole = multiplied(Poly::one(), den)?;
         let (lead, first) = (whole.mono(0), whole.coeff(0));
         let (mut taken, mut rest) = (Poly::zero(), x.num.clone());
         for (mono, coeff) in x.num.terms() {
@@ -160,15 +155,7 @@ impl Field {
             let (int, mono) = (x.den.int.clone(), x.den.mono.clone());
             self.written(&Element::new(num, Den { int, mono, factors }))
         };
-        let mut both = match is_product {
-            // A number beside a quotient is no shorter: `(M + m)/m` stays.
-            true if taken.is_constant() => return None,
-            true => [
-                self.written(&Element::from_poly(taken)),
-                over(rest, Vec::new()),
-            ],
-            false => [over(taken, Vec::new()), over(rest, den.clone())],
-        };
+        let mut both = [over(taken, Vec::new()), over(rest, den.clone())];
         both.sort_by_key(Expr::is_negative);
         Some(Expr::sum(both))
     }
