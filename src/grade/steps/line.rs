@@ -11,6 +11,9 @@ use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Reading};
 use crate::scene::Ask;
 
+/// A side with the sign by which its name counts.
+type Turn<'t> = Box<dyn Fn(&str) -> Option<String> + 't>;
+
 impl Desk<'_> {
     /// A line is as good as its worst equation.
     pub(super) fn line(&mut self, text: &str) -> Found {
@@ -162,7 +165,7 @@ impl Desk<'_> {
         let plain = name.trim_end_matches(['\'', '^', '+']);
         let mut questions = self.sheet.scene.questions.iter();
         let asked = questions.find_map(|q| Some((q.ask.clone(), q.part(plain)?)));
-        let one: Box<dyn Fn(&str) -> Option<String>> = match asked {
+        let one: Turn = match asked {
             Some((Ask::Spin { .. }, _)) => {
                 let mut spins = self.spins.values();
                 let (_, clockwise) = spins.find(|(spin, _)| **spin == *plain)?;

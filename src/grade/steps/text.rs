@@ -455,11 +455,11 @@ pub(super) fn with_direction(line: &str, equation: &str) -> Option<String> {
 /// The word for a direction with which a text begins, and what follows it.
 fn direction_before(text: &str) -> Option<(&str, &str)> {
     let ends = text.match_indices([':', ',', ' ']).map(|(at, _)| at);
-    let said = ends.filter_map(|at| {
+    let mut said = ends.filter_map(|at| {
         let whole = format!("_ {}", &text[..at]);
         (read::sense(&whole)?.0 == "_").then_some(at)
     });
-    let at = said.last()?;
+    let at = said.next_back()?;
     Some((&text[..at], text[at..].trim_start_matches([':', ',', ' '])))
 }
 
