@@ -424,7 +424,8 @@ fn numbers_are_judged_where_the_answer_needs_no_other_values() {
     for (quantity, answer, note) in [
         ("v_first", "29.3 m/s", "EQUIV_ROUNDED"),
         ("v_first", "11.7 m/s", "DIFF_BELIEF"),
-        ("h", "43.75 m", "EQUIV_ROUNDED"),
+        ("h", "43.75 m", "EQUIV_IDENTITY"),
+        ("h", "43.8 m", "EQUIV_ROUNDED"),
         ("h", "45 m", "DIFF_TOLERANCE"),
         ("h", "43.75", "DIFF_UNIT_MISSING"),
         ("h", "43.75 kg", "DIFF_UNIT"),

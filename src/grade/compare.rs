@@ -228,6 +228,14 @@ fn compare(ctx: &Context, answer: &Reading) -> Grade {
             if let Some(named) = only_unknown(&ctx.key.reading.content, value) {
                 return relation::compare(ctx, (sides, signs), (&named, &[Relation::Equal]));
             }
+            // `2` for `|x - 2| ≤ 0`, which holds there alone.
+            if let Some(named) = named::unknown(&ctx.key.reading.content, value) {
+                let found =
+                    relation::compare(&ctx.plain(), (sides, signs), (&named, &[Relation::Equal]));
+                if found.is_equivalent() {
+                    return found;
+                }
+            }
             match sides.first().and_then(Content::expr) {
                 // `v ≤ X`: the bare right side of an inequality does not say which way.
                 Some(_) if signs.iter().any(|s| *s != Relation::Equal) => kind(&format!(

@@ -164,6 +164,9 @@ fn declare(question: &mut Question, name: &str, entry: &Value) -> Result<(), Str
         Value::String(_) => Map::from_iter([("domain".to_string(), entry.clone())]),
         _ => return Err(format!("the declaration of {name} is to be an object")),
     };
+    if &*given.name == "pi" {
+        return Err("pi is the number π, and no symbol".into());
+    }
     for (key, value) in &fields {
         match (key.as_str(), value) {
             ("domain", value) => {

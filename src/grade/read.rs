@@ -307,7 +307,7 @@ fn as_vector(key: &Key, text: &str) -> Option<(String, Reading)> {
     }
     let lists = key.readable.clone().with_lists();
     let axes = lists.clone().with_axes();
-    let bare = !several && !text.contains(['±', '(', '=']) && text.contains([',', ';']);
+    let bare = !several && !text.contains(['±', '=']) && has_open_comma(text);
     let bare = bare.then(|| (format!("({text})"), &lists));
     let mut all = [&lists, &axes]
         .map(|names| (text.to_string(), names))
@@ -316,6 +316,15 @@ fn as_vector(key: &Key, text: &str) -> Option<(String, Reading)> {
     all.find_map(|(text, names)| {
         let reading = formula::read(&text, names).ok().filter(vector)?;
         Some((text, reading))
+    })
+}
+
+/// Whether a comma or a semicolon stands outside all brackets.
+fn has_open_comma(text: &str) -> bool {
+    let mut depth = 0;
+    text.chars().any(|c| {
+        depth += i32::from("([{".contains(c)) - i32::from(")]}".contains(c));
+        depth == 0 && matches!(c, ',' | ';')
     })
 }
 

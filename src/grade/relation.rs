@@ -19,6 +19,7 @@ mod locus;
 mod normal;
 mod plain;
 mod points;
+mod signs;
 mod solved;
 mod system;
 mod systems;
@@ -210,6 +211,9 @@ pub(crate) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Gra
                 && system::compare(ctx, &mine, &theirs).is_equivalent()
             {
                 return same_solutions("none of the cases holds at the same points");
+            }
+            if signs::agree(&mine, &theirs, domains) {
+                return same_solutions("both hold for the same signs of their parts");
             }
             let apart = system::with_one_given(ctx, &mine, &theirs)
                 .or_else(|| apart_in_cases(ctx, &mine, &theirs));

@@ -2,7 +2,7 @@
 //!
 //! In: a scene with stages. Out: the same scene as believed; the story is told again from there.
 
-use super::slips::{each, slip, sticking};
+use super::slips::{each, other_shapes, slip, sticking};
 use super::{BELIEFS, Belief, Slip};
 use crate::answer::Answer;
 use crate::derive;
@@ -83,7 +83,32 @@ pub(in crate::grade) const MOTIONS: &[Belief] = &[
             })
         },
     },
+    Belief {
+        code: "INERTIA_OF_OTHER_SHAPE",
+        belief: "the moment of inertia of another shape is used",
+        hint: "which shape has the moment of inertia you used?",
+        slips: rolls_as_another,
+    },
 ];
+
+/// The scene with a body that rolls taken for one of another shape.
+fn rolls_as_another(s: &Scene) -> Vec<Slip> {
+    let stages = s.stages.iter().enumerate();
+    let rolling = stages.filter_map(|(k, stage)| match &stage.kind {
+        StageKind::Slide(slide) if slide.rolling => Some((k, &stage.scene, slide.body)),
+        _ => None,
+    });
+    let others = rolling.flat_map(|(k, scene, b)| {
+        let others = other_shapes(scene, b).into_iter();
+        let other = others.filter(move |(value, _)| *value != scene.bodies[b].inertia);
+        other.map(move |other| (k, b, other))
+    });
+    each(s, others, |scene, (k, b, (value, place))| {
+        let stage = &mut scene.stages[k];
+        stage.scene.bodies[b].inertia = value;
+        Some(format!("in {} {place}", stage.name))
+    })
+}
 
 /// What is believed of impacts that shows in what comes after them.
 const ON_THE_WAY: [&str; 7] = [

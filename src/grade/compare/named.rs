@@ -20,6 +20,11 @@ const POINTS: usize = 4;
 
 /// The sides of `x = 2` for the values of the only symbol of an equation.
 pub(super) fn only_unknown(equation: &Content, value: &Content) -> Option<[Content; 2]> {
+    unknown(equation, value).filter(|_| !equation.is_bounded())
+}
+
+/// The same for the only symbol of a relation.
+pub(super) fn unknown(equation: &Content, value: &Content) -> Option<[Content; 2]> {
     let constant = match value {
         Content::Scalar(e) => e.is_constant(),
         Content::Either(values) => values.iter().all(Expr::is_constant),
@@ -27,8 +32,7 @@ pub(super) fn only_unknown(equation: &Content, value: &Content) -> Option<[Conte
     };
     let symbols = equation.symbols().into_iter();
     let name = only(symbols.filter(|s| &**s != "pi"))?;
-    let found = constant && !equation.is_bounded();
-    found.then(|| [Content::Scalar(Expr::symbol(&name)), value.clone()])
+    constant.then(|| [Content::Scalar(Expr::symbol(&name)), value.clone()])
 }
 
 /// A value, possibly with the name it is given to.
