@@ -223,6 +223,11 @@ pub fn has_both_signs(e: &Expr, domains: &Domains) -> bool {
     matches!(met_anywhere(e, domains), (1.., 1..))
 }
 
+/// The same near the usual values alone.
+pub fn has_both_signs_near(e: &Expr, domains: &Domains) -> bool {
+    matches!(met(e, domains, POINTS), (1.., 1..))
+}
+
 /// The same at so many points only as take less than a proof: where both signs are found there is none to be proved.
 pub fn soon_has_both_signs(e: &Expr, domains: &Domains) -> bool {
     let most = match domains.relations.is_empty() {

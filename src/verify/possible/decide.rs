@@ -7,7 +7,9 @@ use num_traits::Signed;
 
 use super::{Condition, Verdict};
 use crate::algebra::{self, Sign};
-use crate::answer::calc::{constant, essential, has_both_signs, soon_has_both_signs};
+use crate::answer::calc::{
+    constant, essential, has_both_signs, has_both_signs_near, soon_has_both_signs,
+};
 use crate::derive::Derivation;
 use crate::domain::{Domains, roles, samples_until};
 use crate::expr::{Expr, Point, Rational, Scalar, Symbol, effort};
@@ -89,8 +91,17 @@ pub(super) fn as_like(e: &Expr, like: Option<&Decided>, domains: &Domains) -> De
             plain(Verdict::Nowhere)
         }
         Some(_) => on_a_part(),
-        None if e.size() <= LARGEST && has_both_signs(e, domains) => on_a_part(),
+        None if e.size() <= LARGEST && is_met_both_ways(e, domains) => on_a_part(),
         None => UNDECIDED,
+    }
+}
+
+/// Whether points of both signs are found. Of angles, what fails far out alone follows from other conditions of friction as a
+/// rule, and cannot be shown to: there it stays undecided.
+fn is_met_both_ways(e: &Expr, domains: &Domains) -> bool {
+    match roles(&[e]).symbols.values().any(|role| role.turns) {
+        true => has_both_signs_near(e, domains),
+        false => has_both_signs(e, domains),
     }
 }
 
