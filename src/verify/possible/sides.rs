@@ -142,7 +142,7 @@ pub(super) fn misfit(scene: &Scene, contact: &Contact) -> Option<String> {
         let mut smooth = cones[k].across.iter();
         // The other body is on the far side of a smooth outline; a thin rod has both sides free.
         let meets = smooth.any(|n| match cones[k].within.is_empty() {
-            true => !cones[other].across.is_empty() && excludes(&cones[other], n),
+            true => is_across(&cones[other], n),
             false => excludes(&cones[other], &negated(n)),
         });
         if meets {
