@@ -42,6 +42,11 @@ fn one(line: Value) -> Value {
     all.remove(0)
 }
 
+/// The verdict on an answer within a tolerance, with its note.
+fn within(tolerance: Value, expected: &str, answer: &str) -> String {
+    judged(json!({"expected": expected, "answer": answer, "tolerance": tolerance}))
+}
+
 fn judged(line: Value) -> String {
     let out = one(line);
     format!(
@@ -287,9 +292,7 @@ fn a_name_without_an_index_belongs_to_no_second_body() {
 
 #[test]
 fn a_tolerance_is_relative_absolute_or_in_digits() {
-    let line = |answer: &str, tolerance: Value| {
-        judged(json!({"expected": "9.81 m/s^2", "answer": answer, "tolerance": tolerance}))
-    };
+    let line = |answer: &str, tolerance: Value| within(tolerance, "9.81 m/s^2", answer);
     assert_eq!(line("9.7 m/s^2", json!("2%")), "equivalent EQUIV_TOLERANCE");
     assert_eq!(
         line("9.7 m/s^2", json!({"relative": 0.02})),
@@ -316,9 +319,8 @@ fn a_tolerance_is_relative_absolute_or_in_digits() {
         "different DIFF_TOLERANCE"
     );
     // A factor of a formula is rounded to digits as a number is.
-    let rounded = |expected: &str, answer: &str| {
-        judged(json!({"expected": expected, "answer": answer, "tolerance": {"significant": 2}}))
-    };
+    let rounded =
+        |expected: &str, answer: &str| within(json!({"significant": 2}), expected, answer);
     assert_eq!(rounded("3*v/7", "0.43 v"), "equivalent EQUIV_TOLERANCE");
     assert_eq!(rounded("3*v/7", "0.44 v"), "different DIFF_FACTOR");
     let root = |answer| rounded("sqrt(2*g*h)", answer);
@@ -329,16 +331,13 @@ fn a_tolerance_is_relative_absolute_or_in_digits() {
     assert!(sum("0.43 v + 0.28 u").starts_with("different"));
     assert!(rounded("3*(v+u)/7", "0.45 (v + u)").starts_with("different"));
     // Numbers near those of a difference say nothing of its value.
-    let near = |expected: &str, answer: &str| {
-        judged(json!({"expected": expected, "answer": answer, "tolerance": "1%"}))
-    };
+    let near = |expected: &str, answer: &str| within(json!("1%"), expected, answer);
     assert_eq!(near("a+b", "a+1.009b"), "equivalent EQUIV_TOLERANCE");
     assert_eq!(near("a-b", "a-1.009b"), "undecided UNDECIDED_TOLERANCE");
     let rounded = near("m*v/(m+M/3)", "m*v/(m+0.333M)");
     assert_eq!(rounded, "equivalent EQUIV_TOLERANCE");
     // The edge of a tolerance belongs to it, exactly.
-    let edge =
-        |answer: &str| judged(json!({"expected": "10", "answer": answer, "tolerance": "1%"}));
+    let edge = |answer: &str| near("10", answer);
     assert_eq!(edge("10.1"), "equivalent EQUIV_TOLERANCE");
     assert_eq!(
         edge("10.1000000000000000000001"),
@@ -414,17 +413,14 @@ fn each_value_is_given_by_a_number_of_its_own() {
         ("1/2, 1/3", "0.5, 1/2, 0.333", "1%", "equivalent"),
     ];
     for (expected, answer, tolerance, verdict) in rows {
-        let line = json!({"expected": expected, "answer": answer, "tolerance": tolerance});
-        assert!(judged(line).starts_with(verdict), "{expected} | {answer}");
+        let found = within(json!(tolerance), expected, answer);
+        assert!(found.starts_with(verdict), "{expected} | {answer}");
     }
 }
 
 #[test]
 fn a_component_that_vanishes_has_the_room_of_the_vector() {
-    let near = |answer: &str| {
-        let line = json!({"expected": "[3, 0] m/s", "answer": answer, "tolerance": "1%"});
-        judged(line)
-    };
+    let near = |answer: &str| within(json!("1%"), "[3, 0] m/s", answer);
     assert_eq!(near("(3.02, 0.001) m/s"), "equivalent EQUIV_TOLERANCE");
     assert!(near("(3.02, 0.04) m/s").starts_with("different"));
     assert!(near("(3.04, 0) m/s").starts_with("different"));

@@ -386,7 +386,7 @@ fn an_output_that_cannot_be_written_is_one_message_and_leaves_nothing() {
         .arg(folder.join("page.html"))
         .output()
         .expect("carom runs");
-    assert_eq!(run.status.code(), Some(2));
+    assert_eq!(run.status.code(), Some(74));
     assert!(run.stdout.is_empty());
     assert_eq!(
         String::from_utf8_lossy(&run.stderr).trim().lines().count(),

@@ -124,11 +124,12 @@ impl Written {
         self.inside(|x| Shape::Call(function, x))
     }
 
-    /// The pieces it is made of.
+    /// How many pieces there are, at any depth, with itself.
     pub(crate) fn size(&self) -> usize {
         1 + self.pieces().into_iter().map(Written::size).sum::<usize>()
     }
 
+    /// The pieces it is made of.
     pub(crate) fn pieces(&self) -> Vec<&Written> {
         match &self.shape {
             Shape::Sum(terms) => terms.iter().map(|(_, term)| term).collect(),

@@ -212,7 +212,7 @@ pub(crate) fn joined(ctx: &Context, expected: &Content, answer: &Content) -> Gra
             {
                 return same_solutions("none of the cases holds at the same points");
             }
-            if signs::agree(&mine, &theirs, domains) {
+            if signs::agree(&mine, &theirs, domains) && points::says_something(&mine, domains) {
                 return same_solutions("both hold for the same signs of their parts");
             }
             let apart = system::with_one_given(ctx, &mine, &theirs)

@@ -46,51 +46,80 @@ pub(super) fn apart_at_points(
 /// A point at which one of several systems holds and none of the others does.
 pub(super) fn apart_in_cases(ctx: &Context, expected: &Cases, answer: &Cases) -> Option<Grade> {
     let all = differences(expected.iter().flatten(), answer.iter().flatten());
-    let uses = roles(&all);
-    let (domains, assumed) = ctx.domains().completed(&uses);
-    let inside = samples(&uses, &domains, 48);
-    let near = inside.iter().take(NEAR);
-    let ends = near.flat_map(|sample| on_boundaries(sample, &all, &domains));
-    for sample in inside.iter().cloned().chain(ends) {
-        // Whether all relations hold: nothing where one is too near to its boundary.
-        let point = sample.point::<Interval>(true);
-        let truth = |system: &Vec<Normal>| {
-            let mut all = true;
-            for link in system {
-                let sign = match evaluate::<Interval>(&link.difference, &point) {
-                    Outcome::Value(v) if v.high < 0.0 => Some(Ordering::Less),
-                    Outcome::Value(v) if v.low > 0.0 => Some(Ordering::Greater),
-                    Outcome::Undefined => None,
-                    _ => Some(
-                        link.difference
-                            .evaluate(&sample.fractions())?
-                            .cmp(&ratio(0, 1)),
-                    ),
-                };
-                all &= holds(link.relation, sign);
-            }
-            Some(all)
+    let (domains, assumed) = ctx.domains().completed(&roles(&all));
+    for sample in inside_and_between(&all, &domains) {
+        let (Some(e), Some(a)) = (hold_at(expected, &sample), hold_at(answer, &sample)) else {
+            continue;
         };
-        let any = |cases: &Cases| {
-            let truths: Option<Vec<bool>> = cases.iter().map(truth).collect();
-            truths.map(|all| all.contains(&true))
-        };
-        if let (Some(e), Some(a)) = (any(expected), any(answer))
-            && e != a
-        {
-            if equations_alone(expected, answer) {
-                let mut finding = told(if e { LOST } else { GAINED });
-                finding.counterexample = Some(Apart::new(sample.words(), holding(a), holding(e)));
-                finding.assumed = assumed;
-                return Some(finding);
-            }
-            let [note, words, hint] = OTHER_NUMBERS;
-            let mut finding = Grade::different(note, "counterexample", words);
-            finding.counterexample = Some(Apart::new(sample.words(), holding(a), holding(e)));
-            finding.assumed = assumed;
-            let message = "the inequality holds elsewhere than it should";
-            return Some(finding.with(Diagnosis::new("INEQUALITY", message, hint)));
+        if e == a {
+            continue;
         }
+        let apart = Apart::new(sample.words(), holding(a), holding(e));
+        let alone = equations_alone(expected, answer);
+        let mut finding = if alone {
+            told(if e { LOST } else { GAINED })
+        } else {
+            let [note, words, _] = OTHER_NUMBERS;
+            Grade::different(note, "counterexample", words)
+        };
+        finding.counterexample = Some(apart);
+        finding.assumed = assumed;
+        if alone {
+            return Some(finding);
+        }
+        let message = "the inequality holds elsewhere than it should";
+        return Some(finding.with(Diagnosis::new("INEQUALITY", message, OTHER_NUMBERS[2])));
     }
     None
+}
+
+/// Whether points are found at which one of the cases holds and others at which none does: what holds nowhere or everywhere
+/// says nothing.
+pub(super) fn says_something(cases: &Cases, domains: &Domains) -> bool {
+    let all = differences(cases.iter().flatten(), []);
+    let (domains, _) = domains.completed(&roles(&all));
+    let mut found = [false; 2];
+    for holds in inside_and_between(&all, &domains).filter_map(|sample| hold_at(cases, &sample)) {
+        found[usize::from(holds)] = true;
+        if found == [true; 2] {
+            return true;
+        }
+    }
+    false
+}
+
+/// Points of the domains, and then others moved to where two sides are equal, which takes more work.
+fn inside_and_between<'a>(
+    differences: &'a [&'a Expr],
+    domains: &'a Domains,
+) -> impl Iterator<Item = Sample> + 'a {
+    let inside = samples(&roles(differences), domains, 48);
+    let near: Vec<Sample> = inside.iter().take(NEAR).cloned().collect();
+    let between = near
+        .into_iter()
+        .flat_map(|sample| on_boundaries(&sample, differences, domains));
+    inside.into_iter().chain(between)
+}
+
+/// Whether all relations of one of the cases hold at a point: nothing where one is too near to its boundary.
+fn hold_at(cases: &Cases, sample: &Sample) -> Option<bool> {
+    let point = sample.point::<Interval>(true);
+    let truth = |system: &Vec<Normal>| {
+        let mut all = true;
+        for link in system {
+            let sign = match evaluate::<Interval>(&link.difference, &point) {
+                Outcome::Value(v) if v.high < 0.0 => Some(Ordering::Less),
+                Outcome::Value(v) if v.low > 0.0 => Some(Ordering::Greater),
+                Outcome::Undefined => None,
+                _ => {
+                    let exact = link.difference.evaluate(&sample.fractions())?;
+                    Some(exact.cmp(&ratio(0, 1)))
+                }
+            };
+            all &= holds(link.relation, sign);
+        }
+        Some(all)
+    };
+    let truths: Option<Vec<bool>> = cases.iter().map(truth).collect();
+    truths.map(|all| all.contains(&true))
 }

@@ -181,7 +181,16 @@ impl Desk<'_> {
                 Box::new(move |side| (same != 0).then(|| read::with_sign(side, same > 0)))
             }
         };
-        let sides: Option<Vec<String>> = values.split('=').map(one).collect();
+        // `v = -√(2 g h) (downwards)`: the word behind says why there is a minus, and turns nothing round once more.
+        let explains = right[values.len()..].trim_start().starts_with(['(', ','])
+            && senses.iter().any(|s| *s < 0);
+        let size = |side: &str| match side.trim().strip_prefix(['-', '−']) {
+            Some(size) if explains && !size.contains(['+', '-', '−', '±', '∓']) => {
+                size.to_owned()
+            }
+            _ => side.to_owned(),
+        };
+        let sides: Option<Vec<String>> = values.split('=').map(|side| one(&size(side))).collect();
         let name = if self.of_bodies.contains_key(&name) {
             &name
         } else {
