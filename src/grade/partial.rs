@@ -12,7 +12,7 @@ use super::{Diagnosis, fraction, number};
 use crate::algebra::Field;
 use crate::dimension::{self, Clash, Dimension};
 use crate::equality::identical as proved;
-use crate::expr::{Expr, Rational, Symbol, ratio};
+use crate::expr::{Expr, Function, Node, Rational, Symbol, ratio};
 use std::collections::BTreeSet;
 use trial::Trial;
 
@@ -51,6 +51,9 @@ pub(crate) fn diagnose(ctx: &Context, expected: &Expr, answer: &Expr) -> Vec<Dia
     if expected.is_constant() && answer.is_constant() {
         return numbers(expected, answer);
     }
+    if turned_in_degrees(answer).is_some_and(|turned| proved(expected, &turned, ctx.domains())) {
+        return vec![in_degrees()];
+    }
     found.extend(dimensions(ctx, expected, answer));
     let trial = Trial::new(ctx, expected, answer);
     if let Some(d) = trial
@@ -76,6 +79,26 @@ pub(crate) fn diagnose(ctx: &Context, expected: &Expr, answer: &Expr) -> Vec<Dia
     found
 }
 
+/// A formula whose numbers under sines, cosines and tangents count as degrees; nothing where there are none.
+fn turned_in_degrees(e: &Expr) -> Option<Expr> {
+    use Function::{Cos, Sin, Tan};
+    let degree = &Expr::pi() * &Expr::ratio(1, 180);
+    let turned = |part: &Expr| match part.node() {
+        Node::Call(f @ (Cos | Sin | Tan), angle) if angle.as_number().is_some() => {
+            Some((part.clone(), Expr::call(*f, angle * &degree)))
+        }
+        _ => None,
+    };
+    let all: Vec<(Expr, Expr)> = e.parts().filter_map(turned).collect();
+    let replaced = |e: Expr, (old, new): &(Expr, Expr)| e.replace(old, new);
+    (!all.is_empty()).then(|| all.iter().fold(e.clone(), replaced))
+}
+
+fn in_degrees() -> Diagnosis {
+    let message = "right in degrees; without their sign a number counts as radians";
+    Diagnosis::new("DEGREES", message, "in which unit is your angle?")
+}
+
 /// What is wrong with a number.
 pub(crate) fn numbers(expected: &Expr, answer: &Expr) -> Vec<Diagnosis> {
     let mut found = Vec::new();
@@ -85,9 +108,16 @@ pub(crate) fn numbers(expected: &Expr, answer: &Expr) -> Vec<Diagnosis> {
     }
     let degree = &Expr::pi() * &Expr::ratio(1, 180);
     if same_number(expected, &(answer * &degree)) {
-        let message = "right in degrees; without their sign a number counts as radians";
-        let hint = "in which unit is your angle?";
-        return vec![Diagnosis::new("DEGREES", message, hint)];
+        return vec![in_degrees()];
+    }
+    if let Some(turned) = turned_in_degrees(answer) {
+        let values = [expected, &turned].map(number::bounds);
+        if let [Some([low, high]), Some([least, most])] = values {
+            let room = (&high / &ratio(200, 1)).abs();
+            if least <= &high + &room && &low - &room <= most {
+                return vec![in_degrees()];
+            }
+        }
     }
     // An angle that is a fraction in degrees was rounded in degrees.
     let in_degrees = answer.is_arc().then(|| {
@@ -277,5 +307,20 @@ mod tests {
         assert_eq!(codes("atan(4/3)", "-53.13*pi/180"), ["SIGN"]);
         assert_eq!(codes("pi/3", "-pi/3"), ["SIGN"]);
         assert!(codes("atan(4/3)", "37*pi/180").is_empty());
+    }
+
+    #[test]
+    fn numbers_under_a_cosine_may_be_meant_in_degrees() {
+        let read = |text: &str| read_expr(text, &Symbols::strict()).expect("a formula");
+        let codes = |expected: &str, answer: &str| -> Vec<String> {
+            let found = numbers(&read(expected), &read(answer));
+            found.iter().map(|d| d.code.to_string()).collect()
+        };
+        assert_eq!(codes("10*cos(pi/6)", "10*cos(30)"), ["DEGREES"]);
+        assert_eq!(codes("-8.66", "-10*cos(30)"), ["DEGREES"]);
+        assert!(codes("8.66", "10*cos(31)").is_empty());
+        let turned = turned_in_degrees(&read("v*cos(60)")).expect("a number under a cosine");
+        assert_eq!(turned, read("v/2"));
+        assert_eq!(turned_in_degrees(&read("v*cos(theta)")), None);
     }
 }

@@ -4,6 +4,7 @@
 //! there. Friction of that size times its coefficient acts on either body against its motion over the other, and on the lower
 //! one against its motion over the floor, for as long as these last. A belt is a lower body whose velocity is held.
 
+use super::extents::{extents, stands};
 use super::rub;
 use super::strings::{across, fixed};
 use super::{Driven, Moved, Movers, REST, ROUNDING, Units, stopped, unsolved};
@@ -11,7 +12,7 @@ use crate::expr::arithmetic::{cross, dot};
 use crate::numeric::follow::mechanism::{Constraint, Goal, Mechanism, Mobile, Run, Stop};
 use crate::numeric::follow::{Course, Lost, Passed, State};
 use crate::numeric::given::Freedom;
-use crate::scene::{Carrier, Shape, Slide, SlideEnd};
+use crate::scene::{Carrier, Slide, SlideEnd};
 
 const PLAIN: Units = Units {
     length: 1.0,
@@ -240,6 +241,9 @@ pub(super) fn carried(
     if is_still && !is_together {
         return Err(course.contradiction("it does not slide over the body below"));
     }
+    if !is_together {
+        stands(course, slide, &before)?;
+    }
     let time = match &slide.until {
         SlideEnd::Distance(s) => {
             let s = course.number(s, "distance")?;
@@ -313,16 +317,10 @@ fn overhangs(
     else {
         return Ok(false);
     };
-    let is_along = cross(&[angle.cos(), angle.sin()], &along).abs() < ROUNDING;
-    let is_across = dot(&[angle.cos(), angle.sin()], &along).abs() < ROUNDING;
-    let long = match &course.stage.scene.bodies[below.body].shape {
-        Shape::Rectangle { width, .. } if is_along => width,
-        Shape::Rectangle { height, .. } if is_across => height,
-        Shape::Rod { length } if is_along => length,
-        _ => return Ok(false),
+    let Some([long, _]) = extents(course, below.body, *angle, along)? else {
+        return Ok(false);
     };
-    let half = course.number(long, "length")? / 2.0;
-    Ok(dot(&[x - u, y - v], &along).abs() > half * (1.0 + ROUNDING))
+    Ok(dot(&[x - u, y - v], &along).abs() > long / 2.0 * (1.0 + ROUNDING))
 }
 
 /// Both begin to move along the line without turning, each with its company.

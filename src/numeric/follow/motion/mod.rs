@@ -5,6 +5,7 @@
 //! rotation, end and time come from the motion itself.
 
 mod carried;
+mod extents;
 mod fall;
 mod linkage;
 mod slide;

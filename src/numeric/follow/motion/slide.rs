@@ -4,6 +4,7 @@
 //! times its coefficient acts at the point of contact against the way this point moves, for as long as it moves.
 
 use super::carried::carried;
+use super::extents::stands;
 use super::strings::{Ropes, across, fixed};
 use super::{Driven, Moved, Movers, REST, ROUNDING, Units, all_open, rub, stopped, unsolved};
 use crate::expr::arithmetic::{cross, dot};
@@ -116,6 +117,7 @@ pub(in crate::numeric::follow) fn slide(
     let turns = acting.contact.is_some();
     fits(course, (&movers, company), &acting, &size)?;
     ropes.fits(course, &movers, speed, size.speed)?;
+    stands(course, slide, &before)?;
     let units = Units {
         length: size.length,
         time: size.time,

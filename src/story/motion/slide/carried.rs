@@ -8,10 +8,11 @@ use super::super::supposed::Supposed;
 use super::super::{half, kept, meanwhile, tidied};
 use super::begins::fits_line;
 use super::line::{directed, proved};
+use super::{extents, stands};
 use crate::answer::calc::is_zero;
 use crate::expr::{Expr, dot};
 use crate::formula::write_plain;
-use crate::scene::{Body, Carrier, Shape, Slide, SlideEnd, Stage};
+use crate::scene::{Body, Carrier, Slide, SlideEnd, Stage};
 use crate::story::{Kept, Refused, StageTold, State, Step};
 
 /// The upper body and the lower one, each with what moves along with it; velocities and forces along the line.
@@ -62,6 +63,10 @@ pub(super) fn carried<'a>(
         }
     };
     let speeds_after = [0, 1].map(|i| &pair.speeds[i] + &(&pair.accelerations[i] * &time));
+    let slid = !time.is_zero();
+    if slid {
+        stands(stage, &before, slide, &mut pair.supposed)?;
+    }
     let mut after = before.clone();
     let mut works = Vec::new();
     let mut ends = Vec::new();
@@ -88,7 +93,6 @@ pub(super) fn carried<'a>(
         spins = [round.spin.clone(), spin];
     }
     pair.told(&ends, &spins[1], &mut steps);
-    let slid = !time.is_zero();
     if !slid {
         // No force has changed anything.
         steps.retain(|step| step.letter == "v");
@@ -442,18 +446,11 @@ impl<'a> Pair<'a> {
     /// the line.
     fn stays_on(&mut self, ends: [&State; 2]) -> Result<(), Refused> {
         let (upper, lower) = (self.slide.body, self.below.body);
-        let [turn, along] = [&ends[0].angle[lower], &self.slide.along[0]];
-        let axis = &(turn.cos() * along) + &(turn.sin() * &self.slide.along[1]);
-        let axis = self.tidied(&axis)?;
-        let is_along = is_zero(&(axis.powi(2) - Expr::one()), &self.stage.scene.domains);
-        let long = match &self.stage.scene.bodies[lower].shape {
-            Shape::Rectangle { width, .. } if is_along == Some(true) => width,
-            Shape::Rectangle { height, .. } if axis.is_zero() => height,
-            Shape::Rod { length } if is_along == Some(true) => length,
-            _ => return Ok(()),
+        let Some([long, _]) = extents(self.stage, ends[0], lower, &self.slide.along)? else {
+            return Ok(());
         };
         let all = [upper, lower].into_iter().flat_map(|b| &ends[0].center[b]);
-        if ends[0].why_open(all.chain([turn])).is_some() {
+        if ends[0].why_open(all).is_some() {
             return Ok(());
         }
         let below = self.name(lower);
@@ -470,7 +467,7 @@ impl<'a> Pair<'a> {
         for (state, (stays, off)) in ends.into_iter().zip(&words) {
             let [from, to] = [lower, upper].map(|b| dot(&state.center[b], &self.slide.along));
             for way in [1, -1] {
-                let room = half(long) - Expr::from(way) * (&to - &from);
+                let room = half(&long) - Expr::from(way) * (&to - &from);
                 self.needs(&self.tidied(&room)?, off, stays, upper)?;
             }
         }

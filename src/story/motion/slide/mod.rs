@@ -12,12 +12,12 @@ mod course;
 mod line;
 
 use super::supposed::Supposed;
-use super::{half, meanwhile};
+use super::{half, meanwhile, tidied};
 use crate::algebra::Sign;
-use crate::answer::calc::{Seen, sign};
+use crate::answer::calc::{Seen, is_zero, sign};
 use crate::expr::{Expr, Vector};
 use crate::formula::sentence;
-use crate::scene::{Scene, Slide, SlideEnd, Stage};
+use crate::scene::{Scene, Shape, Slide, SlideEnd, Stage};
 use crate::story::{Refused, StageTold, State};
 use line::Course;
 use line::Line;
@@ -58,6 +58,7 @@ pub(in crate::story) fn slide(
         steps.clear();
     }
     line.held(&limits, &mut supposed)?;
+    stands(stage, &before, slide, &mut supposed)?;
     line.fastened(&course, &mut supposed)?;
     begins::rims(&line, &before)?;
     if let ([string], true) = (line.strings.as_slice(), is_driven) {
@@ -109,6 +110,58 @@ pub(in crate::story) fn support(scene: &Scene, slide: &Slide, acceleration: &Exp
     let up = weight.map_or_else(Expr::zero, |g| &mass * g);
     let [x, y] = &slide.along;
     [&along * x, &(&along * y) + &up]
+}
+
+/// Supposes that friction at its base does not tip a box over: to balance the moment μ N H of the friction, the force N that
+/// presses the box on the surface moves by μ H towards the front edge, H being the height of its center, and has to stay under
+/// the box.
+fn stands(
+    stage: &Stage,
+    before: &State,
+    slide: &Slide,
+    supposed: &mut Supposed<'_>,
+) -> Result<(), Refused> {
+    let body = &stage.scene.bodies[slide.body];
+    let is_box = matches!(body.shape, Shape::Rectangle { .. });
+    let Some(mu) = (slide.friction.as_ref())
+        .filter(|_| is_box && !slide.level && slide.gravity.is_some() && slide.with.is_empty())
+    else {
+        return Ok(());
+    };
+    let Some([long, high]) = extents(stage, before, slide.body, &slide.along)? else {
+        return Ok(());
+    };
+    let room = tidied(stage, &(&long - &(mu * &high)))?;
+    supposed.not_negative(&room, format!("`{}` does not tip over", body.name), || {
+        let hint = "let it turn about its front edge instead";
+        Refused::new(&stage.name, format!("`{}` tips over", body.name), hint)
+    })
+}
+
+/// How long a box or a rod is along a line, and how high across it; nothing where no side of it is known to lie along the line.
+fn extents(
+    stage: &Stage,
+    before: &State,
+    body: usize,
+    along: &Vector,
+) -> Result<Option<[Expr; 2]>, Refused> {
+    let turn = &before.angle[body];
+    if before.why_open([turn]).is_some() {
+        return Ok(None);
+    }
+    let axis = tidied(
+        stage,
+        &(&(turn.cos() * &along[0]) + &(turn.sin() * &along[1])),
+    )?;
+    let is_along = is_zero(&(axis.powi(2) - Expr::one()), &stage.scene.domains) == Some(true);
+    Ok(match &stage.scene.bodies[body].shape {
+        Shape::Rectangle { width, height } if is_along => Some([width.clone(), height.clone()]),
+        Shape::Rectangle { width, height } if axis.is_zero() => {
+            Some([height.clone(), width.clone()])
+        }
+        Shape::Rod { length } if is_along => Some([length.clone(), Expr::zero()]),
+        _ => None,
+    })
 }
 
 /// The bodies that move along one line each, with their directions.
