@@ -16,7 +16,7 @@ use super::{half, meanwhile, tidied};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, is_zero, sign};
 use crate::expr::{Expr, Vector};
-use crate::formula::sentence;
+use crate::formula::{listed, sentence};
 use crate::scene::{Scene, Shape, Slide, SlideEnd, Stage};
 use crate::story::{Refused, StageTold, State};
 use line::Course;
@@ -200,7 +200,8 @@ impl Line<'_> {
         Ok(())
     }
 
-    /// Tells that a spring which pushes the body on is fastened to it, where that goes farther than the spring is pressed.
+    /// Tells that a spring which pushes the body on is fastened to it, and what moves with it as well, where that goes farther
+    /// than the spring is pressed.
     fn fastened(&self, course: &Course, supposed: &mut Supposed<'_>) -> Result<(), Refused> {
         let Some(spring) = &self.slide.spring else {
             return Ok(());
@@ -216,6 +217,15 @@ impl Line<'_> {
                 self.name(),
                 &spring.relaxed
             ));
+            let riders = self.slide.with.iter();
+            let riders: Vec<String> = riders
+                .map(|b| format!("`{}`", self.stage.scene.bodies[*b].name))
+                .collect();
+            if !riders.is_empty() {
+                let is = if riders.len() == 1 { "is" } else { "are" };
+                let words = format!("{} {is} fastened to `{}` too", listed(&riders), self.name());
+                supposed.words.push(words.into());
+            }
         }
         Ok(())
     }
