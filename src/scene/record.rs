@@ -11,6 +11,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use super::fault::{Fault, Span, far};
 use super::json::{Entry, Node, Value};
 use super::meant::{self, meant};
+use crate::expr::only;
 use crate::formula::near::nearest;
 
 /// What can be read from a JSON value.
@@ -283,7 +284,9 @@ pub(super) fn fields<'n, 't>(
         let is_known = is_known(entry);
         if !is_known {
             let fault = Fault::new(entry.key_span, format!("unknown field `{}`", entry.key));
-            let near = || nearest(&entry.key, names()).map(|n| format!("did you mean `{n}`?"));
+            let cut_short = || only(names().filter(|name| is_cut_short(&entry.key, name)));
+            let near = || nearest(&entry.key, names()).or_else(cut_short);
+            let near = || near().map(|name| format!("did you mean `{name}`?"));
             // A scene has these in its figure, and means those of an impact.
             let held = matches!(&*entry.key, "supports" | "strings");
             let further = || further_in(&entry.key, known, &present);
@@ -298,6 +301,11 @@ pub(super) fn fields<'n, 't>(
         is_known
     });
     Some(entries)
+}
+
+/// Whether a word is the beginning of a name, such as `grav` of `gravity`.
+fn is_cut_short(word: &str, name: &str) -> bool {
+    word.len() > 2 && name.starts_with(word)
 }
 
 /// Where a field stands that was written one level too far out: in those fields that are there, if they have it.
