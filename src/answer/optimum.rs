@@ -6,7 +6,9 @@
 
 use std::collections::BTreeMap;
 
-use super::calc::{Seen, by_signs, constant, essential, has_root, is_zero, sign, square, tidy};
+use super::calc::{
+    Seen, above_zero, by_signs, constant, essential, has_root, is_zero, sign, square, tidy,
+};
 use super::solve::{Root, Unsolved, end_of, solve, stated};
 use super::{Answer, Check, Form, ROOT, Refused, threshold};
 use crate::algebra::Sign;
@@ -310,6 +312,7 @@ fn bounded(
         }
     };
     let value = search.at(&place, f)?;
+    out.assumptions.extend(search.breaks(&place, &value));
     let there = BTreeMap::from([(p.clone(), place.clone())]);
     let raw = tidy_under_roots(&f.substitute(&there), domains);
     out.put_in.push((raw, value.clone(), "the value there"));
@@ -440,6 +443,33 @@ impl Search<'_> {
             false => sentence!("it falls as {} grows: the {} value is {}", p, best, bound),
         });
         Ok(Some(value))
+    }
+
+    /// That another symbol is not at the end of its domain where the value at a place is no longer what it is elsewhere: of
+    /// cos θ/(cos θ + e sin θ) at θ = π/2, 0, that is e > 0.
+    fn breaks(&self, place: &Expr, value: &Expr) -> Vec<Sentence> {
+        let others = self.f.symbols().into_iter().filter(|s| s != self.p);
+        let ends = others.flat_map(|symbol| {
+            let domain = self.domains.of_symbol(&symbol);
+            let ends = [(domain.low, true), (domain.high, false)];
+            ends.map(|(end, is_low)| (symbol.clone(), end, is_low))
+        });
+        ends.filter_map(|(symbol, end, is_low)| {
+            let end = end.filter(|end| !end.open && !end.of_pi)?.expr();
+            let [here, place, value] = [self.f, place, value].map(|e| {
+                let there = e.put(&symbol, &end);
+                tidy(&there, self.domains).ok()
+            });
+            let here = here.and_then(|f| tidy(&f.put(self.p, &place?), self.domains).ok());
+            let goes_on = matches!((here, value), (Some(here), Some(value))
+                if is_zero(&(&here - &value), self.domains) != Some(false));
+            let inside = match is_low {
+                true => Expr::symbol(&symbol) - end,
+                false => end - Expr::symbol(&symbol),
+            };
+            (!goes_on).then(|| above_zero(&inside, self.domains))
+        })
+        .collect()
     }
 
     /// That a value is reached or approached at an end of the interval, in words.

@@ -184,14 +184,20 @@ fn unreal(
     }
 }
 
-/// Whether a relation is proved to hold on a whole domain, or nowhere on it.
+/// Whether a relation is proved to hold on a whole domain, or nowhere on it. A motion may as well not come to its end there; on a
+/// domain that is empty everything would be proved.
 fn holds_there(gap: &Expr, relation: Relation, domains: &Domains) -> Option<bool> {
+    let mut domains = domains.clone();
+    let is_ending = |origin: &Origin| matches!(origin, Origin::Ending(_));
+    domains.relations.retain(|r| !is_ending(&r.origin));
     let turned = match relation.is_below() {
         true => -gap,
         false => gap.clone(),
     };
     let strict = matches!(relation, Relation::Less | Relation::Greater);
-    keeps_to(&turned, !strict, domains)
+    let holds = keeps_to(&turned, !strict, &domains)?;
+    let fails = keeps_to(&-turned, strict, &domains) == Some(true);
+    (!(holds && fails)).then_some(holds)
 }
 
 /// That a relation holds for every value of a parameter or for none, where something is positive, or not negative.

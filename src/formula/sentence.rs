@@ -90,9 +90,17 @@ impl Sentence {
         })
     }
 
-    /// Whether it tells a condition at all, needed or partial.
+    /// Whether it says in words alone what a motion needs between its ends: "it does not come to rest while φ changes".
+    pub fn is_of_the_way(&self) -> bool {
+        self.0.iter().any(|piece| match piece {
+            Piece::Words(words) => words.contains("does not come to rest "),
+            Piece::Formula(_) => false,
+        })
+    }
+
+    /// Whether it tells a condition at all, needed or partial, in a formula or in words.
     pub fn is_condition(&self) -> bool {
-        self.is_partial() || self.stated().next().is_some()
+        self.is_partial() || self.is_of_the_way() || self.stated().next().is_some()
     }
 
     /// All conditions that it begins with, joined by "and", whether they are needed or not.

@@ -252,6 +252,15 @@ impl Asked<'_, '_> {
             return self.unfit("a body keeps its angle in an impact", hint);
         }
         let body = self.base.moving(self.subject)?;
+        if self.stage.turn.is_none() && self.stage.linkage.is_none() && self.base.is_particle(body)
+        {
+            let message = format!(
+                "the particle `{}` has no angle of its own",
+                self.subject.text
+            );
+            let hint = "that of its path is asked as `direction`";
+            return self.unfit(&message, hint);
+        }
         let clockwise = self.clockwise();
         Some(Ask::Angle { body, clockwise })
     }

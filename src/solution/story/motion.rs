@@ -216,7 +216,12 @@ impl Page<'_> {
         let mut sought: Vec<Letter> = Vec::new();
         for answer in self.answered(told) {
             let why = match self.ask(answer) {
-                Some(Ask::Velocity { point: None, .. }) if !to_rest => "the velocity at the end",
+                Some(Ask::Velocity { point: None, .. }) if !to_rest => {
+                    match self.is_whole(told, answer) {
+                        true => "the velocity at the end",
+                        false => continue,
+                    }
+                }
                 Some(Ask::Spin { .. }) if !to_rest => "the angular velocity at the end",
                 Some(Ask::Distance) if to_rest => "the distance covered",
                 _ => continue,
@@ -228,6 +233,25 @@ impl Page<'_> {
         }
         letters.extend(speed);
         self.meant(letters);
+    }
+
+    /// Whether the velocity that an answer gives is the whole of it, up to its sign, and no component across the motion.
+    fn is_whole(&self, told: &StageTold, answer: &Answer) -> bool {
+        let (Some(Ask::Velocity { body, .. }), Some(component)) =
+            (self.ask(answer), answer.formula())
+        else {
+            return false;
+        };
+        let velocity = &told.after.velocity[*body];
+        tidied(self.scene, &(dot(velocity, velocity) - component.powi(2))).is_zero()
+    }
+
+    /// Whether no more is asked of a motion than components of a velocity that its speed does not give at once.
+    fn asks_components(&self, told: &StageTold) -> bool {
+        self.answered(told).all(|answer| {
+            let is_velocity = matches!(self.ask(answer), Some(Ask::Velocity { point: None, .. }));
+            is_velocity && !self.is_whole(told, answer)
+        })
     }
 
     /// The answer of a stage to a question of this kind.
@@ -349,7 +373,8 @@ impl Page<'_> {
         let (letter, inertia) = match &stage.kind {
             StageKind::Slide(slide) => {
                 let spins = !told.after.spin[slide.body].is_zero();
-                if asks(|_| true) || spins || !goes_on || end.is_zero() {
+                let needed = goes_on || asks(|_| true);
+                if !self.asks_components(told) || spins || !needed || end.is_zero() {
                     return None;
                 }
                 // What strings tie to it moves, and turns, in a fixed ratio to it.
@@ -359,7 +384,7 @@ impl Page<'_> {
             }
             StageKind::Fall(fall) => {
                 let spins = !told.after.spin[fall.body].is_zero();
-                if asks(|_| true) || spins || fall.bodies().len() > 1 {
+                if !self.asks_components(told) || spins || fall.bodies().len() > 1 {
                     return None;
                 }
                 let mass = &stage.scene.bodies[fall.body].mass;

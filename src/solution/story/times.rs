@@ -1,6 +1,7 @@
 //! The time of a motion that is asked for, from its way and how fast it goes.
 
 use super::Page;
+use crate::answer::Answer;
 use crate::expr::{Expr, dot};
 use crate::scene::{Ask, Slide, SlideEnd, Turn, Until};
 use crate::solution::neat::{alike, tidied};
@@ -55,15 +56,20 @@ impl Page<'_> {
         let speeds = [&told.before, &told.after];
         let speeds =
             speeds.map(|s| tidied(self.scene, &dot(&s.velocity[slide.body], &slide.along)));
-        // A speed that is found goes by its name.
+        // A speed of the body that is found goes by its name.
+        let is_own = |a: &&Answer| match self.ask(a) {
+            Some(Ask::Velocity { body, .. }) => *body == slide.body,
+            _ => false,
+        };
         let named = speeds.each_ref().map(|speed| {
-            let mut found = self.told.answers.iter();
-            let found = found.find(|a| a.told.is_some() && a.formula() == Some(speed));
+            let mut found = self.told.answers.iter().filter(is_own);
+            let is_it = |a: &&Answer| a.told.is_some() && a.formula() == Some(speed);
+            let found = found.find(|a| !speed.is_constant() && is_it(a));
             found.map_or(speed.clone(), |a| Expr::symbol(&a.name))
         });
-        let of = |speeds: [Expr; 2]| tidied(self.scene, &(Expr::ratio(1, 2) * Expr::sum(speeds)));
-        let during = of(named) * &t;
-        let mean = of(speeds);
+        let half = Expr::ratio(1, 2);
+        let during = &half * Expr::sum(named) * &t;
+        let mean = tidied(self.scene, &(half * Expr::sum(speeds)));
         let math = words::related(way, "=", &during);
         let line = self.claimed(
             math,

@@ -303,7 +303,7 @@ fn leading(led: Led<'_>, question: &Question) -> BTreeSet<usize> {
     leading.collect()
 }
 
-/// Lets an answer about formulas tell what the motions before need where they lead over a highest place.
+/// Lets an answer about formulas tell what the motions before need on their way, such as over a highest place.
 pub(super) fn on_the_way(led: Led<'_>, question: &Question, answer: &mut Answer) {
     for q in used(&led.scene.questions, question) {
         if !q.ask.formulas().is_empty() {
@@ -311,7 +311,8 @@ pub(super) fn on_the_way(led: Led<'_>, question: &Question, answer: &mut Answer)
         }
         let leading = leading(led, q).into_iter();
         let all = leading.flat_map(|i| &led.stages[i].assumptions);
-        besides(answer, all.filter(|words| words.is_partial()));
+        let is_told = |words: &&Sentence| words.is_partial() || words.is_of_the_way();
+        besides(answer, all.filter(is_told));
     }
 }
 
@@ -425,7 +426,8 @@ pub(in crate::story) fn tell(scene: &Scene, ask: &Ask, needs: &[Need], answer: &
         _ => [].iter(),
     };
     let place = place.map(|(of, _, value)| Some((of.as_symbol()?.clone(), value.clone())));
-    let mut place: Known = place.flatten().collect();
+    let best: Known = place.flatten().collect();
+    let mut place = best.clone();
     if let Ask::Limit {
         parameter,
         to: Some(to),
@@ -434,8 +436,14 @@ pub(in crate::story) fn tell(scene: &Scene, ask: &Ask, needs: &[Need], answer: &
     {
         place.insert(parameter.clone(), to.clone());
     }
+    // What others say elsewhere than at the place of a largest value grants nothing there, and what is sought is not granted.
+    let is_sought = |n: &Need| match ask {
+        Ask::Condition { parameter, .. } => n.relation.excess.mentions(parameter),
+        _ => false,
+    };
     let besides = |need: &Need, all: &[Need]| {
-        let others: Vec<Need> = all.iter().filter(|n| *n != need).cloned().collect();
+        let others = all.iter().filter(|n| *n != need && !is_sought(n));
+        let others: Vec<Need> = others.map(|n| n.put(&best, &scene.domains)).collect();
         part(scene, &others).domains
     };
     let mut left = needs.to_vec();
