@@ -21,13 +21,16 @@ pub struct Worked {
     pub scene: Scene,
     /// Its stages, or its one impact, told.
     pub told: Told,
+    /// That its law of friction makes energy at the values given, where it does.
+    pub gain: Option<String>,
 }
 
 /// Works a scene out; the words say why it cannot be.
 pub fn out(scene: &Scene) -> Result<Worked, String> {
+    let gain = verify::friction::gain(scene);
     let scene = verify::friction::settled(scene)?;
     let told = story::tell(&scene).map_err(|reason| reason.to_string())?;
-    Ok(Worked { scene, told })
+    Ok(Worked { scene, told, gain })
 }
 
 /// The same, with every case that friction leaves: they are told as outcomes of one stage.
@@ -42,6 +45,7 @@ pub fn in_cases(scene: &Scene) -> Result<Worked, String> {
 /// Its stages alone, up to one where it is named, for pictures: nothing is answered, and nothing checked beyond what telling
 /// them takes.
 pub fn to_draw(scene: &Scene, last: Option<&str>) -> Result<Worked, String> {
+    let gain = verify::friction::gain(scene);
     let mut scene = verify::friction::settled(scene)?;
     if let Some(last) = scene
         .stages
@@ -53,14 +57,19 @@ pub fn to_draw(scene: &Scene, last: Option<&str>) -> Result<Worked, String> {
         scene.questions.retain(is_told);
     }
     let told = story::course(&scene).map_err(|reason| reason.to_string())?;
-    Ok(Worked { scene, told })
+    Ok(Worked { scene, told, gain })
 }
 
 /// The first case of an impact whose friction no values settle, to be drawn where that case holds.
 pub fn first_case(scene: &Scene) -> Option<Scene> {
     let scene = scene.staged(IMPACT);
     let told = story::course(&scene).ok()?;
-    let mut chapters = Worked { scene, told }.chapters().into_iter();
+    let worked = Worked {
+        scene,
+        told,
+        gain: None,
+    };
+    let mut chapters = worked.chapters().into_iter();
     chapters.find_map(|(_, chapter)| match chapter {
         Chapter::Impact(impact) => Some(impact),
         _ => None,
@@ -152,6 +161,9 @@ impl Worked {
         let mut solution = solution::write(&self.scene, &self.told, detail);
         for why in self.refusals() {
             solution.begin_with(&format!("{why}."));
+        }
+        if let Some(gain) = &self.gain {
+            solution.end_with(&self.scene, &format!("Note that {gain}."));
         }
         for what in self.undecided() {
             solution.end_with(&self.scene, &format!("Not judged: {what}."));

@@ -540,7 +540,7 @@ impl Search<'_> {
         if let Some((end, _)) = ends.iter().flatten().find(|end| is_pole(end)) {
             let end = write_plain(end);
             return Err(self.refused(format!(
-                "near {p} = {end}, which its range excludes, the value grows or falls beyond all bounds"
+                "at {p} = {end}, which its range excludes, it divides by zero, and what it comes to near that is not compared"
             )));
         }
         let [Some(low), Some(high)] = ends else {

@@ -7,7 +7,7 @@ mod angle;
 
 use num_integer::{Integer, Roots as _};
 
-use super::calc::{Seen, decisive, essential, in_bars, is_zero, seen, sign, tidy};
+use super::calc::{Seen, decisive, essential, has_both_signs, in_bars, is_zero, seen, sign, tidy};
 use crate::algebra::{self, Element, Field, Powers, Sign, Stop};
 use crate::domain::{Domain, Domains, Origin, Relation};
 use crate::expr::{Expr, Function, Node, Symbol};
@@ -442,14 +442,17 @@ pub(super) fn placed(
         let end = limit.expr();
         let gap = if is_low { value - &end } else { &end - value };
         let seen = sign(&gap, &domains);
+        // Where a small domain is left, points of it may all lie beyond the other end.
+        let between = seen == Seen::Negative && domains != *whole && has_both_signs(&gap, whole);
         let outside = match seen {
-            Seen::Proved(Sign::Negative | Sign::NotPositive) | Seen::Negative => true,
+            Seen::Proved(Sign::Negative | Sign::NotPositive) => true,
+            Seen::Negative => !between,
             Seen::Proved(Sign::Zero) => limit.open,
             _ => false,
         };
         // At a bound of what it is made of it may be an end that does not belong to the domain.
         let at_end = seen == Seen::Proved(Sign::NotNegative) && limit.open;
-        if seen == Seen::Mixed || at_end {
+        if seen == Seen::Mixed || between || at_end {
             for need in each_decisive(&gap, &domains, limit.open) {
                 let closed = !limit.open && !divides(&need, value, &domains);
                 domains = domains.given(&need, closed);

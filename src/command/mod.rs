@@ -151,8 +151,11 @@ fn solve_impact(scene: &Scene, numbers: Numbers, format: Format) -> Result<Outpu
         }
     };
     let refusals = refusals(&scene.staged(worked::IMPACT));
+    let gain = verify::friction::gain(scene).map_or_else(String::new, |gain| gain + "\n");
     let text = match format {
-        Format::Text => render::text::refused(&refusals) + &render::text::numbers(scene, &found),
+        Format::Text => {
+            render::text::refused(&refusals) + &gain + &render::text::numbers(scene, &found)
+        }
         Format::Json => versioned(&render::json::refused(
             render::json::numbers(scene, &found),
             &refusals,

@@ -218,10 +218,7 @@ fn verdict(table: &Table, judged: &Judged) -> Option<String> {
         ));
     }
     if let Some(values) = &judged.at_values {
-        words.push(format!(
-            "at the values of the scene the impact {}",
-            values.energy_words(table.law.hypothesis.name())
-        ));
+        words.push(values.told(table.law.hypothesis.name()));
         if values.jams {
             words.push(String::from(
                 "and the contact jams: the normal velocity does not grow while it slips",

@@ -70,19 +70,27 @@ pub struct AtValues {
     pub jams: bool,
 }
 
+/// A share of the energy that is rounding, and no gain.
+const ROUNDING: f64 = 1e-11;
+
 impl AtValues {
+    /// The same of the impact of a scene, as a sentence.
+    pub fn told(&self, law: &str) -> String {
+        let energy = self.energy_words(law);
+        format!("at the values of the scene the impact {energy}")
+    }
+
     /// What the energy says of the law, in words.
     pub fn energy_words(&self, law: &str) -> String {
         let share = 100.0 * self.gain / self.energy_before;
-        // A share of rounding is no gain.
         if self.energy_before <= 0.0 {
             return String::from("nothing moves");
         }
-        if share > 1e-9 {
+        if share > 100.0 * ROUNDING {
             format!(
                 "gains {share:.1} % of the energy: {law}'s hypothesis does not fit friction here"
             )
-        } else if share < -1e-9 {
+        } else if share < -100.0 * ROUNDING {
             format!("loses {:.1} % of the energy", -share)
         } else {
             String::from("keeps the energy")
@@ -307,6 +315,13 @@ fn stated(bound: &Bound, at: &Point<Rational>) -> Option<bool> {
 
 fn satisfied(sign: std::cmp::Ordering, when: &When) -> bool {
     sign.is_gt() || !when.strict && sign.is_eq()
+}
+
+/// That the law of friction of a scene makes energy at its values; nothing where it does not, or values are missing.
+pub fn gain(scene: &Scene) -> Option<String> {
+    let (_, law) = scene.friction()?;
+    let values = at_values(scene).filter(|v| v.gain > ROUNDING * v.energy_before)?;
+    Some(values.told(law.hypothesis.name()))
 }
 
 /// The impact at the values of the scene.
