@@ -340,7 +340,8 @@ impl Work<'_> {
             (None, None) if with.is_empty() => self.dimension_of_value(formula, &value)?,
             (None, None) => Dimension::none(),
         };
-        out.assumptions.extend(self.divided_by(&value));
+        out.assumptions
+            .extend(divided_by(&value, &self.scene.domains, true));
         let raw = self.raw(formula, with);
         let substituted = raw.substitute(self.known);
         out.checks.push(self.same(&substituted, &value));
@@ -348,25 +349,6 @@ impl Work<'_> {
         out.form = Form::value(value);
         out.text.extend(with_words(with));
         Ok(out)
-    }
-
-    /// What a value divides by and what is known, or was seen, to vanish somewhere on the domain.
-    fn divided_by(&self, value: &Expr) -> Vec<Sentence> {
-        let domains = &self.scene.domains;
-        let below = value.parts().filter_map(Expr::divides_by);
-        let below = below.map(|(base, _)| base);
-        let vanishes = below.filter(|base| match sign(base, domains) {
-            Seen::Proved(sign) => !matches!(sign, Sign::Positive | Sign::Negative),
-            Seen::Positive | Seen::Negative => false,
-            Seen::Mixed => true,
-        });
-        let mut out: Vec<Sentence> = Vec::new();
-        for condition in vanishes.filter_map(|base| not_zero(base, domains)) {
-            if !out.contains(&condition) {
-                out.push(condition);
-            }
-        }
-        out
     }
 
     /// That a result is the formula with the other results in it.
@@ -639,4 +621,23 @@ fn with_words(with: &[(Symbol, Expr)]) -> Vec<Sentence> {
     with.iter()
         .map(|(s, v)| sentence!("taken at {} = {}", s, v))
         .collect()
+}
+
+/// What a value divides by and what is known to vanish at an end of the domain; with `inside` also what was seen to vanish within.
+pub fn divided_by(value: &Expr, domains: &Domains, inside: bool) -> Vec<Sentence> {
+    let below = value.parts().filter_map(Expr::divides_by);
+    let vanishes = below
+        .map(|(base, _)| base)
+        .filter(|base| match sign(base, domains) {
+            Seen::Proved(sign) => !matches!(sign, Sign::Positive | Sign::Negative),
+            Seen::Positive | Seen::Negative => false,
+            Seen::Mixed => inside,
+        });
+    let mut out: Vec<Sentence> = Vec::new();
+    for condition in vanishes.filter_map(|base| not_zero(base, domains)) {
+        if !out.contains(&condition) {
+            out.push(condition);
+        }
+    }
+    out
 }

@@ -24,7 +24,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 pub use dimensions::dimension_of;
-pub use formulas::{LONGEST, about, formulas, no_coefficient, remember};
+pub use formulas::{LONGEST, about, divided_by, formulas, no_coefficient, remember};
 pub use graph::{Curve, Graph, graphs};
 
 use crate::algebra::Sign;

@@ -6,7 +6,7 @@
 use num_traits::{Signed, Zero};
 
 use super::ROOT;
-use super::calc::{Seen, essential, sign, tidy};
+use super::calc::{Seen, above_zero, essential, sign, tidy};
 use crate::algebra::{Element, Field, Sign};
 use crate::domain::{Domain, Domains};
 use crate::expr::{Expr, Node, Rational, Symbol};
@@ -181,6 +181,8 @@ fn lowest(field: &mut Field, e: &Element) -> Option<(usize, Expr)> {
 pub(super) fn not_zero(e: &Expr, domains: &Domains) -> Option<Sentence> {
     match sign(e, domains) {
         Seen::Proved(Sign::Positive | Sign::Negative) => None,
+        Seen::Proved(Sign::NotNegative) => Some(above_zero(e, domains)),
+        Seen::Proved(Sign::NotPositive) => Some(above_zero(&-e, domains)),
         _ => Some(sentence!("{} ≠ 0", &essential(e, domains))),
     }
 }

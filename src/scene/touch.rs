@@ -13,7 +13,7 @@ use super::outline::{Need, Piece, Spot, distance, pieces};
 use super::{Body, Contact, ContactLaw, Scene, Shape};
 use crate::algebra::{Sign, sign};
 use crate::domain::{Domains, roles, samples};
-use crate::expr::{Expr, Point, Symbol, Vector, minus};
+use crate::expr::{Expr, Point, Symbol, Vector, dot, minus};
 
 /// A contact, a blow or a hinge that does not lie on one of its bodies.
 #[derive(Clone, Debug, PartialEq)]
@@ -172,12 +172,32 @@ pub fn spots(body: &Body, at: &Vector, inside: bool) -> Vec<Spot> {
     pieces.iter().flat_map(|p| p.spots(at, inside)).collect()
 }
 
-/// What is below zero where a point lies too far to one side for a body that is round: r² − x² and r² − y².
+/// What is below zero where a point lies too far from a body of one piece: for one that is round r² − x² and r² − y², for others
+/// the square of what it reaches from its middle, less that of the distance.
 pub fn reach(body: &Body, at: &Vector) -> Vec<Expr> {
+    let around = |middle: &Vector, reach: Expr| {
+        let to = minus(at, middle);
+        vec![reach - dot(&to, &to)]
+    };
     match pieces(body).as_slice() {
         [Piece::Round { center, radius, .. }] => minus(at, center)
             .map(|part| radius.powi(2) - part.powi(2))
             .to_vec(),
+        [
+            Piece::Straight {
+                middle,
+                half,
+                square,
+                ..
+            },
+        ] => around(middle, half.powi(2) * square),
+        [
+            Piece::Rectangle {
+                middle,
+                half: [a, b],
+                ..
+            },
+        ] => around(middle, a.powi(2) + b.powi(2)),
         _ => Vec::new(),
     }
 }

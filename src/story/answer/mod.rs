@@ -80,6 +80,7 @@ pub(super) fn all(scene: &Scene, mut stages: Vec<StageTold>) -> Result<Told, Ref
             new.iter_mut().for_each(|a| {
                 reached::led_to(&stages, a);
                 say_what_is_missing(a);
+                say_what_it_divides_by(scene, a);
             });
             worlds::remember(&mut worlds, &new);
             if let (Ask::Friction { .. }, [only]) = (&question.ask, new.as_slice()) {
@@ -176,6 +177,19 @@ fn say_what_is_missing(answer: &mut Answer) {
         let hint = "`after` may say what is known just after, along x and along y";
         answer.text.push(hint.into());
     }
+}
+
+/// Lets an answer tell that what it divides by does not vanish at an end of the domain, where nothing that it rests on says so.
+fn say_what_it_divides_by(scene: &Scene, answer: &mut Answer) {
+    let Some(value) = answer.formula() else {
+        return;
+    };
+    let told = answer.assumptions.iter().flat_map(Sentence::conditions);
+    let domains = told.fold(scene.domains.clone(), |domains, (e, is_strict)| {
+        domains.given(&e, !is_strict)
+    });
+    let divided_by = answer::divided_by(value, &domains, false);
+    answer.assumptions.extend(divided_by);
 }
 
 /// An answer that has no value, and why.

@@ -457,7 +457,9 @@ impl Judge<'_> {
             }
             let at_values = self.values.knows(e).then_some(true);
             let verdict = match decided.verdict {
-                Verdict::Undecided if at_values.is_none() && is_out_of_reach() => Verdict::Nowhere,
+                Verdict::Undecided | Verdict::Where if at_values.is_none() && is_out_of_reach() => {
+                    Verdict::Nowhere
+                }
                 verdict => verdict,
             };
             self.conditions.push(Condition {
