@@ -151,7 +151,9 @@ fn off(scene: &Scene, (at, inside): (&Vector, bool), body: &Body) -> Option<Stri
         let mut needs = spot.needs.iter();
         needs.any(|need| is_refuted(need, &given, &scene.domains))
     };
-    if spots.is_empty() || !spots.iter().all(nowhere) {
+    let is_far = |e: &Expr| sign(&e.substitute(&given), &scene.domains) == Some(Sign::Negative);
+    let is_off = !spots.is_empty() && spots.iter().all(nowhere);
+    if !is_off && !reach(body, at).iter().any(is_far) {
         return None;
     }
     let seen = example(&spots, &given, &scene.domains, |point| {
