@@ -377,9 +377,17 @@ fn numbers_may_have_their_unit_beside_them() {
     assert_eq!(read.bodies[0].mass, Expr::ratio(1, 2));
     assert_eq!(read.bodies[0].velocity[1], Expr::from(5));
     for (from, to, said) in [
-        ("500 g", "500 m", "expected mass, found m"),
-        ("18 km/h", "18 Hz", "expected length/time, found Hz"),
-        ("36 km/h", "36 km", "expected length/time, found km"),
+        ("500 g", "500 m", "expected mass, found length (m)"),
+        (
+            "18 km/h",
+            "18 Hz",
+            "expected length/time, found 1/time (Hz)",
+        ),
+        (
+            "36 km/h",
+            "36 km",
+            "expected length/time, found length (km)",
+        ),
     ] {
         let faults = scene::read(&scene.replace(from, to)).expect_err(to);
         assert_eq!(faults.list[0].message, said);

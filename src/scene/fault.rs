@@ -55,6 +55,8 @@ pub struct Fault {
     pub message: String,
     /// What to do about it.
     pub hint: Option<String>,
+    /// Where what the message ends with is declared, whose line is told when reading ends.
+    pub(super) declared: Option<Span>,
 }
 
 impl Fault {
@@ -67,6 +69,7 @@ impl Fault {
             column: 0,
             message: message.into(),
             hint: None,
+            declared: None,
         }
     }
 
@@ -111,6 +114,10 @@ impl Faults {
         for fault in &mut list {
             let before = &text[..floor(text, fault.span.start)];
             let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+            if let Some(at) = fault.declared.take() {
+                let line = text[..floor(text, at.start)].matches('\n').count() + 1;
+                fault.message += &format!(", in line {line}");
+            }
             fault.line = before.matches('\n').count() + 1;
             fault.column = before[line_start..].chars().count() + 1;
         }

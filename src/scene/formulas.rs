@@ -24,8 +24,7 @@ pub(super) struct Quantity {
 impl Quantity {
     pub const NUMBER: Quantity =
         Quantity::other([0, 0, 0], "divide by a quantity of the same kind");
-    pub const TIME: Quantity =
-        Quantity::other([0, 0, 1], "a time, such as t, or a number of seconds");
+    pub const TIME: Quantity = Quantity::other([0, 0, 1], "a time, or a part of one");
     pub const STIFFNESS: Quantity =
         Quantity::other([1, 0, -2], "a stiffness is a force by a length");
     pub const ANGLE: Quantity =
@@ -34,17 +33,19 @@ impl Quantity {
         [0, 0, 0],
         "a direction has components without unit, such as [\"cos(theta)\", \"sin(theta)\"]",
     );
-    pub const MASS: Quantity = Quantity::other([1, 0, 0], "a mass, such as m or 3*m");
-    pub const LENGTH: Quantity =
-        Quantity::other([0, 1, 0], "a length, such as l/2 or d*cos(theta)");
-    pub const VELOCITY: Quantity = Quantity::other([0, 1, -1], "a velocity, such as v or omega*l");
+    pub const MASS: Quantity = Quantity::other([1, 0, 0], "a mass, or a multiple of one");
+    pub const LENGTH: Quantity = Quantity::other([0, 1, 0], "a length, or a part of one");
+    pub const VELOCITY: Quantity = Quantity::other(
+        [0, 1, -1],
+        "a velocity, or an angular velocity times a length",
+    );
     pub const SPIN: Quantity = Quantity::other(
         [0, 0, -1],
-        "a spin is an angle per time: of a point at speed v and distance l it is v/l",
+        "a spin is an angle per time: a speed divided by a distance",
     );
     pub const INERTIA: Quantity = Quantity::other(
         [1, 2, 0],
-        "a uniform rod of length l has inertia m l^2/12 about its center",
+        "a moment of inertia is a mass times the square of a length: of a uniform rod a twelfth of that of its length",
     );
     pub const IMPULSE: Quantity =
         Quantity::other([1, 1, -1], "an impulse is a mass times a velocity");
@@ -70,6 +71,8 @@ impl Quantity {
 pub(super) struct Symbols {
     names: formula::Symbols,
     dimensions: BTreeMap<Symbol, Option<Dimension>>,
+    /// The unit that a symbol is declared with, and where.
+    declared: BTreeMap<Symbol, (String, Span)>,
     used: RefCell<BTreeSet<Symbol>>,
     remarks: RefCell<Vec<String>>,
     units: RefCell<Vec<String>>,
@@ -86,6 +89,7 @@ impl Symbols {
         Symbols {
             names,
             dimensions,
+            declared: BTreeMap::new(),
             used: RefCell::default(),
             remarks: RefCell::default(),
             units: RefCell::default(),
@@ -98,6 +102,7 @@ impl Symbols {
         let mut out = Symbols {
             names: self.names.clone(),
             dimensions: self.dimensions.clone(),
+            declared: self.declared.clone(),
             used: RefCell::default(),
             remarks: RefCell::default(),
             units: RefCell::default(),
@@ -113,6 +118,12 @@ impl Symbols {
         self.names
             .declare_as(symbol.clone(), None, dimension.clone());
         self.dimensions.insert(symbol, dimension);
+    }
+
+    /// Notes the unit that a symbol is declared with.
+    pub fn declare_unit(&mut self, name: &str, unit: &Text) {
+        let unit = (unit.text.clone(), unit.span);
+        self.declared.insert(Symbol::from(name), unit);
     }
 
     /// Takes over what other symbols have used and what is to be told of them.
@@ -178,7 +189,7 @@ impl Symbols {
     ) -> Option<Expr> {
         let e = match self.content(formula, faults)? {
             Content::Quantity(q) => in_si(*q, &quantity.dimension(), formula)
-                .map_err(|fault| faults.push(fault.hint(quantity.hint)))
+                .map_err(|fault| faults.push(fault))
                 .ok()?,
             content => scalar(content, formula, faults)?,
         };
@@ -195,26 +206,58 @@ impl Symbols {
         }
         match dimension::of(&e, &|name| self.dimensions.get(name).cloned().flatten()) {
             Err(clash) => {
-                faults.push(Fault::new(
-                    formula.span,
-                    clash.message(&formula::write_plain),
-                ));
+                let message = clash.message(&formula::write_plain);
+                faults.push(self.with_units(&e, Fault::new(formula.span, message)));
                 None
             }
             Ok(Some(found)) if found != quantity.dimension() => {
                 let message = format!("expected {}, found {found}", quantity.dimension());
-                let fault = Fault::new(formula.span, message);
+                let fault = self.with_units(&e, Fault::new(formula.span, message));
                 let of_its_names = named_like_its_unit(&formula.text, quantity)
-                    .or_else(|| without_unit(&e, &found, quantity))
+                    .or_else(|| self.without_unit(&e, &found, quantity))
                     .or_else(|| pound_for_weight(&found, quantity));
                 faults.push(match of_its_names {
                     Some(hint) => fault.hint(hint),
-                    None => fault.hint(quantity.hint),
+                    None if quantity.dimension().is_none() => fault.hint(quantity.hint),
+                    None => {
+                        let unit = quantity.dimension().spoken();
+                        fault.hint(format!("{}; its unit is one such as {unit}", quantity.hint))
+                    }
                 });
                 None
             }
             Ok(_) => Some(e),
         }
+    }
+
+    /// The fault of a formula whose dimension is wrong, with the units its symbols are declared with, of which one may be.
+    fn with_units(&self, e: &Expr, mut fault: Fault) -> Fault {
+        let symbols = e.symbols();
+        let declared = |name| Some((name, self.declared.get(name)?));
+        let units: Vec<_> = symbols.iter().filter_map(declared).collect();
+        match units.as_slice() {
+            [] => {}
+            [(name, (unit, at))] if symbols.len() == 1 => {
+                fault.message += &format!(": `{name}` is declared with the unit {unit}");
+                fault.declared = Some(*at);
+            }
+            all => {
+                let all = all
+                    .iter()
+                    .map(|(name, (unit, _))| format!("`{name}` is in {unit}"));
+                fault.message += &format!(": {}", all.collect::<Vec<_>>().join(", "));
+            }
+        }
+        fault
+    }
+
+    /// What to say of a parameter alone that should have had a unit.
+    fn without_unit(&self, e: &Expr, found: &Dimension, quantity: Quantity) -> Option<String> {
+        let name = e.as_symbol().filter(|_| found.is_none())?;
+        let unit = quantity.dimension().spoken();
+        let hint =
+            format!("`{name}` has no unit: declare it as \"{name}\": {{\"unit\": \"{unit}\"}}");
+        (!self.declared.contains_key(name)).then_some(hint)
     }
 
     /// Reads both components of a vector.
@@ -355,8 +398,16 @@ fn in_si(q: formula::Quantity, dimension: &Dimension, at: &Formula) -> Result<Ex
     match q.unit.dimension == *dimension && !q.unit.cycles {
         true => Ok(q.value),
         false => {
-            let message = format!("expected {dimension}, found {}", q.unit_text);
-            Err(Fault::new(at.span, message))
+            let found = match q.unit.dimension == *dimension {
+                true => String::from("cycles per time"),
+                false => q.unit.dimension.to_string(),
+            };
+            let message = format!("expected {dimension}, found {found} ({})", q.unit_text);
+            let hint = match dimension.is_none() {
+                true => String::from("this has no unit"),
+                false => format!("its unit is one such as {}", dimension.spoken()),
+            };
+            Err(Fault::new(at.span, message).hint(hint))
         }
     }
 }
@@ -373,14 +424,6 @@ fn scalar(content: Content, formula: &Formula, faults: &mut Vec<Fault>) -> Optio
 fn is_finite(e: &Expr) -> bool {
     let mut numbers = e.parts().filter_map(Expr::as_number);
     numbers.all(|value| to_f64(value).is_finite())
-}
-
-/// What to say of a parameter alone that should have had a unit.
-fn without_unit(e: &Expr, found: &Dimension, quantity: Quantity) -> Option<String> {
-    let name = e.as_symbol().filter(|_| found.is_none())?;
-    let unit = quantity.dimension().spoken();
-    let hint = format!("`{name}` has no unit: declare it as \"{name}\": {{\"unit\": \"{unit}\"}}");
-    Some(hint)
 }
 
 /// What to say of a mass divided by g where a mass is asked for: the pound of a weight has another name.

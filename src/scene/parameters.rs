@@ -53,7 +53,13 @@ pub(super) fn resolve(
         dimensions.insert(name.text.as_str().into(), dimension);
         units.push(unit);
     }
-    let symbols = Symbols::new(dimensions);
+    let mut symbols = Symbols::new(dimensions);
+    for (name, entry) in all {
+        let unit = entry.as_ref().and_then(|p| p.unit.as_ref());
+        if let Some(unit) = unit.filter(|unit| unit.text.trim() != "1") {
+            symbols.declare_unit(&name.text, unit);
+        }
+    }
     let mut ends = Vec::new();
     for ((name, entry), unit) in all.iter().zip(units) {
         if let (Some(entry), Some(unit)) = (entry, unit) {

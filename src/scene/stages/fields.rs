@@ -7,10 +7,7 @@ use crate::scene::formulas::Quantity;
 use crate::scene::record::{Formula, Text};
 use crate::scene::resolver::Resolver;
 
-const ACCELERATION: Quantity = Quantity::other(
-    [0, 1, -2],
-    "gravity is a length per time squared, such as g",
-);
+const ACCELERATION: Quantity = Quantity::other([0, 1, -2], "gravity is a length per time squared");
 
 pub(super) const FORCE: Quantity =
     Quantity::other([1, 1, -2], "a force is a mass times an acceleration");
@@ -18,18 +15,24 @@ pub(super) const FORCE: Quantity =
 /// Refuses a motion without an end, or with several: those given, and that of the motion `during` which it happens.
 pub(super) fn one_end(
     r: &mut Resolver<'_>,
-    given: &[bool],
+    ends: &[(&str, bool)],
     lasts: Option<&Expr>,
     (span, message): (Span, &str),
 ) -> Option<()> {
-    let given = given.iter().filter(|given| **given).count();
-    let hint = match lasts {
-        None => "give one of them",
-        Some(_) => "leave it out: the motion ends with the one `during` which it happens",
-    };
-    match given + usize::from(lasts.is_some()) {
-        1 => Some(()),
-        _ => r.refuse(span, message, hint),
+    let given = ends.iter().filter(|(_, given)| *given);
+    let given: Vec<String> = given.map(|(name, _)| format!("`{name}`")).collect();
+    let during = "the motion ends with the one `during` which it happens";
+    match (given.as_slice(), lasts) {
+        ([_], None) | ([], Some(_)) => Some(()),
+        ([], None) => r.refuse(span, message, "give one of them"),
+        (all, None) => {
+            let message = format!("{message}; {} stand here", all.join(" and "));
+            r.refuse(span, message, "leave out all but one")
+        }
+        (all, Some(_)) => {
+            let hint = format!("leave out {}: {during}", all.join(" and "));
+            r.refuse(span, message, hint)
+        }
     }
 }
 
