@@ -40,7 +40,8 @@ impl Resolver<'_> {
             }
             (None, None) => None,
         };
-        let restitution = contact.restitution.as_ref().map(|e| {
+        let rebounds = contact.restitution.as_ref().filter(|_| collides);
+        let restitution = rebounds.map(|e| {
             let value = self.read(e, Quantity::NUMBER);
             if let Some(value) = &value {
                 self.claim(e.span, Claim::Fraction(value.clone()));
@@ -71,7 +72,7 @@ impl Resolver<'_> {
                         None => "a contact without law",
                     };
                     let message = format!("{with} has no restitution");
-                    let hint = "restitution belongs to \"law\": \"frictionless\"";
+                    let hint = "what rebounds has \"law\": \"frictionless\" or \"friction\"";
                     self.report(e.span, message, hint);
                 }
                 Some(law.map_or(ContactLaw::None, |_| ContactLaw::Sticking))

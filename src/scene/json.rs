@@ -75,6 +75,10 @@ impl Node<'_> {
 /// Deepest nesting that is read. A scene needs eight levels or so.
 const DEPTH: usize = 64;
 
+/// Quotes that JSON has not.
+const ODD: [char; 7] = ['\'', '`', '‘', '’', '“', '”', '„'];
+const STRAIGHT: &str = "names and texts stand in straight double quotes: \"title\"";
+
 /// Reads a whole text as one JSON value.
 pub(super) fn parse(text: &str) -> Result<Node<'_>, Fault> {
     let mut parser = Parser { text, at: 0 };
@@ -153,14 +157,18 @@ impl<'t> Parser<'t> {
     fn object(&mut self, depth: usize) -> Result<Value<'t>, Fault> {
         let entry = |own: &mut Self| {
             if own.peek() != Some(b'"') {
-                return Err(own.fault_here("expected a name in double quotes, or }"));
+                return Err(own.unquoted("expected a name in double quotes, or }"));
             }
             let start = own.at;
             let key = own.string()?;
             let key_span = Span::new(start, own.at);
             own.skip_blank()?;
             if own.peek() != Some(b':') {
-                return Err(own.fault_here("expected a colon after the name"));
+                let fault = own.fault_here("expected a colon after the name");
+                return Err(match key.contains(ODD) {
+                    true => fault.hint(STRAIGHT),
+                    false => fault,
+                });
             }
             own.at += 1;
             own.skip_blank()?;
@@ -241,11 +249,12 @@ impl<'t> Parser<'t> {
                     continue;
                 }
                 '\n' | '\r' => {
-                    return Err(Fault::new(
-                        Span::new(open, self.at),
-                        "this text does not end on its line",
-                    )
-                    .hint("close it with \", or write \\n for a line break"));
+                    let span = Span::new(open, self.at);
+                    let fault = Fault::new(span, "this text does not end on its line");
+                    return Err(match self.text[open..self.at].contains(ODD) {
+                        true => fault.hint(STRAIGHT),
+                        false => fault.hint("close it with \", or write \\n for a line break"),
+                    });
                 }
                 c if c.is_control() && c != '\t' => {
                     return Err(self.fault_here("a control character stands in a text"));
@@ -363,26 +372,41 @@ impl<'t> Parser<'t> {
         Ok(digits)
     }
 
+    /// The letters that stand next.
+    fn letters(&self) -> &'t str {
+        let end = self.rest().find(|c: char| !c.is_alphanumeric() && c != '_');
+        &self.rest()[..end.unwrap_or(self.rest().len())]
+    }
+
+    /// A fault at what stands without quotes, or in those of other languages.
+    fn unquoted(&self, message: &str) -> Fault {
+        let word = self.letters();
+        if word.is_empty() {
+            let fault = self.fault_here(message);
+            return match self.rest().starts_with(ODD) {
+                true => fault.hint(STRAIGHT),
+                false => fault,
+            };
+        }
+        let span = Span::new(self.at, self.at + word.len());
+        let small = word.to_lowercase();
+        Fault::new(span, message).hint(match small.as_str() {
+            "true" | "false" => format!("write {small}"),
+            "none" | "nil" | "undefined" => String::from("leave out what is not there"),
+            _ => format!("write \"{word}\""),
+        })
+    }
+
     fn word(&mut self) -> Result<Value<'t>, Fault> {
-        let length = self
-            .rest()
-            .find(|c: char| !c.is_alphanumeric() && c != '_')
-            .unwrap_or(self.rest().len());
-        let word = &self.rest()[..length];
+        let word = self.letters();
         let value = match word {
             "true" => Value::Bool(true),
             "false" => Value::Bool(false),
             "null" => Value::Null,
-            "" => return Err(self.fault_here("expected a value")),
-            _ => {
-                return Err(Fault::new(
-                    Span::new(self.at, self.at + length),
-                    format!("`{word}` stands without quotes"),
-                )
-                .hint(format!("write \"{word}\"")));
-            }
+            "" => return Err(self.unquoted("expected a value")),
+            _ => return Err(self.unquoted(&format!("`{word}` stands without quotes"))),
         };
-        self.at += length;
+        self.at += word.len();
         Ok(value)
     }
 }

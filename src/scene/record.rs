@@ -153,6 +153,11 @@ impl Read for bool {
     fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self> {
         match node.value {
             Value::Bool(value) => Some(value),
+            Value::Text(ref text) if matches!(text.to_lowercase().as_str(), "true" | "false") => {
+                let hint = format!("write {} without quotes", text.to_lowercase());
+                let message = "expected true or false, found a text";
+                Fault::new(node.span, message).hint(hint).add_to(faults)
+            }
             _ => unexpected(node, "true or false", faults),
         }
     }
@@ -201,9 +206,9 @@ impl JsonSchema for Formula {
     }
 }
 
-/// Entries under names, in the order of the file. An entry that could not be read keeps its name.
+/// Entries under names, in the order of the file, and the place of the whole. An entry that could not be read keeps its name.
 #[derive(Clone, Debug)]
-pub(super) struct Map<T>(pub Vec<(Text, Option<T>)>);
+pub(super) struct Map<T>(pub Vec<(Text, Option<T>)>, pub Span);
 
 impl<T: Read> Read for Map<T> {
     fn read(node: &Node<'_>, faults: &mut Vec<Fault>) -> Option<Self> {
@@ -211,18 +216,15 @@ impl<T: Read> Read for Map<T> {
             return unexpected(node, "an object of named entries", faults);
         };
         let entries = unique(entries, faults);
-        Some(Map(entries
-            .into_iter()
-            .map(|e| {
-                (
-                    Text {
-                        span: e.key_span,
-                        text: e.key.to_string(),
-                    },
-                    T::read(&e.node, faults),
-                )
-            })
-            .collect()))
+        let named = |e: &Entry<'_>| {
+            let text = e.key.to_string();
+            let name = Text {
+                span: e.key_span,
+                text,
+            };
+            (name, T::read(&e.node, faults))
+        };
+        Some(Map(entries.into_iter().map(named).collect(), node.span))
     }
 }
 

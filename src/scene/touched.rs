@@ -14,7 +14,7 @@ pub(super) fn settle(file: &mut SceneFile) {
     let places = places(file);
     let points = entries(file.points.as_ref());
     let points: Vec<String> = points.map(|(name, _)| name.text.clone()).collect();
-    let Map(bodies) = &mut file.bodies;
+    let Map(bodies, _) = &mut file.bodies;
     for (name, body) in bodies {
         let Some(body) = body else { continue };
         if body.shape != ShapeName::Particle || body.center.is_some() {

@@ -14,7 +14,7 @@ use std::collections::HashMap;
 
 use answers::Reader;
 
-use super::fault::Fault;
+use super::fault::{Fault, Span};
 use super::file::SceneFile;
 use super::formulas::Symbols;
 use super::parameters::spelling;
@@ -346,7 +346,7 @@ pub(super) fn with_parts(file: &SceneFile) -> Option<SceneFile> {
             None => all.push((name.clone(), entry.clone())),
         }
     }
-    out.questions = Some(Map(all));
+    out.questions = Some(Map(all, Span::default()));
     Some(out)
 }
 

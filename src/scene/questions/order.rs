@@ -11,7 +11,7 @@ use crate::scene::record::Map;
 
 /// Puts the questions in order; those that need each other in a circle come last and are refused when they are read.
 pub(in crate::scene) fn order(file: &mut SceneFile) {
-    let Some(Map(questions)) = &mut file.questions else {
+    let Some(Map(questions, _)) = &mut file.questions else {
         return;
     };
     let named = questions.iter().enumerate().filter(|(_, (name, q))| {

@@ -4,6 +4,7 @@
 
 use crate::scene::body_file::{AboutFile, BodyFile, ShapeName, VelocityFile};
 use crate::scene::contact_file::HingeFile;
+use crate::scene::fault::Span;
 use crate::scene::file::SceneFile;
 use crate::scene::place_file::PositionFile;
 use crate::scene::record::{Map, Text};
@@ -36,7 +37,9 @@ pub(in crate::scene) fn spread(file: &mut SceneFile) {
     let mut points = Vec::new();
     for stage in &mut stages {
         if let (Some(impact), true) = (&mut stage.impact, stays) {
-            let own = impact.hinges.get_or_insert_with(|| Map(Vec::new()));
+            let own = impact
+                .hinges
+                .get_or_insert_with(|| Map(Vec::new(), Span::default()));
             for (name, hinge) in &everywhere {
                 if !own.0.iter().any(|(other, _)| other.text == name.text) {
                     own.0.push((name.clone(), Some(hinge.clone())));
@@ -86,7 +89,9 @@ pub(in crate::scene) fn spread(file: &mut SceneFile) {
             .into_iter()
             .chain(keys(Some(&file.bodies)));
         if names.into_iter().all(|other| other.text != name.text) {
-            let all = file.points.get_or_insert_with(|| Map(Vec::new()));
+            let all = file
+                .points
+                .get_or_insert_with(|| Map(Vec::new(), Span::default()));
             all.0.push((name, Some(at)));
         }
     }
