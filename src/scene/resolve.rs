@@ -134,7 +134,7 @@ impl<'f> Resolver<'f> {
         }
         if self.faults.is_empty() && scene.bodies.iter().all(Body::is_fixed) {
             let hint = "add a body that is not fixed";
-            self.report(file.span, "no body here can move", hint);
+            self.report(file.bodies.1.opening(), "no body here can move", hint);
         }
         for (name, hinge) in entries(file.hinges.as_ref()) {
             let bodies = self.pair(&hinge.bodies.items, hinge.bodies.span, "hinge");

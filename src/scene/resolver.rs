@@ -161,7 +161,8 @@ impl<'f> Resolver<'f> {
         self.faults.push(match near {
             Some(near) => fault.hint(format!("did you mean `{near}`?")),
             None if (1..=12).contains(&candidates.len()) => {
-                fault.hint(format!("there is {}", candidates.join(", ")))
+                let are = if candidates.len() == 1 { "is" } else { "are" };
+                fault.hint(format!("there {are} {}", candidates.join(", ")))
             }
             None => fault,
         });

@@ -56,16 +56,16 @@ pub(super) fn kind(
         return r.refuse(during.span, message, hint);
     }
     if let Some(impact) = &stage.impact {
-        return impact_of(r, scene, impact, stage.name.span);
+        return impact_of(r, scene, impact, impact.span.opening());
     }
     if let Some(turn) = &stage.turn {
-        return turn_of(r, turn, lasts, stage.name.span).map(StageKind::Turn);
+        return turn_of(r, turn, lasts).map(StageKind::Turn);
     }
     if let Some(sliding) = &stage.slide {
-        return slide(r, scene, sliding, lasts, stage.name.span).map(StageKind::Slide);
+        return slide(r, scene, sliding, lasts).map(StageKind::Slide);
     }
     if let Some(fall) = &stage.fall {
-        return fall_of(r, fall, lasts, stage.name.span).map(StageKind::Fall);
+        return fall_of(r, fall, lasts).map(StageKind::Fall);
     }
     if let Some(linkage) = &stage.linkage {
         return linkage_of(r, scene, linkage, places).map(StageKind::Linkage);
@@ -135,18 +135,14 @@ fn impact_of(
     })
 }
 
-fn fall_of(
-    r: &mut Resolver<'_>,
-    fall: &FallFile,
-    lasts: Option<&Expr>,
-    span: Span,
-) -> Option<Fall> {
+fn fall_of(r: &mut Resolver<'_>, fall: &FallFile, lasts: Option<&Expr>) -> Option<Fall> {
+    let span = fall.span.opening();
     let ends = [
-        fall.height.is_some(),
-        fall.range.is_some(),
-        fall.by.is_some(),
-        fall.time.is_some(),
-        fall.until.is_some(),
+        ("height", fall.height.is_some()),
+        ("range", fall.range.is_some()),
+        ("by", fall.by.is_some()),
+        ("for", fall.time.is_some()),
+        ("until", fall.until.is_some()),
     ];
     let message = "a fall ends after a `height`, a horizontal distance `range`, an angle `by` or a time `for`, or `until` its top";
     one_end(r, &ends, lasts, (span, message))?;
@@ -224,13 +220,13 @@ fn linkage_of(
     })
 }
 
-fn turn_of(
-    r: &mut Resolver<'_>,
-    turn: &TurnFile,
-    lasts: Option<&Expr>,
-    span: Span,
-) -> Option<Turn> {
-    let ends = [turn.by.is_some(), turn.until.is_some(), turn.time.is_some()];
+fn turn_of(r: &mut Resolver<'_>, turn: &TurnFile, lasts: Option<&Expr>) -> Option<Turn> {
+    let span = turn.span.opening();
+    let ends = [
+        ("by", turn.by.is_some()),
+        ("until", turn.until.is_some()),
+        ("for", turn.time.is_some()),
+    ];
     let message = "a rotation ends after an angle `by`, at a place `until`, or after a time `for`";
     one_end(r, &ends, lasts, (span, message))?;
     if turn.gravity.is_some() && (turn.time.is_some() || lasts.is_some()) {

@@ -22,7 +22,7 @@ use crate::scene::body_file::VelocityFile;
 use crate::scene::check::check;
 use crate::scene::claim::{Claim, Claimed};
 use crate::scene::contact_file::{ContactFile, LawName};
-use crate::scene::fault::Fault;
+use crate::scene::fault::{Fault, Span};
 use crate::scene::file::SceneFile;
 use crate::scene::formulas::{Quantity, Symbols};
 use crate::scene::questions::About;
@@ -94,13 +94,16 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
         return;
     }
     let misplaced = [
-        ("hinges", file.hinges.as_ref().map(|m| m.0.len())),
-        ("contacts", file.contacts.as_ref().map(|m| m.0.len())),
-        ("blows", file.blows.as_ref().map(|m| m.0.len())),
-        ("after", file.after.as_ref().map(Vec::len)),
+        ("hinges", keys(file.hinges.as_ref()).first().map(|n| n.span)),
+        (
+            "contacts",
+            keys(file.contacts.as_ref()).first().map(|n| n.span),
+        ),
+        ("blows", keys(file.blows.as_ref()).first().map(|n| n.span)),
+        ("after", file.after.iter().flatten().next().map(|k| k.span)),
     ];
-    for (what, count) in misplaced {
-        if count.is_some_and(|n| n > 0) {
+    for (what, first) in misplaced {
+        if let Some(first) = first {
             let message = format!("`{what}` of a scene with stages belongs to an impact");
             let hint = match what {
                 "hinges" => {
@@ -108,7 +111,7 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
                 }
                 _ => "\"stages\": [{\"name\": \"impact\", \"impact\": {\"contacts\": …}}]",
             };
-            base.report(file.span, message, hint);
+            base.report(first, message, hint);
         }
     }
     let readings = file.assumptions.iter().flatten();
@@ -383,7 +386,7 @@ fn composed(
         .iter()
         .flat_map(|p| &p.contacts)
         .flat_map(|m| m.0.iter().cloned());
-    out.contacts = Some(Map(contacts.chain(one_sided).collect()));
+    out.contacts = Some(Map(contacts.chain(one_sided).collect(), Span::default()));
     out.blows = part.and_then(|p| p.blows.clone());
     out.after = part.and_then(|p| p.after.clone());
     let forces = file
@@ -397,10 +400,9 @@ fn composed(
         .iter()
         .flat_map(|m| m.0.iter().cloned())
         .enumerate();
-    out.questions = Some(Map(all
-        .filter(|(k, _)| homes.get(k) == Some(&i))
-        .map(|(_, q)| q)
-        .collect()));
+    let own = all.filter(|(k, _)| homes.get(k) == Some(&i));
+    let own = own.map(|(_, q)| q).collect();
+    out.questions = Some(Map(own, Span::default()));
     out
 }
 

@@ -17,8 +17,8 @@ pub(super) fn slide(
     scene: &Scene,
     slide: &SlideFile,
     lasts: Option<&Expr>,
-    span: Span,
 ) -> Option<Slide> {
+    let span = slide.span.opening();
     let until = end(r, slide, lasts, span)?;
     let all = company(r, &slide.body, slide.with.as_deref());
     let along = r.direction(&slide.along);
@@ -79,9 +79,9 @@ fn end(
     span: Span,
 ) -> Option<SlideEnd> {
     let ends = [
-        slide.distance.is_some(),
-        slide.time.is_some(),
-        slide.until.is_some(),
+        ("distance", slide.distance.is_some()),
+        ("for", slide.time.is_some()),
+        ("until", slide.until.is_some()),
     ];
     let message =
         "a motion along a line ends after a `distance`, a time `for`, or where `until` says";
