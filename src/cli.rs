@@ -21,6 +21,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use clap::error::ContextKind;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use serde_json::json;
 
@@ -153,7 +154,14 @@ enum Failure {
 
 /// Runs the command line and gives the exit status.
 pub fn run() -> ExitCode {
-    let outcome = match Cli::parse().command {
+    let parsed = Cli::try_parse().unwrap_or_else(|error| match without_feature(&error) {
+        Some(message) => {
+            complain(&message);
+            std::process::exit(2)
+        }
+        None => error.exit(),
+    });
+    let outcome = match parsed.command {
         Command::Derive {
             input,
             format,
@@ -207,6 +215,15 @@ pub fn run() -> ExitCode {
             ExitCode::from(74)
         }
     }
+}
+
+/// What to say where a command is asked for that this build was made without.
+fn without_feature(error: &clap::Error) -> Option<String> {
+    let named = error.get(ContextKind::InvalidSubcommand)?.to_string();
+    let feature = ["serve", "site"].into_iter().find(|f| *f == named)?;
+    Some(format!(
+        "`carom {feature}` is not in this build\nhint: `cargo install --path . --features {feature}` builds it in"
+    ))
 }
 
 fn derive_command(
