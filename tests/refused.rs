@@ -84,3 +84,49 @@ fn editors_are_told_the_places_as_data() {
         .collect();
     assert!(!found.is_empty() && line.contains(&found), "{found}");
 }
+
+fn run(arguments: &[&str]) -> (Option<i32>, String) {
+    let run = std::process::Command::new(env!("CARGO_BIN_EXE_carom"))
+        .args(arguments)
+        .output()
+        .expect("the program starts");
+    let said = [run.stdout, run.stderr].concat();
+    (run.status.code(), String::from_utf8_lossy(&said).into())
+}
+
+#[test]
+fn a_command_that_is_not_in_this_build_tells_its_feature() {
+    for (feature, is_in) in [
+        ("serve", cfg!(feature = "serve")),
+        ("site", cfg!(feature = "site")),
+    ] {
+        if !is_in {
+            let (status, said) = run(&[feature, "derivations"]);
+            assert_eq!(status, Some(2));
+            assert!(said.contains(&format!("--features {feature}")), "{said}");
+        }
+    }
+}
+
+#[test]
+fn a_scene_that_asks_nothing_is_told_how_to_ask() {
+    let folder = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
+    for (name, says) in [
+        ("book/falling-stick", r#"{"v": {"velocity": "bar"}}"#),
+        ("friction/rod-turns-its-slip-round", r#"{"velocity": "#),
+        ("problems/tipping-box", r#""at": "#),
+    ] {
+        let text = fs::read_to_string(format!("derivations/{name}.json")).expect("a scene");
+        let mut scene: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        let fields = scene.as_object_mut().expect("an object");
+        fields.retain(|field, _| !matches!(field.as_str(), "questions" | "plots" | "printed"));
+        let path = folder.join("nothing-asked.json");
+        fs::write(&path, scene.to_string()).expect("a scene");
+        let (status, said) = run(&["derive", &path.display().to_string()]);
+        assert_eq!(status, Some(0), "{said}");
+        assert!(
+            said.contains("nothing is asked") && said.contains(says),
+            "{said}"
+        );
+    }
+}

@@ -1,7 +1,5 @@
 //! The cases of an impact with friction, for terminals and programs: when the contact does what, and the closed forms of each.
 
-use std::fmt::Write;
-
 use serde_json::{Value, json};
 
 use super::{latex, unicode};
@@ -31,9 +29,7 @@ pub fn text(
     about: &[Answer],
 ) -> String {
     let mut out = String::new();
-    let mut say = |line: &str| {
-        let _ = writeln!(out, "{line}");
-    };
+    let mut say = |line: &str| out.extend([line, "\n"]);
     let contact = &scene.contacts[table.contact].name;
     say(&super::heading(&scene.title, &scene.source));
     say(&law_words(scene, table));
@@ -105,6 +101,9 @@ pub fn text(
                 ));
             }
             say(&format!("  {}", proved(&impact.proof)));
+        }
+        if let Some(note) = super::text::nothing_asked(scene) {
+            say(&format!("\n{note}"));
         }
         if !about.is_empty() {
             say("\nin every case:");

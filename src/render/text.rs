@@ -13,6 +13,16 @@ use crate::laws;
 use crate::scene::{Ask, Question, Scene};
 use crate::story::{StageTold, Told};
 
+/// What to say of a scene without questions: how it asks.
+pub(super) fn nothing_asked(scene: &Scene) -> Option<String> {
+    let body = &scene.bodies[scene.moving().next()?].name;
+    let at = scene.stages.last().map(|stage| &stage.name);
+    let at = at.map_or(String::new(), |name| format!(", \"at\": \"{name}\""));
+    let question = format!("{{\"v\": {{\"velocity\": \"{body}\"{at}}}}}");
+    let note = || format!("nothing is asked; ask such as \"questions\": {question}");
+    scene.questions.is_empty().then(note)
+}
+
 /// What was told: what cannot be so first, then the answers, then the stages.
 pub fn told(scene: &Scene, told: &Told) -> String {
     let mut out = String::new();
@@ -30,6 +40,9 @@ pub fn told(scene: &Scene, told: &Told) -> String {
     if !told.answers.is_empty() {
         let _ = writeln!(out, "\nanswers");
         out.push_str(&answers(scene, Some(told), &told.answers));
+    }
+    if let Some(note) = nothing_asked(scene) {
+        let _ = writeln!(out, "\n{note}");
     }
     let definitions = alone.map_or(&[][..], |d| &d.definitions);
     if !definitions.is_empty() {
