@@ -6,7 +6,7 @@
 use super::label::{Label, Level};
 use super::marks::{centers, names};
 use super::place::Spot;
-use super::plane::{Pair, ahead, dot, minus, opposite, size, unit};
+use super::plane::{Pair, ahead, apart, dot, minus, opposite, size, unit};
 use super::pose::Look;
 use super::quantity::{magnitude, vector_name};
 use super::sheet::{Ink, SIZE, Sheet, arrow_length};
@@ -43,7 +43,9 @@ pub fn during(
             ));
             continue;
         }
-        push.draw(stage, &mut sheet, arrow_length(size(push.vector), most));
+        let taken = pushes.iter().any(|other| other.comes_where(push, stage));
+        let length = arrow_length(size(push.vector), most);
+        push.draw(stage, &mut sheet, length, taken);
     }
     if pushes.is_empty() {
         let what = if system.len() > 1 { "the system" } else { "it" };
@@ -94,8 +96,15 @@ pub(super) struct Push {
 }
 
 impl Push {
-    /// Draws the arrow: up to the body where it pushes, else away from it.
-    pub(super) fn draw(&self, stage: &Stage, sheet: &mut Sheet, length: f64) {
+    /// Whether this one comes up to a body at the place where another goes away from it.
+    fn comes_where(&self, other: &Push, stage: &Stage) -> bool {
+        let is_there = apart(stage.px(self.at), stage.px(other.at)) < 1.0;
+        let [own, its] = [self, other].map(|push| unit(push.vector));
+        self.presses && !other.presses && is_there && dot(own, its) < -0.9
+    }
+
+    /// Draws the arrow: up to the body where it pushes or the other way is `taken`, else away from it.
+    pub(super) fn draw(&self, stage: &Stage, sheet: &mut Sheet, length: f64, taken: bool) {
         if size(self.vector) < 1e-300 {
             return;
         }
@@ -124,7 +133,7 @@ impl Push {
         } else {
             2.0
         };
-        let (from, to) = if pushing || (size(inward) <= 1.0 && presses) {
+        let (from, to) = if taken || pushing || (size(inward) <= 1.0 && presses) {
             (ahead(at, d, -(length + free)), ahead(at, d, -free))
         } else {
             (at, ahead(at, d, length))

@@ -10,10 +10,12 @@ use super::fixture::hatched;
 use super::label::Label;
 use super::marks::centers;
 use super::place::Spot;
-use super::plane::{Pair, ahead, apart, bearing, dot, left, minus, plus, polar, right, size, unit};
+use super::plane::{
+    Pair, ahead, apart, bearing, dot, left, minus, opposite, plus, polar, right, size, unit,
+};
 use super::pose::{Look, Pose, posed};
 use super::sheet::{Ink, Line, SIZE, SMALL, Sheet, arc};
-use super::stage::{DOT, Stage, THICK, spanning};
+use super::stage::{Stage, THICK, spanning};
 use super::values::Values;
 use super::way::Gone;
 use crate::expr::Expr;
@@ -115,6 +117,9 @@ pub fn motion(scene: &Scene, values: &Values, course: &Course) -> Option<Sheet> 
     }
     measures(&stage, sheet, course, &gone, [from, end]);
     forces(&stage, sheet, kind, &gone);
+    if let StageKind::Slide(slide) = kind {
+        rough(&stage, sheet, slide, &gone);
+    }
     centers(&stage, sheet, &[gone.body]);
     for (pose, word) in [(from, "beginning"), (end, "end")] {
         sheet.wish(
@@ -150,19 +155,25 @@ fn plank(stage: &Stage, sheet: &mut Sheet, slide: &Slide, ends: [&[Pose]; 2]) ->
         minus(minus(at(1, slide.body), at(0, slide.body)), own),
         along,
     );
-    let first = ahead(at(0, slide.body), down, DOT + 0.8);
+    let first = stage.foot(&ends[0][slide.body], down);
+    // What the body slides back on lies behind it.
+    let [back, front] = [slip.min(0.0) - PLANK, slip.max(0.0) + PLANK];
     let corners = |by: Pair| {
         let point = |far: f64, deep: f64| plus(by, ahead(ahead(first, along, far), down, deep));
         vec![
-            point(-PLANK, 0.0),
-            point(slip + PLANK, 0.0),
-            point(slip + PLANK, THICK * 2.0),
-            point(-PLANK, THICK * 2.0),
+            point(back, 0.0),
+            point(front, 0.0),
+            point(front, THICK * 2.0),
+            point(back, THICK * 2.0),
         ]
     };
     let [begins, stops] = [[0.0; 2], own].map(corners);
-    let floor = |p: Pair, far: f64| ahead(ahead(p, along, far), down, 1.7);
-    let floor = [floor(begins[3], -20.0), floor(stops[2], 20.0)];
+    let gone = dot(own, along);
+    let floor = |far: f64| ahead(ahead(first, along, far), down, THICK * 2.0 + 1.7);
+    let floor = [
+        floor(back + gone.min(0.0) - 20.0),
+        floor(front + gone.max(0.0) + 20.0),
+    ];
     sheet.path(begins, true, Line::dashed(Ink::Body), 1.0);
     sheet.path(stops, true, Line::solid(), 1.0);
     match along[0] < 0.0 {
@@ -361,6 +372,64 @@ fn level(stage: &Stage, sheet: &mut Sheet, [from, to]: [Pair; 2], is_apart: bool
 
 fn beside(sheet: &mut Sheet, from: Pair, to: Pair, label: Label) {
     sheet.wish(label, SIZE, Spot::Along { from, to });
+}
+
+/// What rough ground does: it presses on the body that slides over it, and acts against the slip.
+fn rough(stage: &Stage, sheet: &mut Sheet, slide: &Slide, gone: &Gone) -> Option<()> {
+    let (mu, g) = (slide.friction.as_ref()?, slide.gravity.as_ref()?);
+    let along = stage.values.pair(&slide.along).map(unit)?;
+    if slide.level || along[0].abs() < 1e-9 || mu.is_zero() {
+        return None;
+    }
+    let company = slide.company();
+    let masses = company.iter().map(|b| stage.scene.bodies[*b].mass.clone());
+    let (up, level) = match along[0] < 0.0 {
+        true => (right(along), -&slide.along[0]),
+        false => (left(along), slide.along[0].clone()),
+    };
+    let normal = &(&Expr::sum(masses) * g) * &level;
+    let at = stage.px(gone.middle(stage.scene, stage.values, &company)?);
+    let foot = stage.foot(gone.way(slide.body).last()?, opposite(up));
+    let back = -40.0 * slip(stage, slide, gone, along, up)?.signum();
+    for (from, to, e) in [
+        (at, ahead(at, up, 40.0), &normal),
+        (foot, ahead(foot, along, back), &(mu * &normal)),
+    ] {
+        sheet.arrow(from, to, Ink::Impulse, 1.8);
+        sheet.wish(
+            Label::formula(e, stage.scene),
+            SIZE,
+            Spot::Along { from, to },
+        );
+    }
+    Some(())
+}
+
+/// How fast a body slips at first over what is below it, along its way; from rest, how far it gets.
+fn slip(stage: &Stage, slide: &Slide, gone: &Gone, along: Pair, up: Pair) -> Option<f64> {
+    let below = slide.on.as_ref().map(|on| on.body);
+    let way = |b: usize| match gone.way(b) {
+        [from, .., to] => dot(minus(to.center, from.center), along),
+        _ => 0.0,
+    };
+    let speed = |b: usize| {
+        Some(dot(
+            stage.values.pair(&stage.scene.bodies[b].velocity)?,
+            along,
+        ))
+    };
+    let beyond =
+        |of: &dyn Fn(usize) -> Option<f64>| Some(of(slide.body)? - below.map_or(Some(0.0), of)?);
+    let body = &stage.scene.bodies[slide.body];
+    let rim = match body.shape.radius() {
+        Some(radius) => stage.values.of(radius)? * stage.values.of(&body.spin)?,
+        None => 0.0,
+    };
+    let first = beyond(&speed)? + rim * dot(left(along), up);
+    match first.abs() > 1e-9 {
+        true => Some(first),
+        false => beyond(&|b| Some(way(b))),
+    }
 }
 
 /// What does work: weight at the center of all that moves as one, a moment at the fixed point, a force along the way.

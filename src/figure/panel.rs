@@ -18,6 +18,8 @@ const COLUMN: f64 = 340.0;
 const MARGIN: f64 = 10.0;
 /// Font size of headings.
 const HEADING: f64 = 14.0;
+/// By how much a font that stands in for the one measured may be wider.
+const WIDER: f64 = 1.2;
 
 /// A picture with its words, before it has a place on the page.
 pub(super) struct Panel {
@@ -269,9 +271,17 @@ fn written(
 }
 
 /// Sets words in lines that fit the width.
-fn lines(items: &mut Vec<Item>, text: &str, size: f64, bold: bool, width: f64, top: &mut f64) {
+pub(super) fn lines(
+    items: &mut Vec<Item>,
+    text: &str,
+    size: f64,
+    bold: bool,
+    width: f64,
+    top: &mut f64,
+) {
     let room = width - 2.0 * MARGIN;
-    let wide = |s: &str| s.chars().map(advance).sum::<f64>() * size * if bold { 1.06 } else { 1.0 };
+    let heavy = if bold { 1.06 } else { 1.0 };
+    let wide = |s: &str| s.chars().map(advance).sum::<f64>() * size * heavy * WIDER;
     let mut line = String::new();
     let mut all: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

@@ -104,7 +104,7 @@ pub fn before(stage: &Stage, after: Option<&Motion<f64>>) -> Sheet {
     }
     for push in impulses(stage, &stage.movable(), after) {
         if push.is_blow {
-            push.draw(stage, &mut sheet, LONG);
+            push.draw(stage, &mut sheet, LONG, false);
         }
     }
     measure::measure(stage, &mut sheet);

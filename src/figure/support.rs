@@ -140,17 +140,8 @@ impl Stage<'_> {
     pub(super) fn surface(&self, sheet: &mut Sheet, from: &Pose, end: &Pose, along: Pair) {
         let way = if along[0] < 0.0 { -1.0 } else { 1.0 };
         let down = [way * along[1], -way * along[0]];
-        let lowest = |pose: &Pose| {
-            let center = self.px(pose.center);
-            let below = pose.outline().into_iter().map(|p| {
-                let p = self.px(p);
-                dot(minus(p, center), down)
-            });
-            let deep = below.fold(6.0, f64::max) + 0.8;
-            ahead(center, down, deep)
-        };
         let ends = [(from, -40.0), (end, 40.0)].map(|(pose, more)| {
-            let foot = lowest(pose);
+            let foot = self.foot(pose, down);
             let more = self.clear(from, foot, along, more);
             ahead(foot, along, more)
         });
@@ -158,6 +149,14 @@ impl Stage<'_> {
             true => hatched(sheet, ends[0], ends[1], down),
             false => hatched(sheet, ends[1], ends[0], down),
         }
+    }
+
+    /// Where a body stands on a surface, on the sheet.
+    pub(super) fn foot(&self, pose: &Pose, down: Pair) -> Pair {
+        let center = self.px(pose.center);
+        let outline = pose.outline().into_iter().map(|p| self.px(p));
+        let below = outline.map(|p| dot(minus(p, center), down));
+        ahead(center, down, below.fold(DOT, f64::max) + 0.8)
     }
 
     /// How far a surface goes on from a foot of a body, in pixels: it ends before a wheel in its way.

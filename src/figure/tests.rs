@@ -475,3 +475,74 @@ fn a_ladder_stands_between_its_wall_and_its_floor() {
         "what does not move shows no guide"
     );
 }
+
+fn told(text: &str) -> Scene {
+    crate::scene::read(text).expect("a scene")
+}
+
+#[test]
+fn a_block_is_above_its_plank_and_rough_ground_presses_and_holds_it_back() {
+    let text = include_str!("../../tests/stories/scenes/plank-overtakes-a-block.json");
+    let all = motions(&told(text));
+    let Some(Chapter::Motion(course)) = all.first() else {
+        panic!("a motion");
+    };
+    let sheet = motion_panel("slip", course).sheet;
+    let planks = sheet.items.iter().filter_map(|item| match item {
+        Item::Path {
+            points,
+            closed: true,
+            paint: sheet::Paint::Stroke(_),
+        } => Room::of(points),
+        _ => None,
+    });
+    let blocks = sheet.items.iter().filter_map(|item| match item {
+        Item::Circle { center, radius, .. } if *radius > 5.0 => Some(*center),
+        _ => None,
+    });
+    let pairs: Vec<(Room, Pair)> = planks.zip(blocks).collect();
+    assert_eq!(pairs.len(), 2);
+    for (plank, block) in pairs {
+        assert!(plank.low[0] < block[0] && block[0] < plank.high[0]);
+        assert!(plank.high[1] < block[1]);
+    }
+    let arrows: Vec<Pair> = sheet.lines(sheet::Ink::Impulse).iter().map(ends).collect();
+    let [weight, normal, friction] = arrows.as_slice() else {
+        panic!("{arrows:?}");
+    };
+    assert!(weight[1] < 0.0 && normal[1] > 0.0 && friction[0] > 0.0);
+}
+
+/// From the tail of an arrow to its head.
+fn ends(line: &Vec<Pair>) -> Pair {
+    plane::minus(line[line.len() - 1], line[0])
+}
+
+#[test]
+fn two_impulses_on_a_particle_do_not_lie_on_each_other() {
+    let text = include_str!("../../derivations/more/cart-stops-and-its-rod-swings.json");
+    let scene = told(text);
+    let begin = scene.stages[0].scene.clone();
+    let values = values::representative(&begin);
+    let stage = stage::stage(&begin, &values).expect("a stage");
+    let motion = picture::outcome(&stage);
+    let cart = begin.bodies.iter().position(|b| b.name == "cart");
+    let (sheet, _) = during::during(&stage, &[cart.expect("a cart")], motion.as_ref());
+    let lines = sheet.lines(sheet::Ink::Impulse);
+    let rooms: Vec<Room> = lines.iter().filter_map(|l| Room::of(l)).collect();
+    let [a, b] = rooms.as_slice() else {
+        panic!("{lines:?}");
+    };
+    assert!(a.high[0] < b.low[0] || b.high[0] < a.low[0], "{lines:?}");
+}
+
+#[test]
+fn a_heading_leaves_room_for_a_wider_font() {
+    let heading = |text: &str| {
+        let (mut items, mut top) = (Vec::new(), 0.0);
+        panel::lines(&mut items, text, 14.0, true, 340.0, &mut top);
+        items.len()
+    };
+    let text = "During the collision: the rod and the cart again";
+    assert_eq!([heading(&text[..30]), heading(text)], [1, 2]);
+}
