@@ -1,4 +1,5 @@
-//! Every command of the guide is run, and prints what stands below it; what it shows of a scene stands there.
+//! Every command of the guide and of the README that has its output below it is run, and prints just that; what the guide
+//! shows of a scene stands there.
 //!
 //! `UPDATE=1 cargo test --test all guide::` writes the outputs anew; reading that diff is the review.
 
@@ -35,25 +36,37 @@ fn every_command_of_the_guide_prints_what_stands_below_it() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("guide");
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).expect("a folder");
-    let guide = fs::read_to_string(GUIDE).expect("the guide");
+    // A machine without GNU parallel takes the guide's word for it.
+    let is_here = |commands: &str| !commands.contains("parallel ") || has("parallel");
+    let blocks = prints_what_it_shows(GUIDE, &folder, &is_here);
+    assert!(blocks >= 6);
+}
+
+#[test]
+fn every_output_of_the_readme_is_what_its_command_prints() {
+    let blocks = prints_what_it_shows("README.md", Path::new("."), &|_| true);
+    assert!(blocks >= 2);
+}
+
+/// Holds what stands below commands of a document against what they print in a folder, where they can run here; gives how
+/// many were.
+fn prints_what_it_shows(document: &str, folder: &Path, is_here: &dyn Fn(&str) -> bool) -> usize {
+    let guide = fs::read_to_string(document).expect("a document");
     let mut renewed = String::new();
     let mut rest = guide.as_str();
     let mut blocks = 0;
     while let Some((before, behind)) = rest.split_once("```sh\n") {
         let (commands, behind) = behind.split_once("```\n").expect("an end of the block");
-        let (between, behind) = behind.split_once("```text\n").expect("the output");
-        assert_eq!(
-            between.trim(),
-            "",
-            "the output stands right below its commands"
-        );
+        let Some(behind) = behind.strip_prefix("\n```text\n") else {
+            assert!(document != GUIDE, "no output below {commands}");
+            renewed.push_str(&format!("{before}```sh\n{commands}```\n"));
+            rest = behind;
+            continue;
+        };
         let (told, behind) = behind.split_once("```\n").expect("an end of the output");
-        // A machine without GNU parallel takes the guide's word for it.
-        let is_here = !commands.contains("parallel ") || has("parallel");
-        let output = if is_here {
-            printed(commands, &folder)
-        } else {
-            told.to_string()
+        let output = match is_here(commands) {
+            true => printed(commands, folder),
+            false => told.to_string(),
         };
         renewed.push_str(&format!(
             "{before}```sh\n{commands}```\n\n```text\n{output}```\n"
@@ -62,12 +75,12 @@ fn every_command_of_the_guide_prints_what_stands_below_it() {
         blocks += 1;
     }
     renewed.push_str(rest);
-    assert!(blocks >= 6);
     if std::env::var_os("UPDATE").is_some() {
-        fs::write(GUIDE, &renewed).expect("a writable guide");
+        fs::write(document, &renewed).expect("a writable document");
     }
-    let told = fs::read_to_string(GUIDE).expect("the guide");
+    let told = fs::read_to_string(document).expect("a document");
     assert_eq!(told, renewed, "UPDATE=1 cargo test --test all guide::");
+    blocks
 }
 
 /// Whether all that a part says is said by the whole.
