@@ -163,7 +163,8 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     }
     scene.axles = axles;
     for (i, stage) in stages.iter().enumerate() {
-        seen::from_above(base, scene, i, stage.name.span);
+        let at = stage.slide.as_ref().map(|slide| slide.span.opening());
+        seen::from_above(base, scene, i, at.unwrap_or(stage.name.span));
     }
     name_pivots(scene);
     begin(scene);
@@ -171,7 +172,9 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     joined::note(scene);
     meanwhile::tell_apart(base, scene, stages);
     for (stage, written) in scene.stages.iter().zip(stages) {
-        slide::loaded_wheel(base, stage, written.name.span);
+        if let Some(slide) = &written.slide {
+            slide::loaded_wheel(base, stage, slide.span.opening());
+        }
     }
     if base.faults.is_empty() {
         questions::of_stages(base, scene, &homes);
@@ -637,7 +640,7 @@ fn starts(
     if from.is_some() {
         let message = "a stage that follows another takes over its motion";
         let hint = "`start` belongs to a stage with \"from\": \"start\"";
-        r.report(stage.name.span, message, hint);
+        r.report(map.1.opening(), message, hint);
         return Vec::new();
     }
     let mut out = Vec::new();
