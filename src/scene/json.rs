@@ -390,11 +390,18 @@ impl<'t> Parser<'t> {
         }
         let span = Span::new(self.at, self.at + word.len());
         let small = word.to_lowercase();
-        Fault::new(span, message).hint(match small.as_str() {
-            "true" | "false" => format!("write {small}"),
-            "none" | "nil" | "undefined" => String::from("leave out what is not there"),
-            _ => format!("write \"{word}\""),
-        })
+        let (message, hint) = match small.as_str() {
+            "true" | "false" => (
+                format!("`{word}` is no word of JSON"),
+                format!("write `{small}`"),
+            ),
+            "none" | "nil" | "undefined" => (
+                format!("`{word}` is no word of JSON"),
+                String::from("leave out what is not there"),
+            ),
+            _ => (message.to_owned(), format!("write \"{word}\"")),
+        };
+        Fault::new(span, message).hint(hint)
     }
 
     fn word(&mut self) -> Result<Value<'t>, Fault> {

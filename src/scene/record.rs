@@ -154,7 +154,7 @@ impl Read for bool {
         match node.value {
             Value::Bool(value) => Some(value),
             Value::Text(ref text) if matches!(text.to_lowercase().as_str(), "true" | "false") => {
-                let hint = format!("write {} without quotes", text.to_lowercase());
+                let hint = format!("write `{}` without quotes", text.to_lowercase());
                 let message = "expected true or false, found a text";
                 Fault::new(node.span, message).hint(hint).add_to(faults)
             }

@@ -93,13 +93,11 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
         base.faults.push(Fault::new(file.span, message));
         return;
     }
+    let first = |names: Vec<&Text>| names.first().map(|name| name.span);
     let misplaced = [
-        ("hinges", keys(file.hinges.as_ref()).first().map(|n| n.span)),
-        (
-            "contacts",
-            keys(file.contacts.as_ref()).first().map(|n| n.span),
-        ),
-        ("blows", keys(file.blows.as_ref()).first().map(|n| n.span)),
+        ("hinges", first(keys(file.hinges.as_ref()))),
+        ("contacts", first(keys(file.contacts.as_ref()))),
+        ("blows", first(keys(file.blows.as_ref()))),
         ("after", file.after.iter().flatten().next().map(|k| k.span)),
     ];
     for (what, first) in misplaced {
@@ -163,8 +161,9 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     }
     scene.axles = axles;
     for (i, stage) in stages.iter().enumerate() {
-        let at = stage.slide.as_ref().map(|slide| slide.span.opening());
-        seen::from_above(base, scene, i, at.unwrap_or(stage.name.span));
+        if let Some(slide) = &stage.slide {
+            seen::from_above(base, scene, i, slide.span.opening());
+        }
     }
     name_pivots(scene);
     begin(scene);
