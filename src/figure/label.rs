@@ -188,6 +188,12 @@ impl Label {
         ends
     }
 
+    /// Whether it is one line of text, without anything raised, lowered or below an arrow.
+    pub fn is_plain(&self) -> bool {
+        let mut runs = self.runs.iter();
+        runs.all(|run| run.level == Level::Base && !run.arrow)
+    }
+
     /// Whether something is raised, and whether something is lowered.
     pub fn reach(&self) -> (bool, bool) {
         let has = |level| self.runs.iter().any(|r| r.level == level);

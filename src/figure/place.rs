@@ -47,6 +47,18 @@ impl Spot {
     pub fn point(at: Pair, toward: Pair, reach: f64) -> Spot {
         Spot::Point { at, toward, reach }
     }
+
+    /// Whether a label in this room stands to the left of it.
+    pub fn is_right_of(&self, room: &Room) -> bool {
+        match self {
+            Spot::Point { at, .. } => room.high[0] <= at[0],
+            Spot::Along { from, to } => {
+                let [wide, high] = minus(*to, *from).map(f64::abs);
+                high > wide && room.middle()[0] < between(*from, *to, 0.5)[0]
+            }
+            Spot::Inside { .. } => false,
+        }
+    }
 }
 
 /// A label that wants a place.

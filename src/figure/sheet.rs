@@ -94,6 +94,8 @@ pub enum Item {
         size: f64,
         /// Whether it is a heading.
         bold: bool,
+        /// Whether its end is what keeps its place: in a wider font it grows away from what it belongs to.
+        from_end: bool,
         /// What it says.
         label: Label,
         /// The room it takes.
@@ -297,8 +299,12 @@ impl Sheet {
             if let Some([from, to]) = place::leader(&wish, &room).filter(|l| !crosses(*l)) {
                 self.segment(from, to, Line::thin(Ink::Dimension), 0.0);
             }
-            self.items
-                .push(Item::text(wish.label, wish.size, false, room));
+            let is_left = wish.label.is_plain() && wish.spot.is_right_of(&room);
+            let mut text = Item::text(wish.label, wish.size, false, room);
+            if let Item::Text { from_end, .. } = &mut text {
+                *from_end = is_left;
+            }
+            self.items.push(text);
         }
     }
 
@@ -344,6 +350,7 @@ impl Item {
             at: [room.low[0] + 1.0, room.low[1] + depth * size],
             size,
             bold,
+            from_end: false,
             label,
             room,
         }

@@ -136,15 +136,20 @@ fn write_item(item: &Item, height: f64, out: &mut String) {
             at,
             size,
             bold,
+            from_end,
             label,
             ..
         } => {
             let weight = if *bold { " font-weight=\"600\"" } else { "" };
+            let (begin, anchor) = match from_end {
+                true => ([at[0] + label.width(*size), at[1]], " text-anchor=\"end\""),
+                false => (*at, ""),
+            };
             let _ = write!(
                 out,
-                "<text x=\"{}\" y=\"{}\" font-size=\"{}\"{weight} fill=\"currentColor\" xml:space=\"preserve\">",
-                x(at),
-                y(at),
+                "<text x=\"{}\" y=\"{}\" font-size=\"{}\"{weight}{anchor} fill=\"currentColor\" xml:space=\"preserve\">",
+                x(&begin),
+                y(&begin),
                 number(*size)
             );
             let ends = label.ends(*size);

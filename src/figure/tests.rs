@@ -546,3 +546,16 @@ fn a_heading_leaves_room_for_a_wider_font() {
     let text = "During the collision: the rod and the cart again";
     assert_eq!([heading(&text[..30]), heading(text)], [1, 2]);
 }
+
+#[test]
+fn a_label_left_of_an_arrow_keeps_its_end() {
+    let mut sheet = Sheet::default();
+    let (from, to) = ([0.0, 20.0], [0.0, -20.0]);
+    sheet.arrow(from, to, sheet::Ink::Impulse, 1.8);
+    // Something stands on the right.
+    sheet.kept.push(Room::around([60.0, 0.0], 59.0));
+    sheet.wish(Label::words("m g"), 16.0, place::Spot::Along { from, to });
+    sheet.settle();
+    let drawn = panel::framed(sheet, "", Vec::new(), "");
+    assert!(drawn.svg.contains("text-anchor=\"end\""), "{}", drawn.svg);
+}
