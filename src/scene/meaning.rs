@@ -111,16 +111,16 @@ fn is_told_before(scene: &Scene, name: &Symbol) -> bool {
 fn words(scene: &Scene, uses: &[Use<'_>], name: &Symbol) -> Option<String> {
     let called = |body: &str| called(scene, body);
     let is_it = |e: &Expr| e.as_symbol() == Some(name) || (-e).as_symbol() == Some(name);
-    let mut mine = uses.iter().filter(|(.., e)| is_it(e));
-    let Some((what, first, _)) = mine.next() else {
-        // A rod of the length 2 ℓ.
-        let half = |e: &Expr| (&Expr::ratio(1, 2) * e).as_symbol() == Some(name);
-        let (what, body, _) = uses.iter().find(|(.., e)| half(e))?;
-        return Some(format!(
-            "half the {}",
-            what.replace("{}", &called((*body)?))
-        ));
-    };
+    let mut mine = uses.iter().filter(|(.., e)| is_it(e)).peekable();
+    // A rod of the length 2 ℓ; that says more than where its center is.
+    let is_size = |what: &&str| !PLACED.contains(what) && !POINT.contains(what);
+    let half = |e: &Expr| (&Expr::ratio(1, 2) * e).as_symbol() == Some(name);
+    if !mine.peek().is_some_and(|(what, ..)| is_size(what))
+        && let Some((what, Some(body), _)) = uses.iter().find(|(.., e)| half(e))
+    {
+        return Some(format!("half the {}", what.replace("{}", &called(body))));
+    }
+    let (what, first, _) = mine.next()?;
     let mut bodies: Vec<String> = first.iter().map(|body| called(body)).collect();
     for (_, body, _) in mine.filter(|(also, ..)| also == what) {
         let body = body.map(called);
