@@ -3,10 +3,11 @@
 //!
 //! In: the text of an answer or an expected formula. Out: a grade, or keys that live on parts of the domain.
 
-use super::{Diagnosis, Grade, Key, Options, Question, Verdict, judge_here, key, unreadable};
-use crate::algebra::{Sign, sign};
-use crate::domain::{Domain, Domains, Relation, roles, samples};
-use crate::expr::Expr;
+use super::{Diagnosis, Grade, Key, Options, Question, Verdict, judge_within, key, unreadable};
+use super::{compare, read, relation};
+use crate::algebra::Sign;
+use crate::domain::{Domain, Domains, Relation, Sample};
+use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Content, Fault, Join, Symbols};
 
 /// One case: its value behind the name of the whole, and its condition; nothing for all that is left.
@@ -76,14 +77,13 @@ fn links(condition: &Content) -> Option<Vec<(Expr, bool)>> {
     sides.windows(2).zip(signs).map(link).collect()
 }
 
-/// The parts of a domain in which each case holds, boundaries left out, and what none of them speaks of.
-fn parts(
-    cases: &[Case],
-    question: &Question,
-    symbols: &Symbols,
-) -> Result<(Vec<Vec<Domains>>, Vec<Domains>), Fault> {
-    let mut domains = question.domains.clone();
-    let mut all: Vec<Option<Vec<(Expr, bool)>>> = Vec::new();
+/// What is positive, or not negative where the flag is set, in each case; nothing for all that is left. And the symbols that
+/// the conditions leave without a sign.
+type Conditions = (Vec<Option<Vec<(Expr, bool)>>>, Vec<Symbol>);
+
+/// The conditions of cases, read.
+fn conditions(cases: &[Case], symbols: &Symbols) -> Result<Conditions, Fault> {
+    let (mut all, mut unsigned) = (Vec::new(), Vec::new());
     for (_, condition) in cases {
         let Some(condition) = condition else {
             all.push(None);
@@ -91,15 +91,43 @@ fn parts(
         };
         let fault = || *Fault::new("the condition of this case is not read", 0, 0);
         let read = formula::read(condition, symbols).map_err(|_| fault())?;
-        // What is compared may have either sign.
-        for name in read.symbols() {
-            let declared = question.given().any(|given| given.name == name);
-            let place = domains.symbols.entry(name);
-            if !declared {
-                place.or_insert_with(Domain::real);
-            }
-        }
+        unsigned.extend(relation::unsigned(&read.content));
         all.push(Some(links(&read.content).ok_or_else(fault)?));
+    }
+    Ok((all, unsigned))
+}
+
+/// The parts of the domain of a question in which each case holds, and what none of them speaks of. Conditions that are the
+/// same as others, or the opposite, come in the words of these.
+fn parts(
+    cases: &[Case],
+    question: &Question,
+    symbols: &Symbols,
+) -> Result<(Vec<Vec<Domains>>, Vec<Domains>), Fault> {
+    let mut domains = question.domains.clone();
+    let (mut all, unsigned) = conditions(cases, symbols)?;
+    for name in unsigned {
+        if !question.given().any(|given| given.name == name) {
+            domains.symbols.entry(name).or_insert_with(Domain::real);
+        }
+    }
+    let mut known: Vec<Expr> = domains.relations.iter().map(|r| r.excess.clone()).collect();
+    let excesses = all.iter().flatten().flatten().map(|(e, _)| e);
+    let bearing: Vec<Expr> = excesses.cloned().chain(known.iter().cloned()).collect();
+    let whole = domains.of(&bearing.iter().collect::<Vec<_>>());
+    for (e, _) in all.iter_mut().flatten().flatten() {
+        let bare = Domains {
+            relations: Vec::new(),
+            ..whole.clone()
+        };
+        let same = |f: &Expr| match relation::same_side(f, e, &bare)? {
+            true => Some(f.clone()),
+            false => Some(-f),
+        };
+        match known.iter().find_map(same) {
+            Some(same) => *e = same,
+            None => known.push(e.clone()),
+        }
     }
     let mut left = vec![domains.clone()];
     let mut out = Vec::new();
@@ -118,38 +146,184 @@ fn parts(
                 .collect()
         };
         left = left.iter().flat_map(without).collect();
+        left.retain(|d| extent(d) != Extent::Empty);
         out.push(vec![here]);
     }
-    let lives = |d: &Domains| !is_thin(d, &domains);
+    let lives = |d: &Domains| extent(d) != Extent::Empty;
     out.iter_mut().for_each(|part| part.retain(lives));
-    left.retain(lives);
     Ok((out, left))
 }
 
-/// Whether two relations of a domain, or one, leave no more of it than a boundary.
-fn is_thin(domain: &Domains, whole: &Domains) -> bool {
-    let seen = |e: &Expr| sign(e, whole);
-    let never = |e: &Expr| matches!(seen(e), Some(Sign::Negative | Sign::Zero));
-    // 0 ≥ 0 says nothing: it leaves all of the domain.
-    let says = |r: &&Relation| !(r.closed && seen(&r.excess) == Some(Sign::Zero));
-    let all: Vec<&Expr> = domain
-        .relations
-        .iter()
-        .filter(says)
-        .map(|r| &r.excess)
-        .collect();
-    let against =
-        |(i, e): (usize, &&Expr)| never(e) || all[..i].iter().any(|other| never(&(*e + *other)));
-    all.iter().enumerate().any(against)
+/// What the relations of a domain leave of it.
+#[derive(PartialEq, Debug)]
+enum Extent {
+    /// Nothing, for certain.
+    Empty,
+    /// No more than where this is zero.
+    Edge(Expr),
+    /// As far as signs tell, more than a boundary.
+    Open,
+}
+
+/// What the relations leave of a domain, as far as the signs of one and of sums of two tell.
+fn extent(domain: &Domains) -> Extent {
+    let bare = Domains {
+        relations: Vec::new(),
+        ..domain.clone()
+    };
+    let mut edge = None;
+    let mut seen: Vec<&Relation> = Vec::new();
+    for r in &domain.relations {
+        let alone = std::iter::once((r.excess.clone(), r.closed));
+        let pairs = seen.iter();
+        let pairs = pairs.map(|s| (&s.excess + &r.excess, s.closed && r.closed));
+        let mut is_single = true;
+        for (sum, closed) in alone.chain(pairs) {
+            let single = std::mem::take(&mut is_single);
+            match relation::sign_of(&sum, &bare) {
+                Some(Sign::Negative) => return Extent::Empty,
+                // 0 ≥ 0 says nothing: it leaves all of the domain.
+                Some(Sign::Zero) if single && closed => {}
+                Some(Sign::NotPositive | Sign::Zero) if !closed => return Extent::Empty,
+                Some(Sign::NotPositive | Sign::Zero) => edge = Some(r.excess.clone()),
+                _ => {}
+            }
+        }
+        seen.push(r);
+    }
+    edge.map_or(Extent::Open, Extent::Edge)
+}
+
+/// The first points at which all relations of a domain hold, with all symbols of these and of some formulas.
+fn points(domain: &Domains, formulas: &[&Expr], count: usize) -> Vec<Sample> {
+    let all = domain.relations.iter().map(|r| &r.excess);
+    let all: Vec<&Expr> = all.chain(formulas.iter().copied()).collect();
+    domain.points(&all, count)
 }
 
 /// Whether a point is found at which all relations of a domain hold.
 fn has_points(domain: &Domains) -> bool {
-    const TRIED: usize = 8;
-    let all: Vec<&Expr> = domain.relations.iter().map(|r| &r.excess).collect();
-    let roles = roles(&all);
-    let (completed, _) = domain.completed(&roles);
-    !samples(&roles, &completed, TRIED).is_empty()
+    !points(domain, &[], 1).is_empty()
+}
+
+/// The grade of a text on the domain of a key, which may be a boundary; nothing where there is none.
+fn on(key: &Key, text: &str, options: &Options) -> Option<Grade> {
+    let domain = &key.question.domains;
+    let edge = match extent(domain) {
+        Extent::Empty => return None,
+        Extent::Edge(edge) => edge,
+        Extent::Open => {
+            let mut grade = judge_within(key, text, options);
+            if !matches!(grade.verdict, Verdict::Different | Verdict::Undecided) {
+                return Some(grade);
+            }
+            if !has_points(domain) {
+                return Some(untold("whether these conditions are met anywhere"));
+            }
+            name_all(key, &mut grade);
+            return Some(grade);
+        }
+    };
+    let reading = match read::answer(key, text) {
+        Ok(reading) => reading,
+        Err(fault) => return Some(unreadable(fault)),
+    };
+    for name in edge.symbols() {
+        let Some(value) = at_zero(&edge, &name, domain) else {
+            continue;
+        };
+        let there = put(domain, &name, &value);
+        if extent(&there) == Extent::Empty {
+            return None;
+        }
+        let at = |content: &Content| content.map(&|e| e.put(&name, &value));
+        let mut question = key.question.clone();
+        question.domains = there;
+        let mut here = key.with(at(&key.reading.content));
+        here.question = question;
+        let found = compare::contents(&here, &reading.with(at(&reading.content)), options);
+        if found.is_equivalent() {
+            return Some(found);
+        }
+        if has_points(&here.question.domains) {
+            let place = format!("{name} = {}", formula::write_plain(&value));
+            return Some(told_at(found, place));
+        }
+    }
+    let mut wide = key.clone();
+    wide.question.domains.relations.clear();
+    let found = compare::contents(&wide, &reading, options);
+    let words = "whether the two agree where one case ends and the other begins";
+    Some(match found.is_equivalent() {
+        true => found,
+        false => untold(words),
+    })
+}
+
+/// Undecided, as something could not be told.
+fn untold(what: &str) -> Grade {
+    let words = format!("{what} could not be told");
+    Grade::new(Verdict::Undecided, "UNDECIDED_POINT", "none", words)
+}
+
+/// A finding on a boundary, with the place.
+fn told_at(mut grade: Grade, place: String) -> Grade {
+    if let Some(apart) = &mut grade.counterexample {
+        apart.at = match apart.at.is_empty() {
+            true => place,
+            false => format!("{place}, {}", apart.at),
+        };
+    }
+    let words = "the two part where one case ends and the other begins";
+    let hint = "to which case does the boundary belong?";
+    grade.with(Diagnosis::new("BOUNDARY", words, hint))
+}
+
+/// The value of a symbol at which something is zero, where that is the only one on the domain.
+fn at_zero(edge: &Expr, name: &Symbol, domain: &Domains) -> Option<Expr> {
+    let own = domain.of_symbol(name);
+    let is_acute = || own.lies_within(&Domain::first_quadrant());
+    relation::solve_for(edge, name, domain)
+        .or_else(|| relation::angle_in(edge, name, domain).filter(|_| is_acute()))
+        .or_else(|| relation::size_in(edge, name, domain).filter(|_| !own.changes_sign()))
+}
+
+/// A domain with a value in the place of a symbol, which has to lie where the symbol does.
+fn put(domain: &Domains, name: &Symbol, value: &Expr) -> Domains {
+    let mut there = domain.clone();
+    let own = domain.of_symbol(name);
+    there.relations.clear();
+    let low = own.low.map(|end| (value - &end.expr(), !end.open));
+    let high = own.high.map(|end| (end.expr() - value, !end.open));
+    let stated = domain.relations.iter();
+    let stated = stated.map(|r| (r.excess.put(name, value), r.closed));
+    let all = stated.chain(low).chain(high);
+    all.fold(there, |there, (e, closed)| {
+        match relation::sign_of(&e, &there) {
+            Some(Sign::Positive) => there,
+            Some(Sign::NotNegative | Sign::Zero) if closed => there,
+            _ => there.given(&e, closed),
+        }
+    })
+}
+
+/// Names all symbols of the conditions at the point at which the two part.
+fn name_all(key: &Key, grade: &mut Grade) {
+    const TRIED: usize = 60;
+    let (Some(apart), Some(content)) = (&mut grade.counterexample, &grade.content) else {
+        return;
+    };
+    let formulas = [key.reading.content.exprs(), content.exprs()].concat();
+    let is_own = |name: &Symbol| formulas.iter().any(|e| e.symbols().contains(name));
+    let same = points(&key.question.domains, &formulas, TRIED).into_iter();
+    let same = same.map(|point| {
+        let mut own = point.clone();
+        own.coordinates.retain(|name, _| is_own(name));
+        (own.words(), point.words())
+    });
+    if let Some((_, words)) = same.into_iter().find(|(own, _)| *own == apart.at) {
+        apart.at = words;
+    }
 }
 
 /// The grade of an answer in cases to a question of a scene, of which the scene may go by one alone.
@@ -160,6 +334,14 @@ pub(super) fn of_scene(key: &Key, answer: &str, options: &Options) -> Option<Gra
         grade = Grade::new(Verdict::Undecided, "UNDECIDED_AMBIGUOUS", "none", words);
     }
     Some(grade)
+}
+
+/// The grade of an answer to a key in cases.
+pub(super) fn of_key(key: &Key, answer: &str, options: &Options) -> Grade {
+    let each = key.cases.iter();
+    let found =
+        each.filter_map(|part| judge(part, answer, options).or_else(|| on(part, answer, options)));
+    together(found.collect())
 }
 
 /// The grade of an answer in cases; nothing where it is in none.
@@ -180,7 +362,9 @@ pub(super) fn judge(key: &Key, answer: &str, options: &Options) -> Option<Grade>
                 question,
                 ..key.clone()
             };
-            let mut grade = judge_here(&here, value, options);
+            let Some(mut grade) = on(&here, value, options) else {
+                continue;
+            };
             if grade.verdict == Verdict::Different {
                 let when = condition.as_deref().unwrap_or("all that is left");
                 let words = format!("this is so in the case {when}");
@@ -191,17 +375,20 @@ pub(super) fn judge(key: &Key, answer: &str, options: &Options) -> Option<Grade>
             found.push(grade);
         }
     }
-    if !left.is_empty() {
+    let (open, edges): (Vec<_>, Vec<_>) = left.iter().partition(|d| extent(d) == Extent::Open);
+    if !open.is_empty() {
         let words = "the cases do not say what holds in all of the domain";
-        found.push(match left.iter().any(has_points) {
+        found.push(match open.iter().any(|d| has_points(d)) {
             true => Grade::told("DIFF_CASES", "kind", words, "which case is missing?"),
-            false => {
-                let words = "whether the cases leave something out could not be told";
-                Grade::new(Verdict::Undecided, "UNDECIDED_POINT", "none", words)
-            }
+            false => untold("whether the cases leave something out"),
         });
     }
-    Some(together(found))
+    let mut grade = together(found);
+    if !edges.is_empty() && grade.is_equivalent() {
+        grade.note = "EQUIV_WHERE_DEFINED";
+        grade.assume(vec!["not where one case ends and the next begins".into()]);
+    }
+    Some(grade)
 }
 
 /// The grade of all cases: that of the first that is not right.
@@ -210,7 +397,8 @@ pub(super) fn together(found: Vec<Grade>) -> Grade {
         Verdict::Invalid => 0,
         Verdict::Different => 1,
         Verdict::Undecided => 2,
-        Verdict::Equivalent => 3,
+        Verdict::Equivalent if grade.note != "EQUIV_IDENTITY" => 3,
+        Verdict::Equivalent => 4,
     };
     let worst = found.iter().min_by_key(|grade| weight(grade)).cloned();
     let words = "none of the cases occurs on the domain";

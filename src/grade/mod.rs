@@ -389,9 +389,7 @@ fn judge_within(key: &Key, answer: &str, options: &Options) -> Grade {
         return unreadable(fault);
     }
     if !key.cases.is_empty() {
-        let each = key.cases.iter();
-        let each = each.map(|part| judge_within(part, answer, options));
-        return cases::together(each.collect());
+        return cases::of_key(key, answer, options);
     }
     if let Some(grade) = cases::judge(key, answer, options) {
         return grade;

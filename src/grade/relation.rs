@@ -33,7 +33,7 @@ use std::slice::from_ref;
 
 use super::context::Context;
 use super::scalar::scalars;
-use super::{Apart, Grade, Verdict};
+use super::{Apart, Grade, Options, Question, Verdict, key_of};
 use crate::algebra::{self, Element, Field, Sign};
 use crate::domain::{Domain, Domains, roles};
 use crate::expr::{Expr, Function, Node, Symbol, only};
@@ -465,6 +465,38 @@ pub(crate) fn follows(f: &Expr, g: &Expr, domains: &Domains) -> bool {
 pub(crate) fn proportional(f: &Expr, g: &Expr, domains: &Domains) -> bool {
     let [f, g] = [f, g].map(equation);
     same_sign(&f, &g, domains).is_some() && same_sign(&g, &f, domains).is_some()
+}
+
+/// Whether two formulas are positive at the same points and zero at the same (true), or the one where the other is negative
+/// (false).
+pub(super) fn same_side(f: &Expr, g: &Expr, domains: &Domains) -> Option<bool> {
+    let below = |e: &Expr| Normal::new(-e, Relation::Less);
+    if let Some(same) = same_sign(&below(f), &below(g), domains) {
+        return Some(same);
+    }
+    if f.symbols() != g.symbols() {
+        return None;
+    }
+    let question = Question {
+        domains: domains.of(&[f, g]),
+        ..Question::default()
+    };
+    let (key, options) = (
+        key_of(Content::Scalar(f.clone()), &question),
+        Options::default(),
+    );
+    let ctx = Context::new(&key, &options, false);
+    let same = |f: &Expr, g: &Expr| {
+        [Relation::Less, Relation::LessEqual].iter().all(|sign| {
+            let [f, g] = [f, g].map(|e| Normal::new(-e, *sign));
+            let found = link(&ctx, &f, &g);
+            found.is_equivalent() && found.assumed.is_empty()
+        })
+    };
+    match same(f, g) {
+        true => Some(true),
+        false => same(f, &-g).then_some(false),
+    }
 }
 
 /// The sign of a formula on the domain.
