@@ -127,11 +127,11 @@ impl Lexer<'_> {
             digits_end += 1;
         }
         let mut exponent = Exponent::Ten;
-        if let Some((_, stop, _)) = number::exponent_at(bytes, digits_end) {
+        if let Some((digits_at, stop, _)) = number::exponent_at(bytes, digits_end) {
             let letter = &self.text[digits_end..=digits_end];
             let declared = self.symbols.find(letter).is_some();
             if declared || letter == "e" && self.symbols.is_open() {
-                let signed = matches!(bytes.get(digits_end + 1), Some(b'+' | b'-'));
+                let signed = digits_at > digits_end + 1;
                 // 2e-1 with e declared is 2e minus 1; 1.5e-3 is a number to everybody.
                 let ten = !(declared && signed && !dot);
                 let usual = self.usual();

@@ -146,8 +146,11 @@ pub(crate) fn exponent_at(bytes: &[u8], at: usize) -> Option<(usize, usize, bool
     if !matches!(bytes.get(at), Some(b'e' | b'E')) {
         return None;
     }
-    let negative = bytes.get(at + 1) == Some(&b'-');
-    let digits_at = at + 1 + usize::from(negative || bytes.get(at + 1) == Some(&b'+'));
+    let rest = bytes.get(at + 1..)?;
+    let mut signs = ["-", "−", "–", "+"].into_iter();
+    let sign = signs.find(|s| rest.starts_with(s.as_bytes()));
+    let negative = sign.is_some_and(|sign| sign != "+");
+    let digits_at = at + 1 + sign.map_or(0, str::len);
     let count = bytes[digits_at.min(bytes.len())..]
         .iter()
         .take_while(|b| b.is_ascii_digit())

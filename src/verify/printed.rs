@@ -446,7 +446,7 @@ impl Desk<'_> {
             finding.carom = shown.collect::<Vec<_>>().join(" against ");
             self.identities(&pairs, printed, finding);
             leave_open(is_whole, finding);
-            if finding.holds == Some(false) {
+            if finding.holds == Some(false) && !self.is_number(&pairs, text, printed, finding) {
                 self.caught(&pairs, printed, finding);
                 finding.explained = self
                     .turned(sides, printed)
@@ -466,6 +466,24 @@ impl Desk<'_> {
         let values: Vec<Expr> = values.into_iter().flatten().collect();
         self.claimed(&values, signs, &self.domains_of(printed), finding);
         Ok(())
+    }
+
+    /// Whether an equation is one between a value and a number, and is judged by the digits of that.
+    fn is_number(
+        &self,
+        pairs: &[(Expr, Expr)],
+        text: &str,
+        printed: &Printed,
+        finding: &mut Finding,
+    ) -> bool {
+        let [(left, right)] = pairs else { return false };
+        let (of, value, name) = match left.is_constant() {
+            true => (right, left, text.rsplit('=').next()),
+            false => (left, right, text.split('=').next()),
+        };
+        let name = name.unwrap_or(text).trim();
+        let figure = self.figure(&[(of.clone(), value.clone())], text, printed);
+        figure.is_some_and(|figure| self.rounded(printed, &figure, name, of, finding).is_ok())
     }
 
     fn identities(&self, pairs: &[(Expr, Expr)], printed: &Printed, finding: &mut Finding) {

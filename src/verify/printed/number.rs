@@ -178,7 +178,8 @@ impl Desk<'_> {
         // In the printed unit, which may hold π: 286 deg/s.
         let [low, high] = self.value(&(self.put_in(value, printed)? * unit.powi(-1)))?;
         let written = fraction(&figure.written).ok_or("the printed number is no fraction")?;
-        let off = (&written - &low).abs().max((&written - &high).abs());
+        // Of an exact half either rounding is right.
+        let off = (&written - &low).abs().min((&written - &high).abs());
         let digits = (magnitude_or_zero(&low) - place + 2).max(3) as u32;
         finding.carom = crate::interval::enclosure::decimal(&low, digits);
         match &bare {

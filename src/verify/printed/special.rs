@@ -8,13 +8,32 @@ use crate::answer::calc::sign;
 use crate::domain::{Domains, Origin, Relation};
 use crate::equality;
 use crate::expr::{Expr, Symbol};
-use crate::formula::Sentence;
+use crate::formula::{self, Content, Quantity, Sentence, Symbols};
 use crate::scene::{Print, Printed};
 
 impl Desk<'_> {
     /// The special values; one may be what the scene answers with.
     pub(super) fn special(&self, printed: &Printed) -> Result<BTreeMap<Symbol, Expr>, String> {
-        let mut special = self.values_of(&printed.at, printed)?;
+        // `0.1 m` for a length, though m be a mass.
+        let measured = |name: &str, text: &str| {
+            let reading = formula::read(text, &Symbols::strict()).ok()?;
+            let fits = |q: &Quantity| {
+                let parameter = self.scene.parameter(name);
+                parameter.is_some_and(|p| p.dimension == q.unit.dimension)
+            };
+            match &reading.content {
+                Content::Quantity(q) if fits(q) => Some(q.value.clone()),
+                _ => None,
+            }
+        };
+        let (mut special, mut others) = (BTreeMap::new(), Vec::new());
+        for pair @ [name, text] in &printed.at {
+            match measured(name, text) {
+                Some(value) => drop(special.insert(Symbol::from(name.as_str()), value)),
+                None => others.push(pair.clone()),
+            }
+        }
+        special.extend(self.values_of(&others, printed)?);
         for (name, value) in &mut special {
             if self.scene.parameter(name).is_none() {
                 return Err(format!("`at` names {name}, which is no parameter"));
