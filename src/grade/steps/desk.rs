@@ -25,6 +25,8 @@ pub(super) struct Desk<'a> {
     pub options: &'a Options,
     /// Number of the line that is read.
     pub number: usize,
+    /// Number of the last line.
+    pub last: usize,
     /// True values by name.
     pub closed: Values,
     /// Values at other moments of the scene, and as it goes otherwise, with words that tell when and where.
@@ -135,6 +137,7 @@ impl<'a> Desk<'a> {
             sheet,
             options,
             number: 0,
+            last: 0,
             moments: moments(sheet, &closed),
             closed,
             vectors: Vec::new(),

@@ -141,7 +141,7 @@ impl Desk<'_> {
             let in_words = |s: &Sought| {
                 self.brings_in(&one, s)
                     || self.is_balance(link, &one, s)
-                    || (self.is_solved_for(s) && !self.vanishes(&one, s))
+                    || ((self.is_solved_for(s) || self.ends_open(link)) && !self.vanishes(&one, s))
             };
             let mut all = self.sought.iter();
             all.position(|s| in_words(s) && self.holds_where(link, s))
@@ -163,11 +163,23 @@ impl Desk<'_> {
             self.state(None, &gaps(links));
             return Some((Status::Holds, vec![found]));
         }
+        // Nothing is told of a balance at the end: it may be the condition that was to be found.
+        if let ([link], Weighed::Slip(_)) = (links, weighed)
+            && self.ends_open(link)
+        {
+            return Some((Status::Undecided, vec![found]));
+        }
         // The line is wrong, and no name in it has another value.
         let needed = self.needed.len();
         let status = self.note(reading, links, weighed);
         self.needed.truncate(needed);
         Some((status, vec![found]))
+    }
+
+    /// Whether it is the last line of a solution and gives no name a value.
+    fn ends_open(&self, link: &Link) -> bool {
+        let named = |side: &Content| side.name().is_some();
+        self.number == self.last && !link.sides.iter().any(named)
     }
 
     /// Whether a condition is stated for the sake of its parameter: the solution goes on to that, or the line speaks of what is
@@ -283,6 +295,20 @@ impl Desk<'_> {
             solve_for(&condition, &sought.parameter, &self.sheet.scene.domains)
         };
         sought.value.clone().or_else(solved)
+    }
+
+    /// Whether equalities are those of a condition at some values of other parameters.
+    pub(super) fn are_supposed_at(&self, links: &[Link], there: &Values) -> bool {
+        let is_zero = |d: &Expr, s: &Sought| {
+            let value = self.at_value(&self.truth(&d.substitute(there)), s);
+            value.is_some_and(|value| self.is_zero(&value.substitute(there)))
+        };
+        let all = gaps(links);
+        let mut sought = self.sought.iter().filter(|s| s.condition.is_some());
+        sought.any(|s| {
+            all.iter()
+                .all(|d| is_zero(d, s) && !self.vanishes(&self.with_own(d), s))
+        })
     }
 
     /// Whether an equality holds at the value that is sought.

@@ -264,7 +264,10 @@ impl Desk<'_> {
             });
             all_of(zero)
         };
-        let status = self.found(zero, Status::Undecided);
+        let status = match self.found(zero, Status::Undecided) {
+            Status::Wrong if self.are_supposed_at(&links, &there) => Status::Undecided,
+            status => status,
+        };
         self.note_place(text, &links, &there, &status);
         Some(status)
     }
