@@ -21,6 +21,9 @@ impl Desk<'_> {
         if let Some(status) = self.in_case(text) {
             return (status, Vec::new());
         }
+        if let Some(status) = self.equivalence(text) {
+            return (status, Vec::new());
+        }
         let mut line = (Status::Comment, Vec::new());
         for equation in text::equations(text) {
             if self.is_supposed(text, equation) {

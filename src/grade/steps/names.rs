@@ -116,6 +116,15 @@ impl Desk<'_> {
             || parameters.iter().any(|p| p.name == *name)
     }
 
+    /// Whether an equation says what a new name stands for.
+    pub(super) fn names_something(&self, text: &str) -> bool {
+        let known = |c: char| self.is_known(&Symbol::from(c.to_string()));
+        named(text).is_some_and(|(name, right)| {
+            let is_new = !self.is_known(&name) && !name.chars().all(known);
+            is_new && formula::read(right, &self.symbols(right)).is_ok()
+        })
+    }
+
     /// A new name for something: `h = l/2 sin(theta)`; of a chain all further links are judged.
     pub(super) fn definition(&mut self, text: &str) -> Option<Found> {
         let known = |c: char| self.is_known(&Symbol::from(c.to_string()));

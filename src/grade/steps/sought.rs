@@ -9,7 +9,7 @@ use super::link::{Link, Weighed, gaps};
 use super::{CONDITION, Desk, Found, Status};
 use crate::algebra::{Field, quotient};
 use crate::answer::Answer;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Symbol, only};
 use crate::formula::{Content, Reading};
 use crate::scene::Ask;
 
@@ -219,7 +219,7 @@ impl Desk<'_> {
     /// Whether a line states the condition of a parameter that is sought; a chain `s = u²/(2 μ g) = d` does so between its
     /// ends, where the rest holds with it.
     pub(super) fn states(&self, links: &[Link], sought: &Sought) -> bool {
-        let is = |link: &Link| match (&sought.condition, link.gap()) {
+        let is = |link: &Link| match (&sought.condition, self.open_gap(link)) {
             (Some(c), Some(one)) => {
                 let one = self.with_own(one);
                 self.is_multiple(&one, c) || self.is_closed_form_of(&one, c, &sought.parameter)
@@ -232,6 +232,12 @@ impl Desk<'_> {
         };
         let fits = |link: &Link| is(link) || self.holds(link) || self.holds_where(link, sought);
         links.iter().chain(&ends).any(is) && links.iter().all(fits)
+    }
+
+    /// What has to vanish for an equality to hold, where it is one thing: of `P_A = 0` the component that does not vanish anyway.
+    fn open_gap<'l>(&self, link: &'l Link) -> Option<&'l Expr> {
+        let open = link.differences.iter().filter(|d| !self.is_zero(d));
+        link.gap().or_else(|| only(open))
     }
 
     /// Whether a line is a condition in what is given, as the scene goes or in another of its cases, multiplied by what does not
