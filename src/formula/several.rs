@@ -19,6 +19,11 @@ pub(super) fn is_likely(text: &str, held: Held) -> bool {
         behind.starts_with("\\\\")
             || behind.starts_with("\\{")
             || LOGIC.iter().any(|sign| behind.starts_with(sign))
+            || ["\\quad", "\\qquad"]
+                .iter()
+                .any(|gap| behind.starts_with(gap))
+                && text[..at].contains('=')
+                && behind.contains('=')
     };
     held.joins()
         || held.any("|:") && held.any("{")
@@ -167,7 +172,7 @@ pub(crate) fn letters_apart(text: &str, symbols: &Symbols) -> Option<String> {
 /// Where the parts of a list end and the next begin: `x = 3 or x = -3`, `2, -2`. In a set any comma parts them.
 fn gaps(text: &str, set: bool) -> Vec<(usize, usize)> {
     const WORDS: &str = "∨|∧|\\lor|\\land|\\vee|\\wedge|\\text{ or }|\\text{or}|\\mathrm{or}| or |\
-        \\text{ and }|\\text{and}| and |\\quad|\\\\|; ";
+        \\text{ and }|\\text{and}| and |\\quad|\\qquad|\\\\|; ";
     let mut found: Vec<(usize, usize)> = Vec::new();
     let mut depth = 0i32;
     let mut at = 0;

@@ -1,6 +1,6 @@
 //! Demands on the way an answer is written: simplified, factored, in given symbols, to so many digits, with a unit.
 
-use num_traits::Signed;
+use num_traits::{Signed, Zero};
 
 use super::{Diagnosis, Grade, Key, Verdict};
 use crate::algebra::{Element, Field, tidy};
@@ -81,12 +81,22 @@ fn unmet(form: &Form, key: &Key, answer: &Reading) -> Option<(&'static str, Stri
             ("DIFF_FORM_SYMBOLS", words)
         }
         Form::Digits(n) => {
-            let words = match &answer.literal {
-                Some(literal) if (counted(literal)..=literal.digits).contains(n) => return None,
-                Some(Literal { digits, .. }) => {
+            let own = || answer.written.last().and_then(numbers);
+            let all = answer.literal.clone().map(|one| vec![one]).or_else(own);
+            // A component of a vector may be nothing.
+            let is_part = all.as_ref().is_some_and(|all| all.len() > 1);
+            let fits = |literal: &Literal| {
+                is_part && literal.value.is_zero()
+                    || (counted(literal)..=literal.digits).contains(n)
+            };
+            let words = match all.as_deref() {
+                None | Some([]) => {
+                    format!("a decimal number with {n} significant digits is asked for")
+                }
+                Some(all) => {
+                    let Literal { digits, .. } = all.iter().find(|literal| !fits(literal))?;
                     format!("{n} significant digits are asked for, and it has {digits}")
                 }
-                None => format!("a decimal number with {n} significant digits is asked for"),
             };
             ("DIFF_FORM_DIGITS", words)
         }
@@ -194,6 +204,21 @@ fn same(a: &Written, b: &Written) -> bool {
         }
         _ => false,
     }
+}
+
+/// The numbers that an answer in digits is written with: one with its sign of degrees or percent, with ± or its unit, the
+/// components of a vector.
+fn numbers(written: &Written) -> Option<Vec<Literal>> {
+    if let Some(one) = written.literal().or_else(|| written.marked()) {
+        return Some(vec![one]);
+    }
+    let inside: Vec<&Written> = match &written.shape {
+        Shape::List(_) | Shape::Measured(..) | Shape::Bracket(_) => written.pieces(),
+        Shape::Sum(terms) if terms.len() == 1 => written.pieces(),
+        _ => return None,
+    };
+    let all: Option<Vec<Vec<Literal>>> = inside.into_iter().map(numbers).collect();
+    Some(all?.concat())
 }
 
 /// The digits of a number that surely count: those before the zeros at the end of a whole one, all of a decimal.

@@ -411,6 +411,13 @@ pub(super) fn lists(ctx: &Context, expected: &[Expr], answer: &[Expr]) -> Grade 
     if ctx.options.tolerance.is_some() {
         one_to_one(&mut fitting, answer.len());
     }
+    let is_each = fitting.iter().all(|here| !here.is_empty());
+    if !is_each
+        && undecided.is_none()
+        && let Some(same) = same_pair(&plain, &expected, &answer)
+    {
+        return same;
+    }
     let mut found = vec![false; answer.len()];
     let (mut total, mut lost) = (None::<Grade>, Vec::new());
     for (value, mut here) in expected.iter().zip(fitting) {
@@ -464,6 +471,21 @@ pub(super) fn lists(ctx: &Context, expected: &[Expr], answer: &[Expr]) -> Grade 
             }
         }),
     }
+}
+
+/// The finding that two values are two others in one order here and in the other there, as `±|x|` is `±x`: they have the same
+/// sum and the same product.
+fn same_pair(ctx: &Context, expected: &[&Expr], answer: &[&Expr]) -> Option<Grade> {
+    let ([a, b], [c, d], None) = (expected, answer, &ctx.options.tolerance) else {
+        return None;
+    };
+    let sum = scalars(ctx, &(*a + *b), &(*c + *d));
+    let product = scalars(ctx, &(*a * *b), &(*c * *d));
+    (sum.is_equivalent() && product.is_equivalent()).then(|| {
+        let mut found = product;
+        found.assume(sum.assumed);
+        found
+    })
 }
 
 /// The finding that values are those that are expected with fewer digits, each of them one.

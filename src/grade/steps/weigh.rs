@@ -94,7 +94,9 @@ impl Desk<'_> {
             let positive = at(&|word| word == "positive");
             let beside = positive.is_some_and(|at| at.abs_diff(sense) <= MOST_APART);
             let turns = sense > 0 && TURNS.contains(&words[sense - 1]);
-            (beside || turns).then(|| words[sense] == "clockwise")
+            // `Let ω be the clockwise angular velocity`
+            let says_what = ["let", "call", "denote", "denotes", "define"].contains(&words[0]);
+            (beside || turns || says_what).then(|| words[sense] == "clockwise")
         };
         let mut spins = self.spins.values();
         let (Some((spin, counted)), None) = (spins.next(), spins.next()) else {
@@ -106,8 +108,11 @@ impl Desk<'_> {
             let turns = equations(line).into_iter().find_map(|equation| {
                 let whole = with_direction(line, equation);
                 let (own, [.., turns]) = read::sense(whole.as_deref().unwrap_or(equation))?;
-                let reading = formula::read(own, &symbols).ok()?;
-                reading.symbols().contains(spin).then_some(turns)
+                // `ω = m v d/I clockwise`, whatever I is.
+                let is_it = || named(own).is_some_and(|(name, _)| name == *spin);
+                let read = formula::read(own, &symbols);
+                let mentions = read.is_ok_and(|reading| reading.symbols().contains(spin));
+                (mentions || is_it()).then_some(turns)
             });
             turns.filter(|turns| *turns != 0).map(|turns| turns < 0)
         };
