@@ -68,7 +68,14 @@ impl Page<'_> {
             found.map_or(speed.clone(), |a| Expr::symbol(&a.name))
         });
         let half = Expr::ratio(1, 2);
-        let during = &half * Expr::sum(named) * &t;
+        let rests = named.iter().any(Expr::is_zero);
+        let during = &half * Expr::sum(named);
+        // Half of one speed is seen to be that.
+        let during = match rests {
+            true => during,
+            false => tidied(self.scene, &during),
+        };
+        let during = during * &t;
         let mean = tidied(self.scene, &(half * Expr::sum(speeds)));
         let math = words::related(way, "=", &during);
         let line = self.claimed(
