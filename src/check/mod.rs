@@ -112,7 +112,7 @@ pub fn check(text: &str) -> Result<Report, Unusable> {
         };
         set.push((name.trim(), value.trim()));
     }
-    scene::set_all(&mut scene, set).map_err(|(_, f)| Unusable(f.message))?;
+    scene::set_all(&mut scene, set).map_err(|unfit| Unusable(unfit.1.message))?;
     scene::values_fit(&scene).map_err(|f| Unusable(f.message))?;
     // Outcomes of a scene's one impact are told as those of a stage.
     if let (false, Some(stage)) = (scene.has_stages(), root["impacts"][0]["stage"].as_str()) {

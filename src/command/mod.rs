@@ -71,7 +71,8 @@ pub fn scene(name: &str, text: &str, set: &[String]) -> Result<Scene, String> {
         };
         values.push((symbol.trim(), value.trim()));
     }
-    scene::set_all(&mut scene, values.iter().copied()).map_err(|(about, fault)| {
+    scene::set_all(&mut scene, values.iter().copied()).map_err(|unfit| {
+        let (about, fault) = *unfit;
         let of = |(name, _): &&(&str, &str)| about.is_none_or(|about| about == *name);
         let given = values.iter().filter(of);
         let given = given.map(|(name, value)| format!("--set {name}={value}"));

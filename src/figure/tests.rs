@@ -506,7 +506,11 @@ fn a_block_is_above_its_plank_and_rough_ground_presses_and_holds_it_back() {
         assert!(plank.low[0] < block[0] && block[0] < plank.high[0]);
         assert!(plank.high[1] < block[1]);
     }
-    let arrows: Vec<Pair> = sheet.lines(sheet::Ink::Impulse).iter().map(ends).collect();
+    let arrows: Vec<Pair> = sheet
+        .lines(sheet::Ink::Impulse)
+        .iter()
+        .map(|line| ends(line))
+        .collect();
     let [weight, normal, friction] = arrows.as_slice() else {
         panic!("{arrows:?}");
     };
@@ -514,7 +518,7 @@ fn a_block_is_above_its_plank_and_rough_ground_presses_and_holds_it_back() {
 }
 
 /// From the tail of an arrow to its head.
-fn ends(line: &Vec<Pair>) -> Pair {
+fn ends(line: &[Pair]) -> Pair {
     plane::minus(line[line.len() - 1], line[0])
 }
 

@@ -55,8 +55,8 @@ pub struct Fault {
     pub message: String,
     /// What to do about it.
     pub hint: Option<String>,
-    /// Where what the message ends with is declared, whose line is told when reading ends.
-    pub(super) declared: Option<Span>,
+    /// At which byte what the message ends with is declared, whose line is told when reading ends.
+    pub(super) declared: Option<usize>,
 }
 
 impl Fault {
@@ -115,7 +115,7 @@ impl Faults {
             let before = &text[..floor(text, fault.span.start)];
             let line_start = before.rfind('\n').map_or(0, |at| at + 1);
             if let Some(at) = fault.declared.take() {
-                let line = text[..floor(text, at.start)].matches('\n').count() + 1;
+                let line = text[..floor(text, at)].matches('\n').count() + 1;
                 fault.message += &format!(", in line {line}");
             }
             fault.line = before.matches('\n').count() + 1;

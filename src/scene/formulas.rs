@@ -239,7 +239,7 @@ impl Symbols {
             [] => {}
             [(name, (unit, at))] if symbols.len() == 1 => {
                 fault.message += &format!(": `{name}` is declared with the unit {unit}");
-                fault.declared = Some(*at);
+                fault.declared = Some(at.start);
             }
             all => {
                 let all = all

@@ -150,7 +150,7 @@ pub fn schema() -> String {
 /// Gives a parameter a value in its unit, such as `2`, `1/3` or `acos(3/5)`; the scene is checked at the new value.
 /// On a fault the scene is as before. The fault's place counts in `value`.
 pub fn set(scene: &mut Scene, name: &str, value: &str) -> Result<(), Fault> {
-    set_all(scene, [(name, value)]).map_err(|(_, fault)| fault)
+    set_all(scene, [(name, value)]).map_err(|unfit| unfit.1)
 }
 
 /// Gives several parameters values, one after the other; the scene is checked at all of them together. A fault comes with
@@ -158,7 +158,7 @@ pub fn set(scene: &mut Scene, name: &str, value: &str) -> Result<(), Fault> {
 pub fn set_all<'a>(
     scene: &mut Scene,
     values: impl IntoIterator<Item = (&'a str, &'a str)>,
-) -> Result<(), (Option<&'a str>, Fault)> {
+) -> Result<(), Box<(Option<&'a str>, Fault)>> {
     let mut before = Vec::new();
     let mut names = Vec::new();
     let mut fault = None;
@@ -180,7 +180,7 @@ pub fn set_all<'a>(
     for (name, old) in before.into_iter().rev() {
         put(scene, &name, old);
     }
-    Err(fault)
+    Err(Box::new(fault))
 }
 
 /// Gives a parameter a value inside its domain; gives the value it had.

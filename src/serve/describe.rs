@@ -47,7 +47,8 @@ pub fn describe(text: &str, asked: &Asked) -> Result<Value, Wrong> {
     let mut scene = read.map_err(|faults| Wrong::Scene(render::faults::json(&faults, text)))?;
     let set = asked.set.iter();
     let set = set.map(|(name, value)| (name.as_str(), value.as_str()));
-    scene::set_all(&mut scene, set).map_err(|(name, fault)| {
+    scene::set_all(&mut scene, set).map_err(|unfit| {
+        let (name, fault) = *unfit;
         let of = name.map_or(String::new(), |name| format!("{name}: "));
         Wrong::Value(format!("{of}{}", fault.message))
     })?;
