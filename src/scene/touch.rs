@@ -153,7 +153,9 @@ fn off(scene: &Scene, (at, inside): (&Vector, bool), body: &Body) -> Option<Stri
     };
     let is_far = |e: &Expr| sign(&e.substitute(&given), &scene.domains) == Some(Sign::Negative);
     let is_off = !spots.is_empty() && spots.iter().all(nowhere);
-    if !is_off && !reach(body, at).iter().any(is_far) {
+    // What is round is looked at where the impact is judged.
+    let is_far = body.shape.radius().is_none() && reach(body, at).iter().any(is_far);
+    if !is_off && !is_far {
         return None;
     }
     let seen = example(&spots, &given, &scene.domains, |point| {
