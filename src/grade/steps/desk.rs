@@ -25,8 +25,6 @@ pub(super) struct Desk<'a> {
     pub options: &'a Options,
     /// Number of the line that is read.
     pub number: usize,
-    /// Number of the last line.
-    pub last: usize,
     /// True values by name.
     pub closed: Values,
     /// Values at other moments of the scene, and as it goes otherwise, with words that tell when and where.
@@ -137,7 +135,6 @@ impl<'a> Desk<'a> {
             sheet,
             options,
             number: 0,
-            last: 0,
             moments: moments(sheet, &closed),
             closed,
             vectors: Vec::new(),

@@ -309,7 +309,7 @@ impl Desk<'_> {
     }
 
     /// Whether an inequality says of a parameter what a bound that is asked for does.
-    pub(super) fn says_a_bound(&self, sides: [&Expr; 2], sign: Relation) -> bool {
+    fn says_a_bound(&self, sides: [&Expr; 2], sign: Relation) -> bool {
         let [a, b] = sides.map(|e| formula::write_plain(&self.truth(e)));
         let text = format!("{a} {} {b}", sign.sign());
         let asked: Vec<String> = self.sheet.bounds().map(|bound| bound.name).collect();

@@ -7,7 +7,6 @@ use super::super::{Diagnosis, read};
 use super::link::Values;
 use super::link::{self, Link, Weighed};
 use super::{CONDITION, Desk, Found, MOMENT, Needed, Status, arrows, names, open, text};
-use crate::equality::vanishes;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Reading};
 use crate::scene::Ask;
@@ -19,9 +18,6 @@ impl Desk<'_> {
     /// A line is as good as its worst equation.
     pub(super) fn line(&mut self, text: &str) -> Found {
         if let Some(status) = self.in_case(text) {
-            return (status, Vec::new());
-        }
-        if let Some(status) = self.equivalence(text) {
             return (status, Vec::new());
         }
         let mut line = (Status::Comment, Vec::new());
@@ -67,10 +63,27 @@ impl Desk<'_> {
             return (Status::Holds, Vec::new());
         }
         let reading = match formula::read(text, &self.symbols(text)) {
+            // `(m+M) V`, `(m+M) g h`: a letter that is said further down, or is a quantity first, is no unit.
             Ok(reading) if names::behind(text, &reading).is_some() => {
-                match self.with_letters(text, reading) {
-                    Ok(reading) => reading,
-                    Err(found) => return found,
+                let unit = names::behind(text, &reading).and_then(|(from, to)| text.get(from..to));
+                // `v² = 2 a s` speaks of a way, `t = v/(μ g) s` of seconds.
+                let solved = names::named(text).is_some();
+                let letter = self.is_misfit(text, &reading)
+                    || unit.is_some_and(|unit| {
+                        names::is_quantity_first(unit) || unit == "s" && !solved
+                    });
+                match self.looked_ahead(text) {
+                    Some(reading) => reading,
+                    None if letter && self.new_name(text).is_some() => {
+                        return (Status::Defines, Vec::new());
+                    }
+                    None if self.has_normal(text, &reading) && self.new_side(text).is_some() => {
+                        formula::read(text, &self.symbols(text)).unwrap_or(reading)
+                    }
+                    None if names::are_letters(text, &reading) => {
+                        return (Status::Undecided, Vec::new());
+                    }
+                    None => reading,
                 }
             }
             Ok(reading) => self.in_its_unit(text, &reading).unwrap_or(reading),
@@ -88,9 +101,6 @@ impl Desk<'_> {
                     return first;
                 }
                 let near = text::near(&fault, text).is_some_and(|meant| !self.is_own(meant));
-                if !near && let Some(status) = self.new_by_given(text) {
-                    return (status, Vec::new());
-                }
                 match self.looked_ahead(text) {
                     Some(reading) => reading,
                     None if near => return (Status::Unreadable(fault), Vec::new()),
@@ -136,28 +146,6 @@ impl Desk<'_> {
             self.note_final(text, &reading, &Values::new());
         }
         found
-    }
-
-    /// A line with what was read as a unit behind letters: `(m+M) V`, `(m+M) g h`: a letter that is said further down, or is a
-    /// quantity first, is no unit.
-    fn with_letters(&mut self, text: &str, reading: Reading) -> Result<Reading, Found> {
-        let unit = names::behind(text, &reading).and_then(|(from, to)| text.get(from..to));
-        // `v² = 2 a s` speaks of a way, `t = v/(μ g) s` of seconds.
-        let solved = names::named(text).is_some();
-        let letter = self.is_misfit(text, &reading)
-            || unit.is_some_and(|unit| names::is_quantity_first(unit) || unit == "s" && !solved);
-        if letter && let Some(status) = self.new_by_given(text) {
-            return Err((status, Vec::new()));
-        }
-        match self.looked_ahead(text) {
-            Some(reading) => Ok(reading),
-            None if letter && self.new_name(text).is_some() => Err((Status::Defines, Vec::new())),
-            None if self.has_normal(text, &reading) && self.new_side(text).is_some() => {
-                Ok(formula::read(text, &self.symbols(text)).unwrap_or(reading))
-            }
-            None if names::are_letters(text, &reading) => Err((Status::Undecided, Vec::new())),
-            None => Ok(reading),
-        }
     }
 
     /// Whether a name that looks like one that is known is beside one of the student's own, as V_y beside V_x: no slip of the pen.
@@ -348,21 +336,13 @@ impl Desk<'_> {
                 let used = all.iter().flat_map(Expr::symbols);
                 let own = used.filter(|name| self.own.contains_key(name));
                 let own: Vec<_> = own.collect();
-                let is_early = own.iter().any(|name| self.early.contains(name));
-                if is_early {
+                if own.iter().any(|name| self.early.contains(name)) {
                     self.above.extend(all.iter().cloned());
                 }
-                // What holds by what is said further down, however the scene goes, is no fact of it.
-                let domains = &self.sheet.scene.domains;
-                let mut own_values = all.iter().map(|d| self.with_own(d));
-                let status = match is_early && own_values.all(|d| vanishes(&d, domains)) {
-                    true => Status::Defines,
-                    false => Status::Holds,
-                };
                 self.proved.extend(own);
                 self.carry(reading);
                 self.state(None, &all);
-                status
+                Status::Holds
             }
             Weighed::Rounded => Status::Holds,
             Weighed::Open => Status::Undecided,

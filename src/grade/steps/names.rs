@@ -3,10 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::super::relation::{angle_in, below_in, size_in, solve_for};
-use super::super::sheet::Sheet;
 use super::inertias::is_other_inertia;
 use super::letters::OF_CENTER;
-use super::link::{Link, Weighed};
+use super::link::Weighed;
 use super::{Desk, Found, Status};
 use crate::dimension::{self, Dimension};
 use crate::expr::{Expr, Node, Symbol, only};
@@ -48,24 +47,14 @@ pub(super) fn left_sides(text: &str) -> Vec<Expr> {
     sides.collect()
 }
 
-/// The names for which it says something at the end of its way, by their powers too, and among them those of questions.
-pub(super) fn solved_for(sheet: &Sheet, text: &str) -> BTreeSet<Symbol> {
+/// The names for which it says something at the end of its way, by their powers too.
+pub(super) fn solved_for(text: &str) -> BTreeSet<Symbol> {
     let sides = left_sides(text);
     let base = |side: &Expr| match side.node() {
         Node::Power(base, _) => base.as_symbol().cloned(),
         _ => side.as_symbol().cloned(),
     };
-    let mut found: BTreeSet<Symbol> = sides.iter().filter_map(base).collect();
-    // `d_0` reads as d0 where no scene has such a name.
-    let questions = sheet.scene.questions.iter().map(|q| q.name.as_str());
-    let open = Symbols::open();
-    let asked = questions.filter(|name| {
-        let read = formula::read_name(&formula::latex_name(name), &open);
-        read.is_some_and(|read| found.contains(&read))
-    });
-    let asked: Vec<Symbol> = asked.map(Symbol::from).collect();
-    found.extend(asked);
-    found
+    sides.iter().filter_map(base).collect()
 }
 
 /// The place of what was read as a unit behind a formula in symbols; of several the last, as others may be names.
@@ -114,15 +103,6 @@ impl Desk<'_> {
             || self.own.contains_key(name)
             || self.parts.contains_key(&*format!("{name}_z"))
             || parameters.iter().any(|p| p.name == *name)
-    }
-
-    /// Whether an equation says what a new name stands for.
-    pub(super) fn names_something(&self, text: &str) -> bool {
-        let known = |c: char| self.is_known(&Symbol::from(c.to_string()));
-        named(text).is_some_and(|(name, right)| {
-            let is_new = !self.is_known(&name) && !name.chars().all(known);
-            is_new && formula::read(right, &self.symbols(right)).is_ok()
-        })
     }
 
     /// A new name for something: `h = l/2 sin(theta)`; of a chain all further links are judged.
@@ -192,7 +172,8 @@ impl Desk<'_> {
             self.own.insert(name, last);
             return Some((status, Vec::new()));
         }
-        let (links, weighed) = self.weighed_ends(text, &right)?;
+        let links = self.links(&right)?;
+        let weighed = self.weigh(text, &links);
         // What is rounded, or cannot be decided, stands for what it was rounded from.
         let exact = !matches!(weighed, Weighed::Slip(_) | Weighed::Carried(_));
         self.own
@@ -214,21 +195,6 @@ impl Desk<'_> {
         };
         self.slipped.extend(cause.map(|cause| (cause, name, first)));
         Some(self.defined(text, &right, weighed))
-    }
-
-    /// The further links of a definition and what is found of them: of `c = √(2 R h − h²) = 0.3 m` in meters where that holds,
-    /// though m be a mass.
-    fn weighed_ends(&self, text: &str, right: &Reading) -> Option<(Vec<Link>, Weighed)> {
-        let links = self.links(right)?;
-        let weighed = self.weigh(text, &links);
-        let in_meters = || {
-            let (_, sides) = text.split_once('=')?;
-            let links = self.links(&self.measured(sides, right)?)?;
-            let again = self.weigh(text, &links);
-            matches!(again, Weighed::Holds | Weighed::Rounded).then_some((links, again))
-        };
-        let other = matches!(weighed, Weighed::Slip(_)).then(in_meters);
-        Some(other.flatten().unwrap_or((links, weighed)))
     }
 
     /// A name that is said with a slip below the lines that use it: the one other own name of such a line has the slip as well.
@@ -477,8 +443,8 @@ impl Desk<'_> {
         }
     }
 
-    /// The names a line may use, and new ones.
-    fn open_symbols(&self) -> Symbols {
+    /// An equation with one name that is new: it says what the name stands for.
+    pub(super) fn new_name(&mut self, text: &str) -> Option<Status> {
         let mut open = Symbols::open();
         if let Some(letter) = self.turning {
             open.declare_typeset(OF_CENTER, letter);
@@ -495,25 +461,7 @@ impl Desk<'_> {
         known.for_each(|name| open.declare(name));
         // No scene has a resistance.
         open.declare(&Symbol::from("Omega"));
-        open
-    }
-
-    /// An equation of one new name with what is given: it says what the name stands for, and a line further down that says so
-    /// too is judged by it.
-    pub(super) fn new_by_given(&mut self, text: &str) -> Option<Status> {
-        let names = formula::read(text, &self.open_symbols()).ok()?.symbols();
-        let mut new = names
-            .iter()
-            .filter(|name| !self.is_given(name) && ***name != *"pi");
-        match (new.next(), new.next()) {
-            (Some(name), None) if !self.is_known(name) => self.new_name(text),
-            _ => None,
-        }
-    }
-
-    /// An equation with one name that is new: it says what the name stands for.
-    pub(super) fn new_name(&mut self, text: &str) -> Option<Status> {
-        let reading = formula::read(text, &self.open_symbols()).ok()?;
+        let reading = formula::read(text, &open).ok()?;
         let product = |n: &formula::Note| {
             text.get(n.start..n.end)
                 .is_some_and(|run| self.new_letter(run).is_some())

@@ -162,10 +162,6 @@ pub(super) fn continued(before: &str, line: &str) -> String {
     let rest = line.trim_start_matches(['&', '$', ' ']);
     let goes_on =
         rest.starts_with(['=', '≈']) && !rest.starts_with("=>") || rest.starts_with("\\approx");
-    // What stands behind `where` says what a letter is.
-    let before = before
-        .split_once(", where ")
-        .map_or(before, |(chain, _)| chain);
     let chain = equations(before).pop().filter(|_| goes_on);
     let Some((first, last)) =
         chain.and_then(|chain| Some((chain.split('=').next()?, chain.rsplit(['=', '≈']).next()?)))

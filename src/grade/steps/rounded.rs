@@ -153,16 +153,8 @@ impl Desk<'_> {
     /// Whether the sides differ by no more than the own names in them may that were said to be decimal numbers.
     fn is_within_own(&self, link: &Link) -> bool {
         let values = self.sheet.scene.values();
-        let middle = |e: &Expr| {
-            let [low, high] = number::bounds(e)?;
-            Some((low + high) / ratio(2, 1))
-        };
         let rounded = self.ahead.iter().filter_map(|(name, right)| {
-            let own = self.own.get(name)?;
-            // Degrees are a fraction of π.
-            let in_degrees =
-                || fraction(&own.put(&Symbol::from("pi"), &Expr::one())).and(middle(own));
-            let value = fraction(own).or_else(in_degrees)?;
+            let value = fraction(self.own.get(name)?)?;
             // What goes on to other lines counts from three digits.
             let (share, decimal) = coarsest(&format!("{right} ="), &values)?;
             decimal.then(|| (name, value.abs() * share, value))
@@ -170,6 +162,10 @@ impl Desk<'_> {
         let rounded: Vec<(&Symbol, Rational, Rational)> = rounded.collect();
         let mut exact = self.own.clone();
         exact.retain(|name, _| !rounded.iter().any(|(other, ..)| *other == name));
+        let middle = |e: &Expr| {
+            let [low, high] = number::bounds(e)?;
+            Some((low + high) / ratio(2, 1))
+        };
         let is_near = |gap: &Expr| {
             let own = (0..exact.len().min(8)).fold(gap.clone(), |e, _| e.substitute(&exact));
             let gap = own.substitute(&self.closed).substitute(&values);

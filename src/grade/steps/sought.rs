@@ -9,7 +9,7 @@ use super::link::{Link, Weighed, gaps};
 use super::{CONDITION, Desk, Found, Status};
 use crate::algebra::{Field, quotient};
 use crate::answer::Answer;
-use crate::expr::{Expr, Symbol, only};
+use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Reading};
 use crate::scene::Ask;
 
@@ -141,7 +141,7 @@ impl Desk<'_> {
             let in_words = |s: &Sought| {
                 self.brings_in(&one, s)
                     || self.is_balance(link, &one, s)
-                    || ((self.is_solved_for(s) || self.ends_open(link)) && !self.vanishes(&one, s))
+                    || (self.is_solved_for(s) && !self.vanishes(&one, s))
             };
             let mut all = self.sought.iter();
             all.position(|s| in_words(s) && self.holds_where(link, s))
@@ -163,23 +163,11 @@ impl Desk<'_> {
             self.state(None, &gaps(links));
             return Some((Status::Holds, vec![found]));
         }
-        // Nothing is told of a balance at the end: it may be the condition that was to be found.
-        if let ([link], Weighed::Slip(_)) = (links, weighed)
-            && self.ends_open(link)
-        {
-            return Some((Status::Undecided, vec![found]));
-        }
         // The line is wrong, and no name in it has another value.
         let needed = self.needed.len();
         let status = self.note(reading, links, weighed);
         self.needed.truncate(needed);
         Some((status, vec![found]))
-    }
-
-    /// Whether it is the last line of a solution and gives no name a value.
-    fn ends_open(&self, link: &Link) -> bool {
-        let named = |side: &Content| side.name().is_some();
-        self.number == self.last && !link.sides.iter().any(named)
     }
 
     /// Whether a condition is stated for the sake of its parameter: the solution goes on to that, or the line speaks of what is
@@ -219,7 +207,7 @@ impl Desk<'_> {
     /// Whether a line states the condition of a parameter that is sought; a chain `s = u²/(2 μ g) = d` does so between its
     /// ends, where the rest holds with it.
     pub(super) fn states(&self, links: &[Link], sought: &Sought) -> bool {
-        let is = |link: &Link| match (&sought.condition, self.open_gap(link)) {
+        let is = |link: &Link| match (&sought.condition, link.gap()) {
             (Some(c), Some(one)) => {
                 let one = self.with_own(one);
                 self.is_multiple(&one, c) || self.is_closed_form_of(&one, c, &sought.parameter)
@@ -232,12 +220,6 @@ impl Desk<'_> {
         };
         let fits = |link: &Link| is(link) || self.holds(link) || self.holds_where(link, sought);
         links.iter().chain(&ends).any(is) && links.iter().all(fits)
-    }
-
-    /// What has to vanish for an equality to hold, where it is one thing: of `P_A = 0` the component that does not vanish anyway.
-    fn open_gap<'l>(&self, link: &'l Link) -> Option<&'l Expr> {
-        let open = link.differences.iter().filter(|d| !self.is_zero(d));
-        link.gap().or_else(|| only(open))
     }
 
     /// Whether a line is a condition in what is given, as the scene goes or in another of its cases, multiplied by what does not
@@ -301,20 +283,6 @@ impl Desk<'_> {
             solve_for(&condition, &sought.parameter, &self.sheet.scene.domains)
         };
         sought.value.clone().or_else(solved)
-    }
-
-    /// Whether equalities are those of a condition at some values of other parameters.
-    pub(super) fn are_supposed_at(&self, links: &[Link], there: &Values) -> bool {
-        let is_zero = |d: &Expr, s: &Sought| {
-            let value = self.at_value(&self.truth(&d.substitute(there)), s);
-            value.is_some_and(|value| self.is_zero(&value.substitute(there)))
-        };
-        let all = gaps(links);
-        let mut sought = self.sought.iter().filter(|s| s.condition.is_some());
-        sought.any(|s| {
-            all.iter()
-                .all(|d| is_zero(d, s) && !self.vanishes(&self.with_own(d), s))
-        })
     }
 
     /// Whether an equality holds at the value that is sought.

@@ -10,7 +10,6 @@ use super::cause::MOST_STEPS;
 use super::desk::all_of;
 use super::impact::Stand;
 use super::link::{Link, Values, Weighed, equal, gaps, mentions_vectors};
-use super::names::named;
 use super::rounded::{is_near, pieces};
 use super::text::{beside, equations, supposition, with_direction};
 use super::{Desk, Status};
@@ -19,7 +18,6 @@ use crate::answer::limit;
 use crate::equality;
 use crate::expr::{Expr, Function, Symbol, effort};
 use crate::formula::{self, Content, Reading, Relation};
-use crate::grade;
 use crate::scene::{Ask, Question};
 
 /// Most words between a sense of rotation and the word that it is positive.
@@ -94,9 +92,7 @@ impl Desk<'_> {
             let positive = at(&|word| word == "positive");
             let beside = positive.is_some_and(|at| at.abs_diff(sense) <= MOST_APART);
             let turns = sense > 0 && TURNS.contains(&words[sense - 1]);
-            // `Let ω be the clockwise angular velocity`
-            let says_what = ["let", "call", "denote", "denotes", "define"].contains(&words[0]);
-            (beside || turns || says_what).then(|| words[sense] == "clockwise")
+            (beside || turns).then(|| words[sense] == "clockwise")
         };
         let mut spins = self.spins.values();
         let (Some((spin, counted)), None) = (spins.next(), spins.next()) else {
@@ -108,11 +104,8 @@ impl Desk<'_> {
             let turns = equations(line).into_iter().find_map(|equation| {
                 let whole = with_direction(line, equation);
                 let (own, [.., turns]) = read::sense(whole.as_deref().unwrap_or(equation))?;
-                // `ω = m v d/I clockwise`, whatever I is.
-                let is_it = || named(own).is_some_and(|(name, _)| name == *spin);
-                let read = formula::read(own, &symbols);
-                let mentions = read.is_ok_and(|reading| reading.symbols().contains(spin));
-                (mentions || is_it()).then_some(turns)
+                let reading = formula::read(own, &symbols).ok()?;
+                reading.symbols().contains(spin).then_some(turns)
             });
             turns.filter(|turns| *turns != 0).map(|turns| turns < 0)
         };
@@ -209,17 +202,7 @@ impl Desk<'_> {
             let reading = formula::read(part, &self.symbols(part)).ok()?;
             Some(self.in_its_unit(part, &reading).unwrap_or(reading))
         };
-        let then: Option<Vec<Reading>> = behind.iter().map(|part| read(part)).collect();
-        let Some(then) = then else {
-            // A name of one's own for a special case.
-            let is_new = || behind.iter().all(|part| self.names_something(part));
-            let are_values = || {
-                equations(given)
-                    .into_iter()
-                    .all(|part| self.supposes_a_value(part))
-            };
-            return (is_new() && are_values()).then_some(Status::Defines);
-        };
+        let then: Vec<Reading> = behind.into_iter().map(read).collect::<Option<_>>()?;
         let is_parameter = |name: &Symbol| self.is_given(name);
         let symbol = |side: &Content| side.name().cloned();
         let mut there = BTreeMap::new();
@@ -281,61 +264,9 @@ impl Desk<'_> {
             });
             all_of(zero)
         };
-        let status = match self.found(zero, Status::Undecided) {
-            Status::Wrong if self.are_supposed_at(&links, &there) => Status::Undecided,
-            status => status,
-        };
+        let status = self.found(zero, Status::Undecided);
         self.note_place(text, &links, &there, &status);
         Some(status)
-    }
-
-    /// Whether an equation gives a parameter a value.
-    fn supposes_a_value(&self, part: &str) -> bool {
-        named(part).is_some_and(|(name, right)| {
-            let value = formula::read(right, &self.symbols(right));
-            self.is_given(&name) && value.is_ok_and(|value| value.expr().is_some())
-        })
-    }
-
-    /// Whether two inequalities with a sign of equivalence between them say the same as the scene goes; nothing where a line is
-    /// no such thing, or tells a bound that is asked for.
-    pub(super) fn equivalence(&self, text: &str) -> Option<Status> {
-        let signs = ["⟺", "⇔", "<=>", "\\iff", "\\Leftrightarrow"];
-        let sides = signs.iter().find_map(|sign| text.split_once(sign))?;
-        let read = |side: &str| {
-            let content = formula::read(side.trim(), &self.symbols(side))
-                .ok()?
-                .content;
-            let (_, [sign]) = content.relations()? else {
-                return None;
-            };
-            sign.is_order().then(|| content.map(&|e| self.truth(e)))
-        };
-        let [a, b] = [read(sides.0)?, read(sides.1)?];
-        let is_asked = |content: &Content| match content.relations() {
-            Some(([left, right], [sign])) => match (left.expr(), right.expr()) {
-                (Some(left), Some(right)) => self.says_a_bound([left, right], *sign),
-                _ => false,
-            },
-            _ => false,
-        };
-        if is_asked(&a) || is_asked(&b) {
-            return None;
-        }
-        let question = grade::Question {
-            domains: self.sheet.scene.domains.clone(),
-            ..grade::Question::default()
-        };
-        let key = grade::key_of(a, &question);
-        let reading = Reading {
-            content: b,
-            ..key.reading.clone()
-        };
-        match grade::compare::verdict_of(&key, &reading, &grade::Options::default()) {
-            Verdict::Equivalent => Some(Status::Holds),
-            Verdict::Different => Some(Status::Wrong),
-            _ => Some(Status::Undecided),
-        }
     }
 
     /// Keeps `u = 0 for η = 4` as an answer where it is asked for which η that is so.
