@@ -319,8 +319,9 @@ mod tests {
         assert_eq!(codes("10*cos(pi/6)", "10*cos(30)"), ["DEGREES"]);
         assert_eq!(codes("-8.66", "-10*cos(30)"), ["DEGREES"]);
         assert!(codes("8.66", "10*cos(31)").is_empty());
+        let read = |text: &str| read_expr(text, &Symbols::open()).expect("a formula");
         let turned = turned_in_degrees(&read("v*cos(60)")).expect("a number under a cosine");
-        assert_eq!(turned, read("v/2"));
+        assert_eq!(turned, read("v*cos(pi/3)"));
         assert_eq!(turned_in_degrees(&read("v*cos(theta)")), None);
     }
 }
