@@ -45,7 +45,6 @@ pub fn in_cases(scene: &Scene) -> Result<Worked, String> {
 /// Its stages alone, up to one where it is named, for pictures: nothing is answered, and nothing checked beyond what telling
 /// them takes.
 pub fn to_draw(scene: &Scene, last: Option<&str>) -> Result<Worked, String> {
-    let gain = verify::friction::gain(scene);
     let mut scene = verify::friction::settled(scene)?;
     if let Some(last) = scene
         .stages
@@ -57,19 +56,20 @@ pub fn to_draw(scene: &Scene, last: Option<&str>) -> Result<Worked, String> {
         scene.questions.retain(is_told);
     }
     let told = story::course(&scene).map_err(|reason| reason.to_string())?;
-    Ok(Worked { scene, told, gain })
+    Ok(drawn(scene, told))
+}
+
+/// A scene for pictures, of whose energy nothing is said.
+fn drawn(scene: Scene, told: Told) -> Worked {
+    let gain = None;
+    Worked { scene, told, gain }
 }
 
 /// The first case of an impact whose friction no values settle, to be drawn where that case holds.
 pub fn first_case(scene: &Scene) -> Option<Scene> {
     let scene = scene.staged(IMPACT);
     let told = story::course(&scene).ok()?;
-    let worked = Worked {
-        scene,
-        told,
-        gain: None,
-    };
-    let mut chapters = worked.chapters().into_iter();
+    let mut chapters = drawn(scene, told).chapters().into_iter();
     chapters.find_map(|(_, chapter)| match chapter {
         Chapter::Impact(impact) => Some(impact),
         _ => None,
