@@ -6,7 +6,7 @@ use num_traits::{One, Zero};
 use super::Stop;
 use super::element::Element;
 use super::field::{AngleOf, Base, Field, Kind, MOST_ANGLES, handy};
-use super::mono::mono_variables;
+use super::mono::{mono_of, mono_variables};
 use super::poly::Poly;
 use crate::expr::angle::angle;
 use crate::expr::{Expr, Function, Int, Rational, Symbol, ratio};
@@ -221,15 +221,25 @@ impl Field {
         Ok(None)
     }
 
-    /// The arc sine of the sine or cosine of a base angle that stays where the sine or cosine takes each value once.
+    /// The arc sine of the sine or cosine of a base angle, or the arc tangent of its tangent or cotangent, that stays where these
+    /// take each value once.
     fn own_angle(&mut self, function: Function, x: &Element) -> Result<Option<Element>, Stop> {
-        let Some(v) = self.as_generator(x).filter(|_| function == Function::Asin) else {
-            return Ok(None);
+        let of = |base: &Base| {
+            let quotient = |above, below| {
+                let parts = x.num == Poly::var(above) && x.den.factors.is_empty() && x.den.int.is_one();
+                parts && x.den.mono == mono_of(below, 1)
+            };
+            match function {
+                Function::Asin if self.as_generator(x) == Some(base.sin) => Some(ratio(-1, 2)),
+                Function::Asin if self.as_generator(x) == Some(base.cos) => Some(ratio(0, 1)),
+                Function::Atan if quotient(base.sin, base.cos) => Some(ratio(-1, 2)),
+                Function::Atan if quotient(base.cos, base.sin) => Some(ratio(0, 1)),
+                _ => None,
+            }
         };
-        let (base, low) = match self.gens[v].kind {
-            Kind::Sin(base) => (base, ratio(-1, 2)),
-            Kind::Cos(base) => (base, ratio(0, 1)),
-            _ => return Ok(None),
+        let found = self.bases.iter().enumerate();
+        let Some((base, low)) = found.map(|(i, b)| (i, of(b))).find_map(|(i, low)| Some((i, low?))) else {
+            return Ok(None);
         };
         let stays = self
             .in_turns(base)

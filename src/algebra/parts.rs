@@ -39,7 +39,30 @@ impl Field {
             }
         }
         self.gather_squares(&mut best);
-        best
+        let mut split = self.split_circles(&best);
+        split.join_conjugates();
+        match split.factors.len() > best.factors.len() {
+            true => self.split_circles(&best),
+            false => best,
+        }
+    }
+
+    /// Factors split further in the form in which all their terms are of one degree in cosine and sine: 1 − (1 + μ²) cos² is
+    /// (sin − μ cos) (sin + μ cos).
+    pub(super) fn split_circles(&self, parts: &Parts) -> Parts {
+        let mut out = parts.clone();
+        for (f, k) in parts.factors.iter().filter(|(f, _)| (2..=LONG).contains(&f.len())) {
+            let form = self.of_one_degree(f);
+            if form == *f {
+                continue;
+            }
+            let found = factor(&form, &self.fuel);
+            if found.factors.len() > 1 && found.content.is_one() {
+                out.factors.retain(|(g, _)| g != f);
+                found.factors.into_iter().for_each(|(g, l)| out.note(g, k * l));
+            }
+        }
+        out
     }
 
     /// Pairs of generators with a² + b² = 1.

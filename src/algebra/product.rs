@@ -150,13 +150,19 @@ impl Field {
             .factors
             .iter()
             .filter(|(f, k)| *k == 1 && f.len() == 1);
-        let roots: Vec<usize> = once.map(|(f, _)| f.variables()[0]).collect();
-        for root in roots {
-            let (Kind::Root, Some((2, value))) = (&self.gens[root].kind, &self.gens[root].relation)
-            else {
-                continue;
-            };
-            let whole = self.taken_apart(value);
+        let roots = once.filter_map(|(f, _)| {
+            let root = f.variables()[0];
+            match (&self.gens[root].kind, &self.gens[root].relation) {
+                (Kind::Root, Some((2, value))) => Some((root, value)),
+                _ => None,
+            }
+        });
+        let roots: Vec<(usize, &Poly)> = roots.collect();
+        if !roots.is_empty() {
+            *below = self.split_circles(below);
+        }
+        for (root, value) in roots {
+            let whole = self.split_circles(&self.taken_apart(value));
             let shared = |is_known: &dyn Fn(&Poly) -> bool| {
                 let (mut inside, mut under) = (whole.clone(), Parts::one());
                 for (f, _) in below.factors.iter().filter(|(f, k)| *k == 1 && is_known(f)) {
@@ -171,7 +177,7 @@ impl Field {
                 (inside, under)
             };
             let (rest, all) = shared(&|_| true);
-            let is_whole = rest.factors.is_empty() && rest.content.is_positive();
+            let is_whole = rest.factors.is_empty();
             let (inside, under) = match is_whole {
                 true => (rest, all),
                 false => shared(&|f| self.sign_poly(f) == Some(Sign::Positive)),

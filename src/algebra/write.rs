@@ -8,7 +8,7 @@ use super::factor::Parts;
 use super::factor::factor;
 use super::field::{AngleOf, Field, Kind};
 use super::joined::{Term, trimmed};
-use super::mono::{Mono, exponent, mono_add, mono_div, mono_divides, mono_of, powers};
+use super::mono::{Mono, exponent, mono_add, mono_div, mono_divides, mono_is_one, mono_of, powers};
 use super::parts::{letters, strike};
 use super::poly::Poly;
 use super::product::{MOST_SIGNED, turned_inside};
@@ -131,7 +131,10 @@ impl Field {
     /// A quotient with what stands above with the whole denominator taken out: `(g (M + m) − F)/(M + m)` is `g − F/(M + m)`.
     fn parted(&self, x: &Element) -> Option<Expr> {
         let den = &x.den.factors;
-        if den.is_empty() || !(3..=MOST_PARTED).contains(&x.num.len()) {
+        if den.is_empty() {
+            return self.parted_by_letters(x);
+        }
+        if !(3..=MOST_PARTED).contains(&x.num.len()) {
             return None;
         }
         let whole = multiplied(Poly::one(), den)?;
@@ -156,6 +159,33 @@ impl Field {
             self.written(&Element::new(num, Den { int, mono, factors }))
         };
         let mut both = [over(taken, Vec::new()), over(rest, den.clone())];
+        both.sort_by_key(Expr::is_negative);
+        Some(Expr::sum(both))
+    }
+
+    /// The same of letters alone below the line: `(l w² − 3 g)/l` is `w² − 3 g/l`.
+    fn parted_by_letters(&self, x: &Element) -> Option<Expr> {
+        let is_plain = mono_is_one(&x.den.mono) || !mono_is_one(&x.num.mono_content());
+        if is_plain || !(2..=MOST_PARTED).contains(&x.num.len()) {
+            return None;
+        }
+        let (mut taken, mut rest) = (Poly::zero(), Poly::zero());
+        for (mono, coeff) in x.num.terms() {
+            let side = match mono_divides(&x.den.mono, mono) {
+                true => &mut taken,
+                false => &mut rest,
+            };
+            *side = side.add(&Poly::term(mono, coeff.clone()));
+        }
+        if taken.is_zero() || rest.is_zero() {
+            return None;
+        }
+        let over = |num: Poly| {
+            let mut den = x.den.clone();
+            let num = den.cancel_into(num);
+            self.written(&Element::new(num, den))
+        };
+        let mut both = [over(taken), over(rest)];
         both.sort_by_key(Expr::is_negative);
         Some(Expr::sum(both))
     }
@@ -266,20 +296,19 @@ impl Field {
         Some((num, below.factors))
     }
 
-    /// With every term brought to one degree in a cosine and its sine by cos² + sin² = 1, where that can be: for
-    /// 1 − (1 + μ²) cos² stands sin² − μ² cos², whose factors show.
-    fn of_one_degree(&self, p: &Poly) -> Poly {
+    /// With the terms of even degree in a cosine and its sine brought to one degree by cos² + sin² = 1, and those of odd degree
+    /// too: for 1 − (1 + μ²) cos² stands sin² − μ² cos², whose factors show.
+    pub(super) fn of_one_degree(&self, p: &Poly) -> Poly {
         let mut out = p.clone();
         for (c, s) in self.circles() {
             let degree = |m: &[u64]| exponent(m, c) + exponent(m, s);
-            let most = out.terms().map(|(m, _)| degree(m)).max().unwrap_or(0);
-            if out.terms().any(|(m, _)| (most - degree(m)) % 2 == 1) {
-                continue;
-            }
+            let of = |odd: u32| out.terms().map(|(m, _)| degree(m)).filter(move |d| d % 2 == odd);
+            let most = [0, 1].map(|odd| of(odd).max().unwrap_or(0));
             let square = |v| Poly::term(&mono_of(v, 2), Int::one());
             let circle = square(c).add(&square(s));
             let raised = out.terms().try_fold(Poly::zero(), |total, (m, k)| {
-                let by = circle.pow((most - degree(m)) / 2).ok()?;
+                let own = degree(m);
+                let by = circle.pow((most[own as usize % 2] - own) / 2).ok()?;
                 Some(total.add(&Poly::term(m, k.clone()).mul(&by).ok()?))
             });
             out = raised.unwrap_or(out);

@@ -9,7 +9,7 @@ use num_traits::Signed as _;
 use super::Check;
 pub use crate::algebra::tidy;
 use crate::algebra::{self, Field, Sign};
-use crate::domain::{Domains, roles, samples, samples_until};
+use crate::domain::{Domains, Roles, Sample, at_ends, roles, samples, samples_until};
 use crate::equality;
 use crate::expr::{Expr, Function, Node, Point, Rational, Symbol, effort};
 use crate::formula::Sentence;
@@ -266,17 +266,7 @@ fn met_anywhere(e: &Expr, domains: &Domains) -> (usize, usize) {
     }
     let roles = roles(&[e]);
     let (domains, _) = domains.completed(&roles);
-    let names = roles
-        .symbols
-        .keys()
-        .filter(|name| !domains.is_component(name));
-    let starts = samples(&roles, &domains, 1);
-    let led = names.flat_map(|name| {
-        starts
-            .iter()
-            .flat_map(|start| start.led_far(name, &domains))
-    });
-    for sample in led.filter(|sample| domains.admits(sample)) {
+    for sample in far_out(&roles, &domains) {
         match evaluate::<Interval>(e, &sample.point(roles.radians)) {
             Outcome::Value(v) if v.low > 0.0 => above += 1,
             Outcome::Value(v) if v.high < 0.0 => below += 1,
@@ -284,6 +274,34 @@ fn met_anywhere(e: &Expr, domains: &Domains) -> (usize, usize) {
         }
     }
     (above, below)
+}
+
+/// Points with one symbol far out, or near an end of its domain.
+fn far_out(roles: &Roles, domains: &Domains) -> Vec<Sample> {
+    let names = roles.symbols.keys();
+    let names = names.filter(|name| !domains.is_component(name));
+    let starts = samples(roles, domains, 1);
+    let led = names.flat_map(|name| starts.iter().flat_map(|start| start.led_far(name, domains)));
+    led.filter(|sample| domains.admits(sample)).collect()
+}
+
+/// A point of the domain at which an exact value is such: within, at closed ends, or far out.
+pub(super) fn point_where(
+    e: &Expr,
+    domains: &Domains,
+    is_such: impl Fn(&Rational) -> bool,
+) -> Option<(Sample, Rational)> {
+    let roles = roles(&[e]);
+    let (domains, _) = domains.completed(&roles);
+    let within = samples(&roles, &domains, POINTS);
+    let mut ends = at_ends(within.get(..2).unwrap_or_default(), &domains);
+    ends.retain(|sample| domains.admits(sample));
+    let far = far_out(&roles, &domains);
+    let mut all = within.into_iter().chain(ends).chain(far);
+    all.find_map(|sample| {
+        let value = e.evaluate(&sample.fractions())?;
+        is_such(&value).then_some((sample, value))
+    })
 }
 
 /// A sum of quotients times those of their denominators that are known to be positive.

@@ -1,10 +1,12 @@
 //! Inequalities that hold for all parameters, or for none: decided by the sign of left side less right side.
 
+use num_traits::Signed as _;
+
 use super::Check;
-use super::calc::{Seen, has_both_signs, sign};
+use super::calc::{Seen, has_both_signs, point_where, sign};
 use crate::algebra::Sign;
 use crate::domain::Domains;
-use crate::expr::Expr;
+use crate::expr::{Expr, Rational};
 use crate::formula::{Relation, Sentence, sentence};
 
 /// The sign of a formula in words.
@@ -35,28 +37,58 @@ pub(super) fn everywhere(s: Seen, relation: Relation) -> Option<bool> {
     (yes || no).then_some(yes)
 }
 
-/// An inequality that is to be shown for all parameters, decided by the sign of its left side less its right.
+/// An inequality that is to be shown for all parameters, decided by the sign of its left side less its right; where it fails, a
+/// point shows it.
 pub(super) fn shown(gap: &Expr, relation: Relation, domains: &Domains) -> (Sentence, Check) {
     let seen = sign(gap, domains);
-    let holds = match everywhere(seen, relation) {
-        // What is positive somewhere and negative elsewhere holds not for all.
-        None if has_both_signs(gap, domains) => Some(false),
-        found if seen.is_proved() => found,
-        _ => None,
+    let known = everywhere(seen, relation).filter(|_| seen.is_proved());
+    let fails = |value: &Rational| match relation {
+        Relation::Less => !value.is_negative(),
+        Relation::LessEqual => value.is_positive(),
+        Relation::Greater => !value.is_positive(),
+        _ => value.is_negative(),
     };
-    let is_sided = seen.side().is_some();
-    let words = match holds {
-        Some(true) => "the sign of the difference is proved on the whole domain",
-        Some(false) => "the difference has another sign, or has it on a part of the domain only",
-        None if is_sided => "that both sides are the same somewhere is not excluded",
-        None => "the sign of the difference was not proved",
+    let against = match known {
+        None => point_where(gap, domains, fails),
+        Some(_) => None,
     };
     let difference = sentence!("the difference of its sides is {}", gap);
-    let text = match holds {
-        Some(true) => sentence!("{}, which is {}", difference, sign_words(seen)),
-        Some(false) => sentence!("it does not hold for all values: {}", difference),
-        None if is_sided => sentence!("not decided: {}, which is {}", difference, sign_words(seen)),
-        None => sentence!("not decided: {}", difference),
+    let words = sign_words(seen);
+    let (text, why, holds) = match (known, against) {
+        (Some(true), _) => {
+            let why = "the sign of the difference is proved on the whole domain";
+            (sentence!("{}, which is {}", difference, words), why, Some(true))
+        }
+        (Some(false), _) => {
+            let text = sentence!("it never holds: {}, which is {}", difference, words);
+            let why = "the difference is proved to have another sign on the whole domain";
+            (text, why, Some(false))
+        }
+        (None, Some((at, value))) => {
+            let (value, at) = (Expr::from(value), at.words());
+            let text = sentence!(
+                "it does not hold for all values: {}, which is {} at {}",
+                difference,
+                &value,
+                at
+            );
+            let why = "at one point of the domain the difference has another sign";
+            (text, why, Some(false))
+        }
+        (None, None) if has_both_signs(gap, domains) => {
+            let text = sentence!("it does not hold for all values: {}", difference);
+            let why = "the difference has another sign on a part of the domain";
+            (text, why, Some(false))
+        }
+        (None, None) if seen.side().is_some() => {
+            let text = sentence!("not decided: {}, which is {}", difference, words);
+            let why = "that both sides are the same somewhere is not excluded";
+            (text, why, None)
+        }
+        (None, None) => {
+            let text = sentence!("not decided: {}", difference);
+            (text, "the sign of the difference was not proved", None)
+        }
     };
-    (text, Check::new("sign", String::from(words), holds))
+    (text, Check::new("sign", why, holds))
 }

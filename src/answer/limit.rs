@@ -104,12 +104,15 @@ fn without_bars(
 /// The limit of arcs, their multiples and sums: of each arc that of its argument, inside of which it is continuous.
 fn of_arcs(of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) -> Option<Found> {
     let (mut how, mut given) = (None, Vec::new());
-    let value = arcs_at(of, parameter, &mut |x| {
+    let value = arcs_at(of, parameter, &mut |arc, x| {
         let found = found(x, parameter, to, domains)?;
         how = Some(found.how);
         given.extend(found.given);
+        let quarter = Expr::pi() / Expr::from(2);
         match found.tends {
-            Tends::To(value) => Some(value),
+            Tends::To(value) => Some(Expr::call(arc, value)),
+            Tends::Beyond(Some(true)) if arc == Function::Atan => Some(quarter),
+            Tends::Beyond(Some(false)) if arc == Function::Atan => Some(-quarter),
             Tends::Beyond(_) | Tends::Apart => None,
         }
     })?;
@@ -133,13 +136,15 @@ fn of_arcs(of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) 
     })
 }
 
-/// An expression of arcs with what their arguments tend to in their place.
-fn arcs_at(e: &Expr, p: &Symbol, tends: &mut impl FnMut(&Expr) -> Option<Expr>) -> Option<Expr> {
+/// An expression of arcs with what each tends to in its place.
+fn arcs_at(
+    e: &Expr,
+    p: &Symbol,
+    tends: &mut impl FnMut(Function, &Expr) -> Option<Expr>,
+) -> Option<Expr> {
     match e.node() {
         _ if !e.mentions(p) => Some(e.clone()),
-        Node::Call(arc @ (Function::Acos | Function::Asin | Function::Atan), x) => {
-            Some(Expr::call(*arc, tends(x)?))
-        }
+        Node::Call(arc @ (Function::Acos | Function::Asin | Function::Atan), x) => tends(*arc, x),
         Node::Sum(_) | Node::Product(_) => e.try_map_parts(|part| arcs_at(part, p, tends)),
         _ => None,
     }
@@ -183,23 +188,35 @@ pub fn fill(out: &mut Answer, of: &Expr, parameter: &Symbol, to: Option<&Expr>, 
     out.text.push(words.into());
 }
 
-/// Far out, where the parameter stands in the exponents of one number between 0 and 1 alone: its power dies away, and what is
-/// left is a limit at zero of that power.
+/// Far out, where the parameter stands in exponents of one base alone: its power dies away, or its inverse does, and what is left
+/// is a limit at zero of that power.
 fn dying(of: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Found> {
     const POWER: &str = "power that dies away";
-    let mut base: Option<Expr> = None;
-    let rest = without_powers(of, parameter, &mut base, &Expr::symbol(POWER))?;
-    let base = base?;
+    let mut growth: Option<Growth> = None;
+    let rest = without_powers(of, parameter, &mut growth, &Expr::symbol(POWER))?;
+    let Growth { base, rate } = growth?;
     let mut domains = domains.clone();
-    let is_positive = |e: &Expr| sign(e, &domains) == Seen::Proved(Sign::Positive);
-    let below = &Expr::one() - &base;
-    // Of what is above 1 the inverse dies away.
-    let rest = match sign(&below, &domains).side() {
-        Some(true) if is_positive(&base) => rest,
-        Some(false) => rest.put(POWER, &Expr::symbol(POWER).powi(-1)),
-        _ => return None,
+    let is_up = |e: &Expr, domains: &Domains| sign(e, domains).side();
+    let rises = is_up(&rate, &domains)?;
+    let (dies, not_zero_of) = match &base {
+        None => (!rises, rate),
+        Some(base) => {
+            let below = &Expr::one() - base;
+            let is_below = is_up(&below, &domains)?;
+            let is_positive = sign(base, &domains) == Seen::Proved(Sign::Positive);
+            (is_positive || !is_below).then_some(())?;
+            (is_below == rises, below)
+        }
     };
-    let given = not_zero(&below, &domains).map(|_| sentence!("{} ≠ 1", &base));
+    // Of what is above 1 the inverse dies away.
+    let rest = match dies {
+        true => rest,
+        false => rest.put(POWER, &Expr::symbol(POWER).powi(-1)),
+    };
+    let given = not_zero(&not_zero_of, &domains).map(|condition| match &base {
+        Some(base) => sentence!("{} ≠ 1", base),
+        None => condition,
+    });
     domains.symbols.insert(POWER.into(), Domain::positive());
     let name = Symbol::from(POWER);
     let found = by_taylor(&rest, &name, &Expr::zero(), &domains)
@@ -211,30 +228,48 @@ fn dying(of: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Found> {
     })
 }
 
-/// A formula with a symbol for b^p, wherever the parameter p stands in an exponent k p + c of one base b; nothing where it
-/// stands elsewhere too, or where two bases do.
-fn without_powers(e: &Expr, p: &Symbol, base: &mut Option<Expr>, power: &Expr) -> Option<Expr> {
+/// What a parameter p stands in the exponents of: b^(r p), with the base of the natural logarithms where there is no other.
+struct Growth {
+    base: Option<Expr>,
+    rate: Expr,
+}
+
+/// A formula with a symbol for b^(r p), wherever the parameter p stands in an exponent k r p + c of one base b, with numbers k;
+/// nothing where it stands elsewhere too, or where two bases do.
+fn without_powers(
+    e: &Expr,
+    p: &Symbol,
+    growth: &mut Option<Growth>,
+    power: &Expr,
+) -> Option<Expr> {
     if !e.mentions(p) {
         return Some(e.clone());
     }
-    let Node::Power(b, exponent) = e.node() else {
-        return match e.as_symbol() {
-            Some(_) => None,
-            None => e.try_map_parts(|part| without_powers(part, p, base, power)),
-        };
+    let (base, exponent) = match e.node() {
+        Node::Power(b, exponent) if b.mentions(p) => {
+            let inside = without_powers(b, p, growth, power)?;
+            return (!exponent.mentions(p)).then(|| inside.power(exponent.clone()));
+        }
+        Node::Power(b, exponent) => (Some(b.clone()), exponent),
+        Node::Call(Function::Exp, exponent) => (None, exponent),
+        _ if e.as_symbol().is_some() => return None,
+        _ => return e.try_map_parts(|part| without_powers(part, p, growth, power)),
     };
-    if b.mentions(p) {
-        let inside = without_powers(b, p, base, power)?;
-        return (!exponent.mentions(p)).then(|| inside.power(exponent.clone()));
-    }
-    if base.get_or_insert_with(|| b.clone()) != b {
-        return None;
-    }
-    let slope = exponent.derivative(p);
-    let rest = tidy(&exponent.put(p, &Expr::zero()), &Domains::default()).ok()?;
-    let slope = tidy(&slope, &Domains::default()).ok()?;
-    slope.as_number()?;
-    Some(&power.power(slope) * &b.power(rest))
+    let none = Domains::default();
+    let rest = tidy(&exponent.put(p, &Expr::zero()), &none).ok()?;
+    let rate = tidy(&exponent.derivative(p), &none).ok()?;
+    let rest = match &base {
+        Some(base) => base.power(rest),
+        None => Expr::call(Function::Exp, rest),
+    };
+    // Of a number the rate is one: 1/2 to the power n, and of n + 1.
+    let own = match rate.as_number() {
+        Some(_) => Expr::one(),
+        None => rate.clone(),
+    };
+    let known = growth.get_or_insert(Growth { base: base.clone(), rate: own });
+    let times = tidy(&(&rate / &known.rate), &none).ok()?;
+    (known.base == base && times.as_number().is_some()).then(|| &power.power(times) * &rest)
 }
 
 /// The polynomial in the distance that stands for a formula near a value; without an order, its leading term.

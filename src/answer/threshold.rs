@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 
 use super::Check;
-use super::calc::{Seen, above_zero, by_signs, essential, is_zero, keeps_to, sign, tidy};
+use super::calc::{Seen, above_zero, beyond_zero, by_signs, essential, is_zero, keeps_to, sign, tidy};
 use super::inequality::{everywhere, sign_words};
 use super::intervals::beside;
 use super::isolate::isolate;
@@ -65,10 +65,7 @@ pub(super) fn fill(
         Ok(roots) => roots,
         Err(why) => {
             out.text.push(match why {
-                Unsolved::Absent => {
-                    let words = always(&gap, called, relation, domains);
-                    sentence!("{}, whatever {} is", words, parameter)
-                }
+                Unsolved::Absent => always(&gap, Some(parameter), called, relation, domains),
                 Unsolved::Inside => {
                     sentence!("not solved: {} stands inside a function", parameter)
                 }
@@ -83,6 +80,9 @@ pub(super) fn fill(
         return;
     }
     if roots.inside.is_empty() {
+        if reached(out, parameter, (&gap, relation), domains) {
+            return;
+        }
         let rest = essential(&gap, domains);
         let idle = !rest.symbols().contains(parameter);
         out.text.push(match relation {
@@ -90,7 +90,13 @@ pub(super) fn fill(
                 let [unless, else_all] = [" does, unless ", " = 0, when every value does"];
                 sentence!("no value of {}{}{}{}", parameter, unless, &rest, else_all)
             }
-            _ => always(&gap, called, relation, domains),
+            Relation::Equal if !roots.discarded.is_empty() && !sign(&gap, domains).is_proved() => {
+                Sentence::words("no solution: each value that solves it is discarded")
+            }
+            _ => {
+                let whatever = idle.then_some(parameter);
+                always(&gap, whatever, called, relation, domains)
+            }
         });
         return;
     }
@@ -119,6 +125,59 @@ pub(super) fn fill(
     if rooted {
         under_the_root(out);
     }
+}
+
+/// The bound of what always holds where the motions before come to their ends: from there on they do. Whether there is one.
+fn reached(
+    out: &mut Answer,
+    parameter: &Symbol,
+    (gap, relation): (&Expr, Relation),
+    domains: &Domains,
+) -> bool {
+    let seen = sign(gap, domains);
+    if !seen.is_proved() || everywhere(seen, relation) != Some(true) {
+        return false;
+    }
+    let mut apart = domains.clone();
+    let is_one = |r: &crate::domain::Relation| {
+        matches!(r.origin, Origin::Ending(_)) && r.excess.mentions(parameter)
+    };
+    apart.relations.retain(|r| !is_one(r));
+    let ends: Vec<_> = domains.relations.iter().filter(|r| is_one(r)).collect();
+    let bound = |r: &&crate::domain::Relation| {
+        let (_, is_upper) = end_of(parameter, r, &apart)?;
+        let found = solve(&r.excess, parameter, &apart).ok()?;
+        let [root] = found.inside.as_slice() else {
+            return None;
+        };
+        (root.proved && r.closed).then(|| (root.clone(), is_upper))
+    };
+    let Some(bounds) = ends.iter().map(bound).collect::<Option<Vec<_>>>() else {
+        return false;
+    };
+    let is_upper = bounds.first().is_some_and(|(_, upper)| *upper);
+    // Of several the one at which all the others hold.
+    let is_last = |(root, upper): &&(Root, bool)| {
+        let there = |e: &Expr| e.put(parameter, &root.value);
+        let at = bounds.iter().zip(&ends);
+        let mut others = at.filter(|((other, _), _)| other.value != root.value);
+        *upper == is_upper && others.all(|(_, r)| keeps_to(&there(&r.excess), true, &apart) == Some(true))
+    };
+    let Some((root, _)) = bounds.iter().find(is_last) else {
+        return false;
+    };
+    let side = if is_upper { Relation::LessEqual } else { Relation::GreaterEqual };
+    let needs = root.needs.iter().cloned();
+    out.needs.extend(needs.map(|(e, closed)| (root.value.clone(), e, closed)));
+    out.assumptions.extend(root.given.iter().cloned());
+    out.form = Form::value(root.value.clone());
+    out.range.push((Expr::symbol(parameter), side, root.value.clone()));
+    let there = if is_upper { "up to there" } else { "from there on" };
+    let wherever = "it holds wherever the motion comes to its end, which it does";
+    out.text.push(sentence!("{} {}", wherever, there));
+    let words = "the sign of the difference is proved wherever the motion comes to its end";
+    out.checks.push(Check::new("sign", words, Some(true)));
+    true
 }
 
 /// Lets what was found of the sides say that it is so of what stands under a root.
@@ -582,8 +641,14 @@ fn jumps(gap: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Sentence> 
     }
 }
 
-/// Words for an inequality without a threshold; what decides it is `called` so.
-fn always(gap: &Expr, called: &'static str, relation: Relation, domains: &Domains) -> Sentence {
+/// Words for an inequality without a threshold, `whatever` a parameter is that has no part in it; what decides it is `called` so.
+fn always(
+    gap: &Expr,
+    whatever: Option<&Symbol>,
+    called: &'static str,
+    relation: Relation,
+    domains: &Domains,
+) -> Sentence {
     let s = sign(gap, domains);
     let difference = Sentence::filled(called, [gap.into()]);
     let reason = |what: &str| match gap.is_zero() {
@@ -591,13 +656,25 @@ fn always(gap: &Expr, called: &'static str, relation: Relation, domains: &Domain
         false => sentence!("{} {} on the whole domain", &difference, what),
     };
     let sign_words = sign_words(s);
-    match everywhere(s, relation) {
+    let words = match everywhere(s, relation) {
         Some(true) if s.is_proved() => sentence!("it always holds: {}", reason(sign_words)),
         Some(false) if s.is_proved() => sentence!("it never holds: {}", reason(sign_words)),
         Some(_) => {
             let seen = format!("{sign_words} at the points tried");
             sentence!("not decided: {} {}", &difference, seen)
         }
+        None if relation != Relation::Equal && whatever.is_some() => {
+            let strict = matches!(relation, Relation::Less | Relation::Greater);
+            let turned = match relation.is_below() {
+                true => -gap,
+                false => gap.clone(),
+            };
+            sentence!("it holds where {}", beyond_zero(&turned, domains, strict))
+        }
         None => sentence!("not decided: {}", reason(sign_words)),
+    };
+    match whatever {
+        Some(parameter) => sentence!("{}, whatever {} is", words, parameter),
+        None => words,
     }
 }

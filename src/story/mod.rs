@@ -151,6 +151,12 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
                     placed.scene.domains = placed.scene.domains.given(need, false);
                 }
             }
+            // It begins where the motions before it come to their ends.
+            for (before, _) in branch.into_iter().flat_map(|at| line(&stages, at)) {
+                for need in &stages[before].needs {
+                    placed.scene.domains = placed.scene.domains.given(need, false);
+                }
+            }
             let begins = several.then(|| before.clone());
             let told = one(scene, &stages, &placed, branch, (before, &given))
                 .map(|told| motion::stays_in_front(&placed, &stages, branch, told))

@@ -489,7 +489,11 @@ impl Piece {
             [p * c - q * s, p * s + q * c]
         };
         let [p, q] = turned(self.at, angle - from);
-        let along = self.angle + angle - from;
+        // What is round looks the same however fast it turns.
+        let along = match self.half {
+            [0.0, 0.0] => 0.0,
+            _ => self.angle + angle - from,
+        };
         Placed {
             piece: self,
             at: [x + p, y + q],

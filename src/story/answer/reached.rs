@@ -271,7 +271,7 @@ fn of_stages(led: Led<'_>, question: &Question) -> Vec<Need> {
         let told = &led.stages[i];
         let ends = told.needs.iter().map(|need| {
             let so_that = format!("`{}` comes to its end", told.name);
-            let need = essential(need, &led.scene.domains);
+            let need = essential(need, &told.placed.scene.domains);
             // Whether it may be zero stands in what the motion takes for granted.
             let strict = above_zero(&need, &led.scene.domains).condition();
             let mut granted = told.assumptions.iter().map(Sentence::condition);
@@ -407,11 +407,18 @@ pub(super) fn one_of_the_cases(
     besides(answer, all.iter());
 }
 
+/// Whether two sentences tell the same condition, for whatever reasons: it is told once.
+fn alike(a: &Sentence, b: &Sentence) -> bool {
+    let [a, b] = [a, b].map(|s| s.conditions().collect::<Vec<_>>());
+    !a.is_empty() && a == b
+}
+
 /// Puts conditions before those of an answer, none of them twice.
 fn besides<'a>(answer: &mut Answer, all: impl Iterator<Item = &'a Sentence>) {
     let mut before: Vec<Sentence> = Vec::new();
     for words in all {
-        if !before.contains(words) && !answer.assumptions.contains(words) {
+        let mut known = before.iter().chain(&answer.assumptions);
+        if !known.any(|known| known == words || alike(known, words)) {
             before.push(words.clone());
         }
     }
@@ -470,11 +477,7 @@ pub(in crate::story) fn tell(scene: &Scene, ask: &Ask, needs: &[Need], answer: &
         }
     }
     answer.assumptions.sort();
-    // The same condition for two reasons is told once; one of several values is told of each.
-    let alike = |a: &Sentence, b: &Sentence| {
-        let [a_needs, b_needs] = [a, b].map(|s| s.conditions().collect::<Vec<_>>());
-        !a_needs.is_empty() && a_needs == b_needs
-    };
+    // One of several values is told of each.
     answer
         .assumptions
         .dedup_by(|later, first| later == first || alike(later, first));

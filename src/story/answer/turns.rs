@@ -113,8 +113,11 @@ impl Asked<'_> {
         };
         let end = &told[mine[mine.len() - 1]].after;
         let mut after = states.iter().enumerate().skip(1);
-        let is_so = is_same(end, &general, &scene.domains)
-            && after.all(|(k, state)| is_same(state, &at(&count(k)), &scene.domains));
+        // Where the motions of a turn come to their ends.
+        let needs = mine.iter().flat_map(|i| &told[*i].needs);
+        let within = needs.fold(one.domains.clone(), |all, need| all.given(need, false));
+        let is_so = is_same(&one, [end, &general], &within)
+            && after.all(|(k, state)| is_same(scene, [state, &at(&count(k))], &scene.domains));
         if !is_so {
             return open(NO_LAW);
         }
@@ -562,9 +565,13 @@ fn changed(state: &State, mut put: impl FnMut(&Expr) -> Expr) -> State {
     out
 }
 
-/// Whether two states are the same for all values of what stands in them.
-fn is_same(a: &State, b: &State, domains: &Domains) -> bool {
-    let mut pairs = parts(a).into_iter().zip(parts(b));
+/// Whether two states are the same for all values of what stands in them, however a particle has turned.
+fn is_same(scene: &Scene, [a, b]: [&State; 2], domains: &Domains) -> bool {
+    let mut a = a.clone();
+    for (i, _) in scene.bodies.iter().enumerate().filter(|(_, body)| body.is_particle()) {
+        a.angle[i].clone_from(&b.angle[i]);
+    }
+    let mut pairs = parts(&a).into_iter().zip(parts(b));
     a.part == b.part && pairs.all(|(a, b)| is_zero(&(a - b), domains) == Some(true))
 }
 

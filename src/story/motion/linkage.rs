@@ -3,7 +3,9 @@
 use super::{arrival, balance, half, kept, meanwhile, pushed, tidied};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, at_least_zero, is_zero, sign};
-use crate::expr::{Expr, Point};
+use crate::answer::solve::solve;
+use crate::domain::Domain;
+use crate::expr::{Expr, Point, ratio};
 use crate::formula::{Sentence, sentence, unicode_name, write_plain};
 use crate::scene::{Linkage, Stage};
 use crate::story::{Refused, StageTold, State, integrate};
@@ -40,6 +42,7 @@ pub(in crate::story) fn linkage(
     let rate = rate(stage, &before, linkage, &first)?;
     sets_out(stage, linkage, &rate, way, &mut needs, &mut assumptions)?;
     let start = tidied(stage, &half(&(&first.inertia * &rate.powi(2))))?;
+    hurdles(stage, linkage, (way, &start), &mut needs, &mut assumptions)?;
     let work = work(stage, linkage, &first, &last);
     let lead = linkage.places[0].0;
     let (gained, energy, reaches) = balance(stage, lead, &start, &work)?;
@@ -48,7 +51,7 @@ pub(in crate::story) fn linkage(
         let hint = "end it a little before, or choose another coordinate";
         return Err(Refused::new(&stage.name, why, hint));
     }
-    if let Some(words) = arrival(stage, lead, &energy, reaches) {
+    if let Some(words) = arrival(stage, lead, &energy, (reaches, &needs)) {
         assumptions.push(words);
         needs.push(energy.clone());
     }
@@ -166,7 +169,6 @@ fn way(
     needs: &mut Vec<Expr>,
     assumptions: &mut Vec<Sentence>,
 ) -> Result<i64, Refused> {
-    const POINTS: usize = 12;
     let [begin, end] = &linkage.ends;
     let grows = end - begin;
     if is_zero(&grows, &stage.scene.domains) == Some(true) {
@@ -302,8 +304,7 @@ fn work(stage: &Stage, linkage: &Linkage, first: &Pose, last: &Pose) -> Vec<(&'s
     vec![("weight", Expr::sum(parts))]
 }
 
-/// Whether the linkage begins to move the way it is said to, and keeps on: at rest its weight has to draw it, and energy
-/// compares the ends only.
+/// Whether the linkage begins to move the way it is said to: at rest its weight has to draw it.
 fn sets_out(
     stage: &Stage,
     linkage: &Linkage,
@@ -377,31 +378,134 @@ fn sets_out(
             }
         }
     }
-    if !falls_all_the_way(stage, linkage, &drawn) {
+    Ok(())
+}
+
+/// Points of the domain at which a way is looked at, and places on it.
+const POINTS: usize = 12;
+const PARTS: u32 = 16;
+
+/// What is needed to get past the places at which the weights, which have to be lifted up to there, begin to draw the linkage on:
+/// energy compares the ends only.
+fn hurdles(
+    stage: &Stage,
+    linkage: &Linkage,
+    (way, start): (i64, &Expr),
+    needs: &mut Vec<Expr>,
+    assumptions: &mut Vec<Sentence>,
+) -> Result<(), Refused> {
+    let Some(gravity) = &linkage.gravity else {
+        return Ok(());
+    };
+    let q = &linkage.coordinate;
+    let mass = |b: usize| &stage.scene.bodies[b].mass;
+    let all = linkage.places.iter().map(|(b, [_, y, _])| mass(*b) * y);
+    let lifted = gravity * &Expr::sum(all);
+    let drawn = -(&Expr::from(way) * &lifted.derivative(q));
+    let [begin, end] = &linkage.ends;
+    let names = [begin, end, &drawn].into_iter().flat_map(|e| e.symbols());
+    let points = integrate::points_of(names.collect(), &stage.scene.domains, POINTS);
+    let points: Vec<Point<f64>> = points.collect();
+    let is_met = |point: &Point<f64>| has_hurdle(linkage, &drawn, point) != Some(false);
+    if !points.iter().any(is_met) {
+        return Ok(());
+    }
+    let name = unicode_name(q);
+    let Some(places) = hurdles_at(stage, linkage, &drawn, &points) else {
         assumptions.push(sentence!("it does not come to rest while {} changes", name));
+        return Ok(());
+    };
+    for place in places {
+        let [low, high] = [begin, &place].map(|value| linkage.at(&lifted, value));
+        let left = tidied(stage, &(start - &(&high - &low)))?;
+        match sign(&left, &stage.scene.domains) {
+            Seen::Proved(s) if s.is_not_negative() => {}
+            Seen::Proved(_) => {
+                let place = write_plain(&place);
+                let why = format!("it does not get past `{q}` = {place}");
+                let hint = "end the stage before it, or give it more energy";
+                return Err(Refused::new(&stage.name, why, hint));
+            }
+            _ => {
+                let least = at_least_zero(&left, &stage.scene.domains);
+                let words = sentence!("{}, so that it gets past {} = {}", least, &name, &place);
+                assumptions.push(words);
+                needs.push(left);
+            }
+        }
     }
     Ok(())
 }
 
-/// Whether weight draws the linkage on at every place on the way, seen at points of the domain.
-fn falls_all_the_way(stage: &Stage, linkage: &Linkage, drawn: &Expr) -> bool {
-    const POINTS: usize = 12;
-    const PARTS: u32 = 16;
-    let [begin, end] = &linkage.ends;
-    let names = [begin, end, drawn].into_iter().flat_map(|e| e.symbols());
-    let mut points = integrate::points_of(names.collect(), &stage.scene.domains, POINTS);
-    let falls = |point: Point<f64>| {
-        let ends = [begin, end].map(|e| e.evaluate(&point));
-        let [Some(from), Some(to)] = ends else {
-            return false;
-        };
-        (0..=PARTS).all(|k| {
-            let mut there = point.clone();
-            let value = from + (to - from) * f64::from(k) / f64::from(PARTS);
-            there.directions.remove(&linkage.coordinate);
-            there.values.insert(linkage.coordinate.clone(), value);
-            drawn.evaluate(&there).is_some_and(|d| d >= -1e-12)
-        })
+/// Whether what draws the linkage on is below zero at a place on the way and above zero farther on; `None` where it has no value.
+fn has_hurdle(linkage: &Linkage, drawn: &Expr, point: &Point<f64>) -> Option<bool> {
+    const NOISE: f64 = 1e-12;
+    let [from, to] = linkage.ends.each_ref().map(|e| e.evaluate(point));
+    let (from, to) = (from?, to?);
+    let mut is_opposed = false;
+    for k in 0..=PARTS {
+        let value = from + (to - from) * f64::from(k) / f64::from(PARTS);
+        let drawn = drawn.evaluate(&with_coordinate(linkage, point, value))?;
+        if is_opposed && drawn > NOISE {
+            return Some(true);
+        }
+        is_opposed |= drawn < -NOISE;
+    }
+    Some(false)
+}
+
+fn with_coordinate(linkage: &Linkage, point: &Point<f64>, value: f64) -> Point<f64> {
+    let mut there = point.clone();
+    there.directions.remove(&linkage.coordinate);
+    there.values.insert(linkage.coordinate.clone(), value);
+    there
+}
+
+/// The places on the way at which what draws the linkage on turns from below zero to above, the same ones at every point looked at;
+/// nothing where they differ or are not found.
+fn hurdles_at(
+    stage: &Stage,
+    linkage: &Linkage,
+    drawn: &Expr,
+    points: &[Point<f64>],
+) -> Option<Vec<Expr>> {
+    let q = &linkage.coordinate;
+    let mut domains = stage.scene.domains.clone();
+    domains.relations.retain(|r| !r.excess.mentions(q));
+    let drawn = tidied(stage, drawn).ok()?;
+    let stands = |domain| {
+        let mut domains = domains.clone();
+        domains.symbols.insert(q.clone(), domain);
+        let roots = solve(&drawn, q, &domains).ok()?;
+        let is_known = roots.open.is_empty() && roots.inside.iter().all(|root| root.proved);
+        is_known.then(|| roots.inside.into_iter().map(|root| root.value))
     };
-    points.all(falls)
+    // Of an angle the same places come again after a turn.
+    let turn = Domain::angle(ratio(-1, 1), ratio(1, 1));
+    let places: Vec<Expr> = match stands(turn) {
+        Some(values) => {
+            let turned = |value: Expr| [0, -2, 2].map(|k| &value + &(Expr::from(k) * Expr::pi()));
+            values.flat_map(turned).collect()
+        }
+        None => stands(Domain::real())?.collect(),
+    };
+    let slope = drawn.derivative(q);
+    let is_one = |value: &Expr, point: &Point<f64>| {
+        let [from, to] = linkage.ends.each_ref().map(|e| e.evaluate(point));
+        let (from, to, at) = (from?, to?, value.evaluate(point)?);
+        let slope = slope.evaluate(&with_coordinate(linkage, point, at))?;
+        let is_between = (at - from) * (at - to) < 0.0;
+        Some(is_between && slope * (to - from) > 0.0)
+    };
+    let mut out = Vec::new();
+    for place in places {
+        let seen = points.iter().map(|point| is_one(&place, point));
+        let seen: Vec<bool> = seen.collect::<Option<_>>()?;
+        match (seen.contains(&true), seen.contains(&false)) {
+            (true, true) => return None,
+            (true, false) => out.push(tidied(stage, &place).ok()?),
+            _ => {}
+        }
+    }
+    (!out.is_empty()).then_some(out)
 }

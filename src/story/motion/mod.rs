@@ -25,7 +25,7 @@ pub(super) use slide::{slide, support};
 pub(super) use turn::{angular, arms, pivot_force, sense, turn};
 pub(super) use wind::wind;
 
-use crate::answer::calc::{Seen, sign, tidy};
+use crate::answer::calc::{Seen, keeps_to, sign, tidy};
 use crate::story::UNDETERMINED;
 
 use super::{Kept, Refused, StageTold, State};
@@ -91,10 +91,19 @@ fn never_arrives(stage: &Stage, body: usize, end: &Expr) -> Refused {
     )
 }
 
-/// What must hold so that a body gets to the end of a motion with this kinetic energy; nothing where that is proved.
-fn arrival(stage: &Stage, body: usize, end: &Expr, seen: Seen) -> Option<Sentence> {
-    let proved = seen.is_not_negative();
-    let need = || crate::answer::calc::at_least_zero(end, &stage.scene.domains);
+/// What must hold so that a body gets to the end of a motion with this kinetic energy; nothing where that is proved, or follows
+/// from what is needed on the way.
+fn arrival(
+    stage: &Stage,
+    body: usize,
+    end: &Expr,
+    (seen, needs): (Seen, &[Expr]),
+) -> Option<Sentence> {
+    let domains = &stage.scene.domains;
+    let given = needs.iter().fold(domains.clone(), |all, need| all.given(need, true));
+    let follows = || !needs.is_empty() && keeps_to(end, true, &given) == Some(true);
+    let proved = seen.is_not_negative() || follows();
+    let need = || crate::answer::calc::at_least_zero(end, domains);
     (!proved).then(|| arrives(stage, body, need()))
 }
 

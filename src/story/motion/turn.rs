@@ -116,7 +116,7 @@ pub(in crate::story) fn turn(
     out.time = time;
     out.turned = through.map(|by| Expr::from(way) * by);
     if !work.is_zero()
-        && let Some(words) = arrival(stage, turn.body, &end, reaches)
+        && let Some(words) = arrival(stage, turn.body, &end, (reaches, &needs))
     {
         // What makes the angle one that is turned through may be all that it takes.
         if !assumptions.contains(&at_least_zero(&end, &stage.scene.domains)) {

@@ -474,7 +474,7 @@ fn tips(told: Relation, gaps: &[Option<f64>; 3]) -> Option<bool> {
     let [below, on, above] = *gaps;
     if below.is_some() != above.is_some() {
         // A motion that gets to its end on one side only.
-        return Some(true);
+        return Some(told == Relation::Equal || told.is_below() == below.is_some());
     }
     if told == Relation::Equal {
         // At the value the sides meet, and beside it they do not.

@@ -325,7 +325,7 @@ impl Line<'_> {
                 body,
                 above_zero(&square, self.domains()),
             )),
-            _ => arrival(self.stage, body, &square, seen),
+            _ => arrival(self.stage, body, &square, (seen, &[])),
         });
         self.tidied(&square.sqrt())
     }
