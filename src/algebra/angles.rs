@@ -226,7 +226,8 @@ impl Field {
     fn own_angle(&mut self, function: Function, x: &Element) -> Result<Option<Element>, Stop> {
         let of = |base: &Base| {
             let quotient = |above, below| {
-                let parts = x.num == Poly::var(above) && x.den.factors.is_empty() && x.den.int.is_one();
+                let parts =
+                    x.num == Poly::var(above) && x.den.factors.is_empty() && x.den.int.is_one();
                 parts && x.den.mono == mono_of(below, 1)
             };
             match function {
@@ -238,7 +239,10 @@ impl Field {
             }
         };
         let found = self.bases.iter().enumerate();
-        let Some((base, low)) = found.map(|(i, b)| (i, of(b))).find_map(|(i, low)| Some((i, low?))) else {
+        let Some((base, low)) = found
+            .map(|(i, b)| (i, of(b)))
+            .find_map(|(i, low)| Some((i, low?)))
+        else {
             return Ok(None);
         };
         let stays = self

@@ -51,7 +51,11 @@ impl Field {
     /// (sin − μ cos) (sin + μ cos).
     pub(super) fn split_circles(&self, parts: &Parts) -> Parts {
         let mut out = parts.clone();
-        for (f, k) in parts.factors.iter().filter(|(f, _)| (2..=LONG).contains(&f.len())) {
+        for (f, k) in parts
+            .factors
+            .iter()
+            .filter(|(f, _)| (2..=LONG).contains(&f.len()))
+        {
             let form = self.of_one_degree(f);
             if form == *f {
                 continue;
@@ -59,7 +63,10 @@ impl Field {
             let found = factor(&form, &self.fuel);
             if found.factors.len() > 1 && found.content.is_one() {
                 out.factors.retain(|(g, _)| g != f);
-                found.factors.into_iter().for_each(|(g, l)| out.note(g, k * l));
+                found
+                    .factors
+                    .into_iter()
+                    .for_each(|(g, l)| out.note(g, k * l));
             }
         }
         out

@@ -81,6 +81,7 @@ impl Field {
         // Sums of mixed signs may be turned round to carry a minus sign; 1 − e² reads better as it is, and what is known to
         // be positive shows it.
         let mut turnable: Vec<(bool, &Poly, Expr)> = Vec::new();
+        let mut shown: Vec<(&Poly, bool, Expr)> = Vec::new();
         for (parts, sign) in [(&above, 1i64), (&below, -1)] {
             for (f, k) in &parts.factors {
                 let mut power = ratio(i64::from(*k) * sign, 1);
@@ -105,6 +106,9 @@ impl Field {
                     let is_mostly_plus = matches!(expr.node(), Node::Sum(terms)
                         if 2 * terms.iter().filter(|t| t.is_negative()).count() < terms.len());
                     let keeps = sign < 0 && is_mostly_plus;
+                    if mixed && k % 2 == 1 && sign > 0 {
+                        shown.push((f, flipped, expr.clone()));
+                    }
                     if mixed && !keeps && k % 2 == 1 {
                         turnable.push((number, f, expr.clone()));
                     }
@@ -124,6 +128,10 @@ impl Field {
                 }
             }
         }
+        let shown = shown
+            .into_iter()
+            .map(|(f, flipped, sum)| (self.is_below_zero(f, flipped), sum));
+        turn_both(&shown.collect::<Vec<_>>(), &mut factors);
         turnable.sort_by_key(|(number, ..)| *number);
         // Of a sum alone nothing is shown by a minus in front.
         let alone = factors.len() == 1 && number == -Rational::one();
@@ -140,6 +148,15 @@ impl Field {
         factors.retain(|f| !f.power.is_zero());
         factors.sort_by(|a, b| (a.rank, &a.base).cmp(&(b.rank, &b.base)));
         self.with_one_root(number, factors)
+    }
+
+    /// Whether a short sum, shown with its sign turned or not, is below zero, where that is known.
+    fn is_below_zero(&self, f: &Poly, flipped: bool) -> Option<bool> {
+        match (f.len() <= MOST_SIGNED).then(|| self.sign_poly(f))?? {
+            Sign::Positive => Some(flipped),
+            Sign::Negative => Some(!flipped),
+            _ => None,
+        }
     }
 
     /// The radicands of roots above the line that have what stands below it: √(a b)/b is √(a/b) where b > 0. A root of no more
@@ -346,6 +363,26 @@ fn with_number_inside(number: Rational, inside: &mut Vec<Expr>, rest: &[Factor])
 /// Whether a factor is a power below the line.
 fn is_below(e: &Expr) -> bool {
     matches!(e.node(), Node::Power(_, k) if k.is_negative())
+}
+
+/// Turns two sums round of which one is known to be below zero and the other not to be above: the product is what it was.
+fn turn_both(shown: &[(Option<bool>, Expr)], factors: &mut [Factor]) {
+    let [(first, one), (second, other)] = shown else {
+        return;
+    };
+    let known = [first, second];
+    if !known.contains(&&Some(true)) || known.contains(&&Some(false)) {
+        return;
+    }
+    let place = |sum: &Expr| {
+        let is_odd = |f: &Factor| f.power.is_integer() && f.power.numer().is_odd();
+        factors.iter().position(|f| f.base == *sum && is_odd(f))
+    };
+    if let (Some(i), Some(j)) = (place(one), place(other)) {
+        for place in [i, j] {
+            factors[place].base = turned(&factors[place].base);
+        }
+    }
 }
 
 /// The negative of a sum, its positive terms in front again.

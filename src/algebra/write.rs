@@ -302,7 +302,11 @@ impl Field {
         let mut out = p.clone();
         for (c, s) in self.circles() {
             let degree = |m: &[u64]| exponent(m, c) + exponent(m, s);
-            let of = |odd: u32| out.terms().map(|(m, _)| degree(m)).filter(move |d| d % 2 == odd);
+            let of = |odd: u32| {
+                out.terms()
+                    .map(|(m, _)| degree(m))
+                    .filter(move |d| d % 2 == odd)
+            };
             let most = [0, 1].map(|odd| of(odd).max().unwrap_or(0));
             let square = |v| Poly::term(&mono_of(v, 2), Int::one());
             let circle = square(c).add(&square(s));

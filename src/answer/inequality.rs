@@ -57,7 +57,11 @@ pub(super) fn shown(gap: &Expr, relation: Relation, domains: &Domains) -> (Sente
     let (text, why, holds) = match (known, against) {
         (Some(true), _) => {
             let why = "the sign of the difference is proved on the whole domain";
-            (sentence!("{}, which is {}", difference, words), why, Some(true))
+            (
+                sentence!("{}, which is {}", difference, words),
+                why,
+                Some(true),
+            )
         }
         (Some(false), _) => {
             let text = sentence!("it never holds: {}, which is {}", difference, words);

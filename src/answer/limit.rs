@@ -236,12 +236,7 @@ struct Growth {
 
 /// A formula with a symbol for b^(r p), wherever the parameter p stands in an exponent k r p + c of one base b, with numbers k;
 /// nothing where it stands elsewhere too, or where two bases do.
-fn without_powers(
-    e: &Expr,
-    p: &Symbol,
-    growth: &mut Option<Growth>,
-    power: &Expr,
-) -> Option<Expr> {
+fn without_powers(e: &Expr, p: &Symbol, growth: &mut Option<Growth>, power: &Expr) -> Option<Expr> {
     if !e.mentions(p) {
         return Some(e.clone());
     }
@@ -267,7 +262,10 @@ fn without_powers(
         Some(_) => Expr::one(),
         None => rate.clone(),
     };
-    let known = growth.get_or_insert(Growth { base: base.clone(), rate: own });
+    let known = growth.get_or_insert(Growth {
+        base: base.clone(),
+        rate: own,
+    });
     let times = tidy(&(&rate / &known.rate), &none).ok()?;
     (known.base == base && times.as_number().is_some()).then(|| &power.power(times) * &rest)
 }

@@ -6,7 +6,9 @@
 use std::collections::BTreeSet;
 
 use super::Check;
-use super::calc::{Seen, above_zero, beyond_zero, by_signs, essential, is_zero, keeps_to, sign, tidy};
+use super::calc::{
+    Seen, above_zero, beyond_zero, by_signs, essential, is_zero, keeps_to, sign, tidy,
+};
 use super::inequality::{everywhere, sign_words};
 use super::intervals::beside;
 use super::isolate::isolate;
@@ -161,18 +163,29 @@ fn reached(
         let there = |e: &Expr| e.put(parameter, &root.value);
         let at = bounds.iter().zip(&ends);
         let mut others = at.filter(|((other, _), _)| other.value != root.value);
-        *upper == is_upper && others.all(|(_, r)| keeps_to(&there(&r.excess), true, &apart) == Some(true))
+        *upper == is_upper
+            && others.all(|(_, r)| keeps_to(&there(&r.excess), true, &apart) == Some(true))
     };
     let Some((root, _)) = bounds.iter().find(is_last) else {
         return false;
     };
-    let side = if is_upper { Relation::LessEqual } else { Relation::GreaterEqual };
+    let side = if is_upper {
+        Relation::LessEqual
+    } else {
+        Relation::GreaterEqual
+    };
     let needs = root.needs.iter().cloned();
-    out.needs.extend(needs.map(|(e, closed)| (root.value.clone(), e, closed)));
+    out.needs
+        .extend(needs.map(|(e, closed)| (root.value.clone(), e, closed)));
     out.assumptions.extend(root.given.iter().cloned());
     out.form = Form::value(root.value.clone());
-    out.range.push((Expr::symbol(parameter), side, root.value.clone()));
-    let there = if is_upper { "up to there" } else { "from there on" };
+    out.range
+        .push((Expr::symbol(parameter), side, root.value.clone()));
+    let there = if is_upper {
+        "up to there"
+    } else {
+        "from there on"
+    };
     let wherever = "it holds wherever the motion comes to its end, which it does";
     out.text.push(sentence!("{} {}", wherever, there));
     let words = "the sign of the difference is proved wherever the motion comes to its end";

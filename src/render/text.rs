@@ -133,10 +133,23 @@ pub fn answers(scene: &Scene, of: Option<&Told>, answers: &[Answer]) -> String {
     let stages = of.map_or(&[][..], |told| &told.stages);
     let is_new = |c: &&Check| !stages.iter().any(|s| s.checks.contains(c));
     let written = |words: &Sentence| words.written(|e| unicode(scene, e));
-    for (i, a) in answers.iter().enumerate() {
-        if answers[..i].iter().any(|before| is_alike(before, a)) {
-            continue;
+    let groups = answers.iter().enumerate();
+    let groups = groups.filter(|(i, a)| !answers[..*i].iter().any(|before| is_alike(before, a)));
+    let given = groups.clone().map(|(i, a)| {
+        let alike = answers[i + 1..].iter().filter(|b| is_alike(a, b));
+        given_alike(
+            &[a].into_iter().chain(alike).collect::<Vec<_>>(),
+            &scene.domains,
+        )
+    });
+    let throughout = throughout(&given.collect::<Vec<_>>());
+    if !throughout.is_empty() {
+        let _ = writeln!(out, "\n   all given that");
+        for words in &throughout {
+            let _ = writeln!(out, "      {}", cut(&written(words)));
         }
+    }
+    for (i, a) in groups {
         let alone = alone.filter(|_| a.told.is_some());
         let _ = writeln!(out, "\n   {}", says(scene, alone, a));
         if let Form::Matrix(m) = &a.form {
@@ -164,14 +177,42 @@ pub fn answers(scene: &Scene, of: Option<&Told>, answers: &[Answer]) -> String {
         );
         let told: Vec<&Answer> = [a].into_iter().chain(alike).collect();
         let given = given_alike(&told, &scene.domains).into_iter();
+        let given = given.filter(|words| !throughout.contains(words));
         lines.extend(given.map(|words| format!("given that {}", written(&words))));
         for line in lines {
-            let _ = writeln!(out, "      {line}");
+            let _ = writeln!(out, "      {}", cut(&line));
         }
         let checks = a.checks.iter().filter(is_new);
         checks.for_each(|c| check(&mut out, "      ", c));
     }
     out
+}
+
+/// A line as it is, or beginning and end of one that nobody reads to its end.
+fn cut(line: &str) -> String {
+    const LONGEST: usize = 900;
+    const BEGINNING: usize = 240;
+    const END: usize = 120;
+    let all: Vec<char> = line.chars().collect();
+    if all.len() <= LONGEST {
+        return line.to_string();
+    }
+    let part = |some: &[char]| some.iter().collect::<String>();
+    let (begins, ends) = (part(&all[..BEGINNING]), part(&all[all.len() - END..]));
+    let left = all.len() - BEGINNING - END;
+    format!("{begins} … {left} characters, which `--format json` has … {ends}")
+}
+
+/// What every one of several answers rests on, which is told once.
+fn throughout(given: &[Vec<Sentence>]) -> Vec<Sentence> {
+    const SEVERAL: usize = 3;
+    match given {
+        [first, rest @ ..] if given.len() >= SEVERAL => {
+            let is_shared = |words: &&Sentence| rest.iter().all(|other| other.contains(words));
+            first.iter().filter(is_shared).cloned().collect()
+        }
+        _ => Vec::new(),
+    }
 }
 
 /// An answer in one line: its formula, equation or range, with the number it has at the given values.

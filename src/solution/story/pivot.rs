@@ -2,6 +2,7 @@
 
 use super::Page;
 use crate::answer::Answer;
+use crate::answer::calc::is_zero;
 use crate::expr::{Expr, Node, Symbol, Vector, dot, minus};
 use crate::scene::{Ask, Slide, StageKind, Turn};
 use crate::solution::known::number;
@@ -57,7 +58,7 @@ impl Page<'_> {
                     let parts = [say(slide.support()), say(stage), along_it];
                     self.solution
                         .section(1, fill("Force of the {} in {} along {}", parts));
-                    self.on_a_line(told, slide);
+                    self.on_a_line(told, slide, along);
                     None
                 }
                 _ => continue,
@@ -66,9 +67,23 @@ impl Page<'_> {
         }
     }
 
-    /// Tells where the force of a surface comes from, once.
-    fn on_a_line(&mut self, told: &StageTold, slide: &Slide) {
+    /// Tells where the force of a surface comes from, once: across the way it balances the weight.
+    fn on_a_line(&mut self, told: &StageTold, slide: &Slide, along: &Vector) {
         let who = words::bodies(self.scene, &slide.company());
+        let is_across = dot(along, &slide.along);
+        let has_weight = slide.gravity.is_some() && !slide.level;
+        if has_weight && is_zero(&is_across, &self.scene.domains) == Some(true) {
+            let [has, its] = match slide.with.is_empty() {
+                true => ["has", "its"],
+                false => ["have", "their"],
+            };
+            let surface = slide.support();
+            self.solution.say(&format!(
+                "{} {has} no acceleration across {its} way: there the force of the {surface} balances the weight.",
+                words::capital(&who)
+            ));
+            return;
+        }
         let others = match (&slide.gravity, slide.level, &slide.force) {
             (Some(_), false, None) => " and the weight together give",
             (Some(_), false, Some(_)) => ", the weight and the applied force together give",
@@ -84,17 +99,17 @@ impl Page<'_> {
         let mass = Expr::sum(company.map(|b| told.placed.scene.bodies[b].mass.clone()));
         let weight = slide.gravity.as_ref().filter(|_| !slide.level);
         let [x, y] = &slide.along;
-        let push = slide.force.as_ref().map(|f| [-(f * x), -(f * y)]);
+        let push = slide.force.as_ref().map(|f| [f * x, f * y]);
         let factor = Math::Factor(tidied(self.scene, &mass));
         let mut law = set(
             "{} = {} {}",
             [vector("F", "", ""), factor, vector("a", "", "")],
         );
-        for part in [weight.map(|g| [Expr::zero(), &mass * g]), push]
-            .into_iter()
-            .flatten()
-        {
-            law.extend(set("+ {}", [part.into()]));
+        if let Some(g) = weight {
+            law.extend(set("+ {}", [[Expr::zero(), &mass * g].into()]));
+        }
+        if let Some(push) = push {
+            law.extend(set("− ({})", [push.into()]));
         }
         if !self.solution.shows(&law) {
             self.solution.say(&format!(

@@ -568,7 +568,12 @@ fn changed(state: &State, mut put: impl FnMut(&Expr) -> Expr) -> State {
 /// Whether two states are the same for all values of what stands in them, however a particle has turned.
 fn is_same(scene: &Scene, [a, b]: [&State; 2], domains: &Domains) -> bool {
     let mut a = a.clone();
-    for (i, _) in scene.bodies.iter().enumerate().filter(|(_, body)| body.is_particle()) {
+    for (i, _) in scene
+        .bodies
+        .iter()
+        .enumerate()
+        .filter(|(_, body)| body.is_particle())
+    {
         a.angle[i].clone_from(&b.angle[i]);
     }
     let mut pairs = parts(&a).into_iter().zip(parts(b));

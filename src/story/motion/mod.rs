@@ -100,7 +100,9 @@ fn arrival(
     (seen, needs): (Seen, &[Expr]),
 ) -> Option<Sentence> {
     let domains = &stage.scene.domains;
-    let given = needs.iter().fold(domains.clone(), |all, need| all.given(need, true));
+    let given = needs
+        .iter()
+        .fold(domains.clone(), |all, need| all.given(need, true));
     let follows = || !needs.is_empty() && keeps_to(end, true, &given) == Some(true);
     let proved = seen.is_not_negative() || follows();
     let need = || crate::answer::calc::at_least_zero(end, domains);

@@ -214,9 +214,9 @@ impl Asked<'_> {
         let Ask::Condition {
             parameter,
             left,
+            relation: asked,
             right,
             with,
-            ..
         } = &question.ask
         else {
             return None;
@@ -240,7 +240,7 @@ impl Asked<'_> {
                 let there = (parameter.clone(), at + step);
                 self.formula(seen, &gap, with, &[there])
             });
-            let Some(tips) = tips(*relation, &sides) else {
+            let Some(tips) = tips((*asked, *relation), &sides) else {
                 out = out.or(Some(Held::Unseen));
                 continue;
             };
@@ -468,13 +468,19 @@ fn component(formula: &Expr, answer: &Answer) -> Expr {
     }
 }
 
-/// Whether a relation changes at a value as told, from the gap between its sides below, at and above it; `None` where too
-/// little of it was followed.
-fn tips(told: Relation, gaps: &[Option<f64>; 3]) -> Option<bool> {
+/// Whether a relation that is asked for changes at a value as told, from the gap between its sides below, at and above it; `None`
+/// where too little of it was followed.
+fn tips((asked, told): (Relation, Relation), gaps: &[Option<f64>; 3]) -> Option<bool> {
     let [below, on, above] = *gaps;
-    if below.is_some() != above.is_some() {
+    if below.is_some() != above.is_some() && told != Relation::Equal {
         // A motion that gets to its end on one side only.
-        return Some(told == Relation::Equal || told.is_below() == below.is_some());
+        let gap = below.or(above)?;
+        let holds = if asked.is_below() {
+            gap <= 0.0
+        } else {
+            gap >= 0.0
+        };
+        return Some(holds == (told.is_below() == below.is_some()));
     }
     if told == Relation::Equal {
         // At the value the sides meet, and beside it they do not.
