@@ -178,8 +178,19 @@ impl Field {
         if !roots.is_empty() {
             *below = self.split_circles(below);
         }
-        for (root, value) in roots {
+        for &(root, value) in &roots {
             let whole = self.split_circles(&self.taken_apart(value));
+            // Under one root sign with another that has a part of it, like factors would stand apart.
+            let has_part = |(other, value): &(usize, &Poly)| {
+                let theirs = self.split_circles(&self.taken_apart(value)).factors;
+                *other != root
+                    && theirs
+                        .iter()
+                        .any(|(f, _)| whole.factors.iter().any(|(g, _)| f == g))
+            };
+            if roots.len() > 1 && roots.iter().any(has_part) {
+                continue;
+            }
             let shared = |is_known: &dyn Fn(&Poly) -> bool| {
                 let (mut inside, mut under) = (whole.clone(), Parts::one());
                 for (f, _) in below.factors.iter().filter(|(f, k)| *k == 1 && is_known(f)) {

@@ -8,7 +8,7 @@ use super::factor::Parts;
 use super::factor::factor;
 use super::field::{AngleOf, Field, Kind};
 use super::joined::{Term, trimmed};
-use super::mono::{Mono, exponent, mono_add, mono_div, mono_divides, mono_is_one, mono_of, powers};
+use super::mono::{Mono, exponent, mono_add, mono_div, mono_divides, mono_of, powers};
 use super::parts::{letters, strike};
 use super::poly::Poly;
 use super::product::{MOST_SIGNED, turned_inside};
@@ -131,10 +131,7 @@ impl Field {
     /// A quotient with what stands above with the whole denominator taken out: `(g (M + m) − F)/(M + m)` is `g − F/(M + m)`.
     fn parted(&self, x: &Element) -> Option<Expr> {
         let den = &x.den.factors;
-        if den.is_empty() {
-            return self.parted_by_letters(x);
-        }
-        if !(3..=MOST_PARTED).contains(&x.num.len()) {
+        if den.is_empty() || !(3..=MOST_PARTED).contains(&x.num.len()) {
             return None;
         }
         let whole = multiplied(Poly::one(), den)?;
@@ -159,33 +156,6 @@ impl Field {
             self.written(&Element::new(num, Den { int, mono, factors }))
         };
         let mut both = [over(taken, Vec::new()), over(rest, den.clone())];
-        both.sort_by_key(Expr::is_negative);
-        Some(Expr::sum(both))
-    }
-
-    /// The same of letters alone below the line: `(l w² − 3 g)/l` is `w² − 3 g/l`.
-    fn parted_by_letters(&self, x: &Element) -> Option<Expr> {
-        let is_plain = mono_is_one(&x.den.mono) || !mono_is_one(&x.num.mono_content());
-        if is_plain || !(2..=MOST_PARTED).contains(&x.num.len()) {
-            return None;
-        }
-        let (mut taken, mut rest) = (Poly::zero(), Poly::zero());
-        for (mono, coeff) in x.num.terms() {
-            let side = match mono_divides(&x.den.mono, mono) {
-                true => &mut taken,
-                false => &mut rest,
-            };
-            *side = side.add(&Poly::term(mono, coeff.clone()));
-        }
-        if taken.is_zero() || rest.is_zero() {
-            return None;
-        }
-        let over = |num: Poly| {
-            let mut den = x.den.clone();
-            let num = den.cancel_into(num);
-            self.written(&Element::new(num, den))
-        };
-        let mut both = [over(taken), over(rest)];
         both.sort_by_key(Expr::is_negative);
         Some(Expr::sum(both))
     }

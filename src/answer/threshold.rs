@@ -105,17 +105,7 @@ pub(super) fn fill(
     meet(out, parameter, relation, [left, right], &roots);
     out.needs.extend(real.iter().flat_map(|r| r.needs(&roots)));
     if relation == Relation::Equal {
-        exists(out, Some((&gap, parameter)), &roots, domains);
-        let values = roots.inside.iter().map(|root| root.value.clone());
-        let at = |value| (Expr::symbol(parameter), Relation::Equal, value);
-        out.range.extend(values.map(at));
-        if let [root] = roots.inside.as_slice() {
-            out.form = Form::value(root.value.clone());
-        } else {
-            let count = roots.inside.len().to_string();
-            out.text.push(sentence!("{} solutions", count));
-        }
-        return;
+        return values(out, (&gap, parameter), &roots, domains);
     }
     sides(out, parameter, &gap, relation, &roots, domains);
     if let ([root], false) = (roots.inside.as_slice(), out.range.is_empty()) {
@@ -166,9 +156,13 @@ fn reached(
         *upper == is_upper
             && others.all(|(_, r)| keeps_to(&there(&r.excess), true, &apart) == Some(true))
     };
-    let Some((root, _)) = bounds.iter().find(is_last) else {
+    let Some(last) = bounds.iter().position(|bound| is_last(&bound)) else {
         return false;
     };
+    let root = &bounds[last].0;
+    // What is to be solved is that the motion comes to its end.
+    let need = ends[last].excess.clone();
+    out.stated = Some((need, Relation::GreaterEqual, Expr::zero()));
     let side = if is_upper {
         Relation::LessEqual
     } else {
@@ -191,6 +185,20 @@ fn reached(
     let words = "the sign of the difference is proved wherever the motion comes to its end";
     out.checks.push(Check::new("sign", words, Some(true)));
     true
+}
+
+/// The values at which both sides are the same.
+fn values(out: &mut Answer, (gap, parameter): (&Expr, &Symbol), roots: &Roots, domains: &Domains) {
+    exists(out, Some((gap, parameter)), roots, domains);
+    let values = roots.inside.iter().map(|root| root.value.clone());
+    let at = |value| (Expr::symbol(parameter), Relation::Equal, value);
+    out.range.extend(values.map(at));
+    if let [root] = roots.inside.as_slice() {
+        out.form = Form::value(root.value.clone());
+    } else {
+        let count = roots.inside.len().to_string();
+        out.text.push(sentence!("{} solutions", count));
+    }
 }
 
 /// Lets what was found of the sides say that it is so of what stands under a root.

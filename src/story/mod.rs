@@ -39,7 +39,7 @@ use crate::algebra::Sign;
 use crate::answer::calc::{at_least_zero, constant, is_zero, tidy};
 use crate::answer::{Answer, Check, Refused, TOO_LONG};
 use crate::derive::Stop;
-use crate::domain::Domain;
+use crate::domain::{Domain, Domains};
 use crate::expr::{Expr, Point, Symbol, Vector, effort};
 use crate::formula::{sentence, write_plain};
 use crate::scene::{Ask, Scene, Stage, StageKind};
@@ -145,18 +145,8 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
             let is_zero = |e: &Expr| is_zero(e, &domains) == Some(true);
             let tidied = |e: Expr| tidy(&e, &domains).unwrap_or(e);
             placed.scene.carry_points(scene, is_zero, tidied);
-            // A motion goes on where the case that leads to it happens; an impact weighs its own conditions.
-            if !matches!(stage.kind, StageKind::Impact { .. }) {
-                for (_, need) in &given {
-                    placed.scene.domains = placed.scene.domains.given(need, false);
-                }
-            }
-            // It begins where the motions before it come to their ends.
-            for (before, _) in branch.into_iter().flat_map(|at| line(&stages, at)) {
-                for need in &stages[before].needs {
-                    placed.scene.domains = placed.scene.domains.given(need, false);
-                }
-            }
+            let domains = &mut placed.scene.domains;
+            *domains = begun(stage, &stages, branch, &given, domains.clone());
             let begins = several.then(|| before.clone());
             let told = one(scene, &stages, &placed, branch, (before, &given))
                 .map(|told| motion::stays_in_front(&placed, &stages, branch, told))
@@ -208,6 +198,24 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
         ended,
         ..Told::default()
     })
+}
+
+/// The domains on which a stage begins: a motion goes on where the case that leads to it happens, and an impact weighs its own
+/// conditions; the motions before come to their ends.
+fn begun(
+    stage: &Stage,
+    stages: &[StageTold],
+    branch: Option<(usize, usize)>,
+    given: &[(String, Expr)],
+    domains: Domains,
+) -> Domains {
+    let is_impact = matches!(stage.kind, StageKind::Impact { .. });
+    let happens = given.iter().filter(|_| !is_impact).map(|(_, need)| need);
+    let before = branch.into_iter().flat_map(|at| line(stages, at));
+    let ends = before.flat_map(|(i, _)| &stages[i].needs);
+    happens
+        .chain(ends)
+        .fold(domains, |all, need| all.given(need, false))
 }
 
 /// A motion during another takes its bodies where the other one finds them when it begins; gives how long both last, where

@@ -472,7 +472,7 @@ fn component(formula: &Expr, answer: &Answer) -> Expr {
 /// where too little of it was followed.
 fn tips((asked, told): (Relation, Relation), gaps: &[Option<f64>; 3]) -> Option<bool> {
     let [below, on, above] = *gaps;
-    if below.is_some() != above.is_some() && told != Relation::Equal {
+    if below.is_some() != above.is_some() {
         // A motion that gets to its end on one side only.
         let gap = below.or(above)?;
         let holds = if asked.is_below() {
@@ -480,7 +480,8 @@ fn tips((asked, told): (Relation, Relation), gaps: &[Option<f64>; 3]) -> Option<
         } else {
             gap >= 0.0
         };
-        return Some(holds == (told.is_below() == below.is_some()));
+        let is_told = told.is_below() == below.is_some();
+        return Some(told == Relation::Equal || holds == is_told);
     }
     if told == Relation::Equal {
         // At the value the sides meet, and beside it they do not.
