@@ -188,15 +188,23 @@ pub fn check(sheet: &Sheet, text: &str, options: &Options) -> Worked {
 /// Tells of lines that hold as data that the numbers in them are the student's own: the scene gives none.
 fn tell_own_data(sheet: &Sheet, plain: &str, worked: &mut Worked) {
     let texts: Vec<&str> = plain.lines().collect();
-    // The place of a largest or least value is a result, and no data.
-    let mut sought = sought::sought(sheet);
-    sought.retain(|s| s.condition.is_none());
-    let is_sought = |name: &Symbol| sought.iter().any(|s| s.parameter == *name);
+    // The place of a largest or least value is a result, and no data, and so is what a condition gives.
+    let sought = sought::sought(sheet);
+    let finals = &worked.finals;
+    let is_sought = |name: &Symbol, line: usize| {
+        let told = |s: &sought::Sought| {
+            let own = finals.iter().filter(|(of, _)| *of == s.question);
+            let mut own = own.filter_map(|(_, told)| told.as_ref());
+            own.any(|told| told.line == line && told.verdict == Verdict::Equivalent)
+        };
+        let mut of_it = sought.iter().filter(|s| s.parameter == *name);
+        of_it.any(|s| s.condition.is_none() || told(s))
+    };
     let holds = |line: &&mut Line| line.status == Status::Holds && line.diagnosis.is_empty();
     for line in worked.lines.iter_mut().filter(holds) {
         let text = texts.get(line.number - 1).copied().unwrap_or_default();
         let own = pages::numbers(sheet, text).unwrap_or_default();
-        let own = own.iter().filter(|(name, _)| !is_sought(name));
+        let own = own.iter().filter(|(name, _)| !is_sought(name, line.number));
         let names: Vec<&str> = own.map(|(name, _)| &**name).collect();
         if !names.is_empty() {
             let words = format!(
@@ -352,7 +360,7 @@ fn check_with(
     desk.by_body.retain(|name| !meant.bound.contains_key(name));
     desk.bound = meant.bound.keys().cloned().collect();
     desk.learned.extend(desk.bound.iter().cloned());
-    desk.solved_for = names::solved_for(&read);
+    desk.solved_for = names::solved_for(sheet, &read);
     let later = letters::of_a_later_moment(sheet, &read);
     let marked = later.into_iter().chain(meant.marked.iter().cloned());
     desk.own_with_mark.extend(marked);

@@ -9,7 +9,7 @@ use super::link::Values;
 use super::link::{Link, Weighed, equal};
 use super::sought::Sought;
 use super::{Desk, Final, Found, Status};
-use crate::algebra::{self, Sign};
+use crate::algebra::{self, Sign, quotient};
 use crate::answer::Answer;
 use crate::expr::{Expr, Function, Node, Symbol, effort};
 use crate::formula::{self, Content, Reading, Relation};
@@ -302,6 +302,7 @@ impl Desk<'_> {
                 Some(true) => {}
                 Some(false) => return Status::Wrong,
                 None if self.says_a_bound([a, b], *sign) => {}
+                None if self.misses_a_bound([a, b]) => return Status::Wrong,
                 None => status = Status::Undecided,
             }
         }
@@ -309,7 +310,7 @@ impl Desk<'_> {
     }
 
     /// Whether an inequality says of a parameter what a bound that is asked for does.
-    fn says_a_bound(&self, sides: [&Expr; 2], sign: Relation) -> bool {
+    pub(super) fn says_a_bound(&self, sides: [&Expr; 2], sign: Relation) -> bool {
         let [a, b] = sides.map(|e| formula::write_plain(&self.truth(e)));
         let text = format!("{a} {} {b}", sign.sign());
         let asked: Vec<String> = self.sheet.bounds().map(|bound| bound.name).collect();
@@ -317,6 +318,18 @@ impl Desk<'_> {
         judged
             .iter()
             .any(|(_, grade)| grade.verdict == Verdict::Equivalent)
+    }
+
+    /// Whether the sides of an inequality differ by a number alone where a parameter has the bound that is asked for:
+    /// `m w² ≥ 2 m g L` for a bound at w² = g L.
+    fn misses_a_bound(&self, sides: [&Expr; 2]) -> bool {
+        let [a, b] = sides.map(|e| self.truth(e));
+        self.sheet.bounds().any(|bound| {
+            let at = |e: &Expr| e.put(&bound.parameter, &bound.value);
+            let ratio = || quotient(&at(&a), &at(&b), &self.sheet.scene.domains).ok();
+            let speaks = [&a, &b].iter().any(|e| e.mentions(&bound.parameter));
+            speaks && ratio().is_some_and(|k| k.is_constant() && !k.is_zero() && !k.is_one())
+        })
     }
 
     /// Whether an answer by the names of others is right with the values that were given for these, wrong ones among them:

@@ -20,6 +20,9 @@ impl Desk<'_> {
         if let Some(status) = self.in_case(text) {
             return (status, Vec::new());
         }
+        if let Some(status) = self.equivalence(text) {
+            return (status, Vec::new());
+        }
         let mut line = (Status::Comment, Vec::new());
         for equation in text::equations(text) {
             if self.is_supposed(text, equation) {
@@ -339,10 +342,14 @@ impl Desk<'_> {
                 if own.iter().any(|name| self.early.contains(name)) {
                     self.above.extend(all.iter().cloned());
                 }
+                let only_says = self.only_says(&all);
                 self.proved.extend(own);
                 self.carry(reading);
                 self.state(None, &all);
-                Status::Holds
+                match only_says {
+                    true => Status::Defines,
+                    false => Status::Holds,
+                }
             }
             Weighed::Rounded => Status::Holds,
             Weighed::Open => Status::Undecided,

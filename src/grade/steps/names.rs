@@ -3,9 +3,10 @@
 use std::collections::BTreeSet;
 
 use super::super::relation::{angle_in, below_in, size_in, solve_for};
+use super::super::sheet::Sheet;
 use super::inertias::is_other_inertia;
 use super::letters::OF_CENTER;
-use super::link::Weighed;
+use super::link::{Link, Values, Weighed};
 use super::{Desk, Found, Status};
 use crate::dimension::{self, Dimension};
 use crate::expr::{Expr, Node, Symbol, only};
@@ -47,14 +48,24 @@ pub(super) fn left_sides(text: &str) -> Vec<Expr> {
     sides.collect()
 }
 
-/// The names for which it says something at the end of its way, by their powers too.
-pub(super) fn solved_for(text: &str) -> BTreeSet<Symbol> {
+/// The names for which it says something at the end of its way, by their powers too, and among them those of questions.
+pub(super) fn solved_for(sheet: &Sheet, text: &str) -> BTreeSet<Symbol> {
     let sides = left_sides(text);
     let base = |side: &Expr| match side.node() {
         Node::Power(base, _) => base.as_symbol().cloned(),
         _ => side.as_symbol().cloned(),
     };
-    sides.iter().filter_map(base).collect()
+    let mut found: BTreeSet<Symbol> = sides.iter().filter_map(base).collect();
+    // `d_0` reads as d0 where no scene has such a name.
+    let questions = sheet.scene.questions.iter().map(|q| q.name.as_str());
+    let open = Symbols::open();
+    let asked = questions.filter(|name| {
+        let read = formula::read_name(&formula::latex_name(name), &open);
+        read.is_some_and(|read| found.contains(&read))
+    });
+    let asked: Vec<Symbol> = asked.map(Symbol::from).collect();
+    found.extend(asked);
+    found
 }
 
 /// The place of what was read as a unit behind a formula in symbols; of several the last, as others may be names.
@@ -103,6 +114,15 @@ impl Desk<'_> {
             || self.own.contains_key(name)
             || self.parts.contains_key(&*format!("{name}_z"))
             || parameters.iter().any(|p| p.name == *name)
+    }
+
+    /// Whether an equation says what a new name stands for.
+    pub(super) fn names_something(&self, text: &str) -> bool {
+        let known = |c: char| self.is_known(&Symbol::from(c.to_string()));
+        named(text).is_some_and(|(name, right)| {
+            let is_new = !self.is_known(&name) && !name.chars().all(known);
+            is_new && formula::read(right, &self.symbols(right)).is_ok()
+        })
     }
 
     /// A new name for something: `h = l/2 sin(theta)`; of a chain all further links are judged.
@@ -172,8 +192,7 @@ impl Desk<'_> {
             self.own.insert(name, last);
             return Some((status, Vec::new()));
         }
-        let links = self.links(&right)?;
-        let weighed = self.weigh(text, &links);
+        let (links, weighed) = self.weighed_ends(text, &right)?;
         // What is rounded, or cannot be decided, stands for what it was rounded from.
         let exact = !matches!(weighed, Weighed::Slip(_) | Weighed::Carried(_));
         self.own
@@ -195,6 +214,21 @@ impl Desk<'_> {
         };
         self.slipped.extend(cause.map(|cause| (cause, name, first)));
         Some(self.defined(text, &right, weighed))
+    }
+
+    /// The further links of a definition and what is found of them: of `c = √(2 R h - h²) = 0.3 m` in meters where that holds,
+    /// though m be a mass.
+    fn weighed_ends(&self, text: &str, right: &Reading) -> Option<(Vec<Link>, Weighed)> {
+        let links = self.links(right)?;
+        let weighed = self.weigh(text, &links);
+        let in_meters = || {
+            let (_, sides) = text.split_once('=')?;
+            let links = self.links(&self.measured(sides, right)?)?;
+            let again = self.weigh(text, &links);
+            matches!(again, Weighed::Holds | Weighed::Rounded).then_some((links, again))
+        };
+        let other = matches!(weighed, Weighed::Slip(_)).then(in_meters);
+        Some(other.flatten().unwrap_or((links, weighed)))
     }
 
     /// A name that is said with a slip below the lines that use it: the one other own name of such a line has the slip as well.
@@ -369,6 +403,36 @@ impl Desk<'_> {
         found
     }
 
+    /// Whether what holds by what is said further down of the one own name in it says no more than that: however the scene goes it
+    /// would hold, and the scene has no such quantity.
+    pub(super) fn only_says(&self, all: &[Expr]) -> bool {
+        let used: BTreeSet<Symbol> = all.iter().flat_map(Expr::symbols).collect();
+        let given = |name: &&Symbol| self.is_given(name) || ***name == *"pi";
+        let own = only(used.iter().filter(|name| !given(name)));
+        let Some(name) = own.filter(|name| self.early.contains(*name)) else {
+            return false;
+        };
+        let value = self.with_own(&Expr::symbol(name));
+        value.symbols().iter().all(|name| given(&name)) && !self.is_of_scene(&value)
+    }
+
+    /// Whether a quantity of the scene has a value at some moment, counted either way, or as the size of a velocity.
+    fn is_of_scene(&self, value: &Expr) -> bool {
+        let moments = self.moments.iter().map(|(_, values)| values);
+        let ends = self.ends.iter().map(|(_, values)| values);
+        let stands = self.vectors.iter().map(|stand| &stand.values);
+        let all = std::iter::once(&self.closed).chain(moments).chain(ends);
+        let is_it = |known: &Expr| self.is_zero(&(value.powi(2) - known.powi(2)));
+        let size = |values: &Values, name: &Symbol, x: &Expr| {
+            let y = values.get(&*format!("{}_y", name.strip_suffix("_x")?))?;
+            Some((x.powi(2) + y.powi(2)).sqrt())
+        };
+        all.chain(stands).any(|values| {
+            let mut each = values.iter();
+            each.any(|(name, x)| is_it(x) || size(values, name, x).is_some_and(|s| is_it(&s)))
+        })
+    }
+
     /// A text with names that are said only further down.
     pub(super) fn looked_ahead(&mut self, text: &str) -> Option<Reading> {
         for _ in 0..8 {
@@ -418,12 +482,14 @@ impl Desk<'_> {
 
     fn taken_ahead(&mut self, name: &Symbol, symbols: &Symbols) -> bool {
         let said = self.ahead.iter().find(|(other, _)| other == name);
-        let value = said.and_then(
-            |(_, right)| match formula::read(right, symbols).ok()?.content {
+        let value = said.and_then(|(_, right)| {
+            let measured = self.in_units.then(|| in_unit(right, symbols)).flatten();
+            let read = measured.or_else(|| formula::read(right, symbols).ok())?;
+            match read.content {
                 Content::Relations(sides, _) => sides.last()?.expr().cloned(),
                 one => one.expr().cloned(),
-            },
-        );
+            }
+        });
         let found = value.is_some();
         if let Some(value) = value {
             self.early.insert(name.clone());

@@ -158,10 +158,14 @@ pub(super) fn has_dashes(text: &str) -> bool {
 }
 
 /// A line that goes on with an equality sign, with the ends of the chain before it: what is spoken of, and its last side.
-pub(super) fn continued(before: &str, line: &str) -> String {
+pub(super) fn continued(whole: &str, line: &str) -> String {
     let rest = line.trim_start_matches(['&', '$', ' ']);
     let goes_on =
         rest.starts_with(['=', '≈']) && !rest.starts_with("=>") || rest.starts_with("\\approx");
+    // What stands behind `where` says what a letter is.
+    let wheres = [", where ", " where ", ", with "].into_iter();
+    let before = wheres.filter_map(|word| whole.split_once(word)).next();
+    let before = before.map_or(whole, |(chain, _)| chain);
     let chain = equations(before).pop().filter(|_| goes_on);
     let Some((first, last)) =
         chain.and_then(|chain| Some((chain.split('=').next()?, chain.rsplit(['=', '≈']).next()?)))

@@ -153,19 +153,26 @@ impl Desk<'_> {
     /// Whether the sides differ by no more than the own names in them may that were said to be decimal numbers.
     fn is_within_own(&self, link: &Link) -> bool {
         let values = self.sheet.scene.values();
-        let rounded = self.ahead.iter().filter_map(|(name, right)| {
-            let value = fraction(self.own.get(name)?)?;
-            // What goes on to other lines counts from three digits.
-            let (share, decimal) = coarsest(&format!("{right} ="), &values)?;
-            decimal.then(|| (name, value.abs() * share, value))
-        });
-        let rounded: Vec<(&Symbol, Rational, Rational)> = rounded.collect();
-        let mut exact = self.own.clone();
-        exact.retain(|name, _| !rounded.iter().any(|(other, ..)| *other == name));
         let middle = |e: &Expr| {
             let [low, high] = number::bounds(e)?;
             Some((low + high) / ratio(2, 1))
         };
+        let rounded = self.ahead.iter().filter_map(|(name, right)| {
+            let own = self.own.get(name)?;
+            // Degrees are a fraction of π.
+            let in_degrees =
+                || fraction(&own.put(&Symbol::from("pi"), &Expr::one())).and(middle(own));
+            let value = fraction(own).or_else(in_degrees)?;
+            // What goes on to other lines counts from three digits, and is exact with less.
+            let share = match coarsest(&format!("{right} ="), &values) {
+                Some((share, decimal)) => decimal.then_some(share)?,
+                None => ratio(0, 1),
+            };
+            Some((name, value.abs() * share, value))
+        });
+        let rounded: Vec<(&Symbol, Rational, Rational)> = rounded.collect();
+        let mut exact = self.own.clone();
+        exact.retain(|name, _| !rounded.iter().any(|(other, ..)| *other == name));
         let is_near = |gap: &Expr| {
             let own = (0..exact.len().min(8)).fold(gap.clone(), |e, _| e.substitute(&exact));
             let gap = own.substitute(&self.closed).substitute(&values);

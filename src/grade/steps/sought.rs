@@ -9,7 +9,7 @@ use super::link::{Link, Weighed, gaps};
 use super::{CONDITION, Desk, Found, Status};
 use crate::algebra::{Field, quotient};
 use crate::answer::Answer;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Symbol, only};
 use crate::formula::{Content, Reading};
 use crate::scene::Ask;
 
@@ -211,6 +211,12 @@ impl Desk<'_> {
             (Some(c), Some(one)) => {
                 let one = self.with_own(one);
                 self.is_multiple(&one, c) || self.is_closed_form_of(&one, c, &sought.parameter)
+            }
+            // `P_A = 0` of a vector with one component says so of that.
+            (Some(c), None) => {
+                let zero = |side: &Content| side.expr().is_some_and(Expr::is_zero);
+                let open = link.differences.iter().filter(|d| !self.is_zero(d));
+                link.sides.iter().any(zero) && only(open).is_some_and(|d| d == c || *d == -c)
             }
             _ => false,
         };

@@ -12,7 +12,7 @@ const LEADS: &str = "=>|⇒|⟹|∴|→|->|\\Rightarrow|\\implies|\\therefore|th
      as|from|let";
 
 /// What stands between two equations of one line.
-pub(super) const BETWEEN: &str = "<=>|⇔|\\Leftrightarrow|\\iff|=>|⇒|⟹|∴|\\Rightarrow|\\implies|\\therefore|\
+pub(super) const BETWEEN: &str = "<=>|⇔|⟺|\\Leftrightarrow|\\iff|=>|⇒|⟹|∴|\\Rightarrow|\\implies|\\therefore|\
     →|->|; |, | so | hence | thus | therefore | we get | where | with | and |: ";
 
 /// Which of these words lead from a sentence to what follows from it: `G is l/2 away, so I = m l^2/3`.
@@ -163,10 +163,13 @@ pub(super) fn supposition(text: &str) -> Option<(&str, Vec<&str>)> {
         " we have ",
     ];
     let ends = &ends[..if supposes { ends.len() } else { 2 }];
-    let end = ends
-        .iter()
-        .filter_map(|end| Some((rest.find(end)?, end.len())))
-        .min();
+    // `For e = 0, d = l/2: …` and `For the end, d = l/2: …` suppose what stands before the colon.
+    let found = |end: &&str| {
+        let at = rest.find(*end).filter(|at| relates(&rest[..*at]))?;
+        Some((at, end.len()))
+    };
+    let colon = ends[..1].iter().find_map(|end| found(&end));
+    let end = colon.or_else(|| ends.iter().filter_map(|end| found(&end)).min());
     // `for θ = 0 ω = 3v/(2l)`: behind a number the second equation begins with its name.
     let second = || {
         let (before, _) = rest.rsplit_once('=').filter(|_| supposes)?;
@@ -179,7 +182,17 @@ pub(super) fn supposition(text: &str) -> Option<(&str, Vec<&str>)> {
     let (at, length) = end.or_else(second)?;
     let (given, behind) = (&rest[..at], &rest[at + length..]);
     let both = relates(given) && relates(behind);
-    both.then(|| (given.trim_matches([' ', '$']), equations(behind)))
+    both.then(|| (without_words(given), equations(behind)))
+}
+
+/// What is supposed without words before it: `the end, d = l/2`, `it strikes at the end (d = l/2)`.
+fn without_words(given: &str) -> &str {
+    let given = given.trim_matches([' ', '$']);
+    let inside = given.strip_suffix(')').and_then(|g| g.split_once(" ("));
+    let inside = inside.filter(|(words, _)| !relates(words));
+    let behind = given.split_once(", ");
+    let behind = behind.filter(|(words, behind)| !relates(words) && relates(behind));
+    inside.or(behind).map_or(given, |(_, behind)| behind)
 }
 
 /// Whether a line says what a name is as a function of time: `v(t) = …`.
@@ -207,7 +220,7 @@ pub(super) fn measured_end(text: &str) -> Option<[String; 2]> {
 fn parts(sign: &str, behind: &str) -> bool {
     let next = BETWEEN
         .split('|')
-        .skip(5)
+        .skip(6)
         .filter_map(|s| behind.find(s))
         .min();
     let own = &behind[..next.unwrap_or(behind.len())];

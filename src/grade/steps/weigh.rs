@@ -10,6 +10,7 @@ use super::cause::MOST_STEPS;
 use super::desk::all_of;
 use super::impact::Stand;
 use super::link::{Link, Values, Weighed, equal, gaps, mentions_vectors};
+use super::names::named;
 use super::rounded::{is_near, pieces};
 use super::text::{beside, equations, supposition, with_direction};
 use super::{Desk, Status};
@@ -18,6 +19,7 @@ use crate::answer::limit;
 use crate::equality;
 use crate::expr::{Expr, Function, Symbol, effort};
 use crate::formula::{self, Content, Reading, Relation};
+use crate::grade;
 use crate::scene::{Ask, Question};
 
 /// Most words between a sense of rotation and the word that it is positive.
@@ -202,7 +204,14 @@ impl Desk<'_> {
             let reading = formula::read(part, &self.symbols(part)).ok()?;
             Some(self.in_its_unit(part, &reading).unwrap_or(reading))
         };
-        let then: Vec<Reading> = behind.into_iter().map(read).collect::<Option<_>>()?;
+        let then: Option<Vec<Reading>> = behind.iter().map(|part| read(part)).collect();
+        let Some(then) = then else {
+            // A name of one's own for a special case.
+            let is_value = |part: &str| self.supposes_a_value(part);
+            let is_new = behind.iter().all(|part| self.names_something(part));
+            let is_case = is_new && equations(given).into_iter().all(is_value);
+            return is_case.then_some(Status::Defines);
+        };
         let is_parameter = |name: &Symbol| self.is_given(name);
         let symbol = |side: &Content| side.name().cloned();
         let mut there = BTreeMap::new();
@@ -267,6 +276,42 @@ impl Desk<'_> {
         let status = self.found(zero, Status::Undecided);
         self.note_place(text, &links, &there, &status);
         Some(status)
+    }
+
+    /// Whether an equation gives a parameter a value.
+    fn supposes_a_value(&self, part: &str) -> bool {
+        named(part).is_some_and(|(name, right)| {
+            let value = formula::read(right, &self.symbols(right));
+            self.is_given(&name) && value.is_ok_and(|value| value.expr().is_some())
+        })
+    }
+
+    /// Whether two inequalities with a sign of equivalence between them say the same as the scene goes; nothing where a line is
+    /// no such thing, or tells a bound that is asked for.
+    pub(super) fn equivalence(&self, text: &str) -> Option<Status> {
+        let signs = ["⟺", "⇔", "<=>", "\\iff", "\\Leftrightarrow", " iff "];
+        let sides = signs.iter().find_map(|sign| text.split_once(sign))?;
+        let read = |side: &str| {
+            let side = side.trim_matches([' ', '$']);
+            let content = formula::read(side, &self.symbols(side)).ok()?.content;
+            let ([left, right], [sign]) = content.relations()? else {
+                return None;
+            };
+            let asked = self.says_a_bound([left.expr()?, right.expr()?], *sign);
+            (sign.is_order() && !asked).then(|| content.map(&|e| self.truth(e)))
+        };
+        let [a, b] = [read(sides.0)?, read(sides.1)?];
+        let question = grade::Question {
+            domains: self.sheet.scene.domains.clone(),
+            ..grade::Question::default()
+        };
+        let key = grade::key_of(a, &question);
+        let reading = key.reading.with(b);
+        match grade::compare::verdict_of(&key, &reading, self.options) {
+            Verdict::Equivalent => Some(Status::Holds),
+            Verdict::Different => Some(Status::Wrong),
+            _ => Some(Status::Undecided),
+        }
     }
 
     /// Keeps `u = 0 for η = 4` as an answer where it is asked for which η that is so.
