@@ -21,6 +21,7 @@ impl Lexer<'_> {
                 let fault = Fault::new(message, self.pos, self.pos + 3);
                 Err(fault.hint("write it in kelvins, K"))
             }
+            '‰' => self.percent(self.pos, end - self.pos, 1000),
             '⁰' | '¹' | '²' | '³' | '⁴'..='⁹' | '⁺' | '⁻' => self.raised(),
             '∂' | 'ⅆ' => self.derivative().unwrap_or_else(|| {
                 let message = "∂ is read in a derivative of one name only, as in ∂x/∂t";

@@ -187,8 +187,8 @@ impl Lexer<'_> {
             && self.symbols.find(&rest[..1]).is_none()
     }
 
-    /// A percent sign behind a number, with nothing behind it that could make it a remainder.
-    pub(super) fn percent(&mut self, start: usize, length: usize) -> Faulty<Tok> {
+    /// A percent sign behind a number, or one of another share, with nothing behind it that could make it a remainder.
+    pub(super) fn percent(&mut self, start: usize, length: usize, of: i64) -> Faulty<Tok> {
         let end = start + length;
         // Maxima writes constants with the sign before them: `2*%pi`, `%e^x`.
         let rest = &self.text[end..];
@@ -212,7 +212,7 @@ impl Lexer<'_> {
             return Err(fault.hint("write 5% or 0.05"));
         }
         self.pos = end;
-        Ok(Tok::Percent)
+        Ok(Tok::Percent(of))
     }
 }
 

@@ -160,7 +160,7 @@ impl<'a> Lexer<'a> {
             Tok::Number(literal) => Before::Number {
                 decimal: literal.decimal,
             },
-            Tok::Vulgar(..) | Tok::Close(_) | Tok::Raised(_) | Tok::Degree | Tok::Percent => {
+            Tok::Vulgar(..) | Tok::Close(_) | Tok::Raised(_) | Tok::Degree | Tok::Percent(_) => {
                 Before::Value
             }
             Tok::Name(name) if &**name == "pi" || is_axis(name) => Before::Value,
@@ -301,7 +301,7 @@ impl<'a> Lexer<'a> {
             },
             b'|' => (1, sided_bar(&self.text[..self.pos])),
             b',' | b';' => (1, Tok::Comma),
-            b'%' => return self.percent(self.pos, 1),
+            b'%' => return self.percent(self.pos, 1, 100),
             b'&' if self.matrix => (1, Tok::Comma),
             b'=' if second == b'<' => (2, Tok::Relation(Relation::LessEqual)),
             b'=' if second == b'>' => {

@@ -59,7 +59,7 @@ pub(crate) struct Parser<'a> {
     /// Functions around the current place.
     pub(super) arguments: u32,
     /// Units inside the current side.
-    units: u32,
+    pub(super) units: u32,
     /// Pieces written more than once so far.
     copied: usize,
 }
@@ -281,9 +281,12 @@ impl<'a> Parser<'a> {
             let terms = vec![(Sign::Plus, measured), (Sign::Plus, rest)];
             return Ok(Written::new(Shape::Sum(terms), start, end));
         }
-        // The direction may stand behind the unit: `3 m/s \hat{i}`.
-        let turned = matches!(&self.peek()?.tok, Tok::Name(name) if is_axis(name));
-        match turned {
+        // The direction may stand behind the unit, `3 m/s \hat{i}`, and so may a function, `3 m/s cos 60°`.
+        let goes_on = match &self.peek()?.tok {
+            Tok::Name(name) => is_axis(name),
+            tok => matches!(tok, Tok::Call(_) | Tok::Root(_)),
+        };
+        match goes_on {
             true => self.group_from(Some(measured)),
             false => Ok(measured),
         }

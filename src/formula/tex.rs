@@ -118,7 +118,7 @@ impl<'a> Lexer<'a> {
                 self.pos += 1;
                 Tok::Close('}')
             }
-            Some('%') => return self.percent(start, 2),
+            Some('%') => return self.percent(start, 2, 100),
             Some('|') => {
                 self.pos += 1;
                 Tok::Bar

@@ -78,7 +78,7 @@ pub(crate) enum Tok {
     Relation(Relation),
     Vulgar(i64, i64),
     Degree,
-    Percent,
+    Percent(i64),
     Unit(Box<Unit>),
 }
 

@@ -4,7 +4,7 @@ use super::lexer::Lexer;
 use super::note::Remark;
 use super::symbols::{among, letters_at, pairs};
 use super::token::{Before, Tok};
-use crate::dimension;
+use crate::dimension::{self, Unit};
 
 /// Longest unit with its decoration, in bytes.
 const LONGEST_UNIT: usize = 120;
@@ -14,8 +14,10 @@ impl Lexer<'_> {
     pub(super) fn unit_below(&mut self) -> Option<Tok> {
         let degrees = self.text[..self.pos].trim_end();
         let turned = ["°", "\\circ", "\\circ}", "deg", "∘", "\\degree", "degrees"];
-        let turned = turned.iter().any(|mark| degrees.ends_with(mark));
-        if !matches!(self.before, Before::Number { .. }) && !turned {
+        let circles = ["π", "pi"];
+        let mut marks = turned.iter().chain(&circles);
+        let marked = marks.any(|mark| degrees.ends_with(mark));
+        if !matches!(self.before, Before::Number { .. }) && !marked {
             return None;
         }
         let start = self.pos;
@@ -27,6 +29,19 @@ impl Lexer<'_> {
         let read = dimension::unit(&format!("1/{}", plain_unit(below)?)).ok()?;
         self.pos = start + side.len();
         Some(Tok::Unit(Box::new(read)))
+    }
+
+    /// A group that holds a unit alone, as below the bar of `\frac{3 m}{s}`.
+    pub(super) fn unit_group(&mut self) -> Option<Unit> {
+        let group = self.text[self.pos..].strip_prefix('{')?;
+        let ends = group.match_indices('}').map(|(at, _)| at);
+        let mut ends = ends.take_while(|at| self.units_first && *at < LONGEST_UNIT);
+        let whole = |at: usize| Some((at, plain_unit(&group[..at])?));
+        let (end, plain) = ends.find_map(whole)?;
+        let declared = words(&plain).any(|w| self.symbols.find(w).is_some());
+        let read = dimension::unit(&plain).ok().filter(|_| !declared)?;
+        self.pos += end + 2;
+        Some(read)
     }
 
     /// The text up to the next relation, where it is short enough for a unit.
@@ -146,6 +161,7 @@ impl Lexer<'_> {
                 '\\' if command.iter().any(|c| side[at..].starts_with(c)) => return Some(at),
                 '\\' if side[at..].starts_with("\\\\") => return Some(at),
                 _ if depth == 0 && before != '^' && numbered(&side[at..]) => return Some(at),
+                _ if depth == 0 && spaced && begins_function(&side[at..]) => return Some(at),
                 'i' | 'j' | 'k' if self.is_axis(side, at) => return Some(at),
                 '(' | '{' => depth += 1,
                 ')' | '}' if depth == 0 => return Some(at),
@@ -252,8 +268,15 @@ pub(super) fn numbered(text: &str) -> bool {
         while let Some(rest) = opened.iter().find_map(|open| number.strip_prefix(open)) {
             number = rest;
         }
-        number.starts_with(|c: char| c.is_ascii_digit())
+        number.starts_with(|c: char| c.is_ascii_digit()) || begins_function(number)
     })
+}
+
+/// Whether a text begins with a function or root, which is no unit: `10 m/s cos 60°`.
+fn begins_function(text: &str) -> bool {
+    let name = text.strip_prefix('\\').unwrap_or(text);
+    let functions = ["sin", "cos", "tan", "cot", "sqrt", "√"];
+    functions.iter().any(|function| name.starts_with(function))
 }
 
 /// The word at the start of a text, where it is short enough for a unit.

@@ -39,10 +39,9 @@ impl Parser<'_> {
                             .hint("write brackets"));
                     }
                 }
-                Tok::Percent => {
+                Tok::Percent(of) => {
                     let end = self.next()?.end;
-                    let hundred = whole_number(100, base.start, end);
-                    base = base.over(hundred);
+                    base = base.clone().over(whole_number(of, base.start, end));
                 }
                 Tok::Degree => {
                     let token = self.next()?;
@@ -63,6 +62,20 @@ impl Parser<'_> {
                 _ => return Ok(base),
             }
         }
+    }
+
+    /// One of a unit that is a group of its own.
+    fn unit_alone(&mut self) -> Option<Written> {
+        let start = self.lexer.pos;
+        let unit = self.peeked.is_none().then(|| self.lexer.unit_group())??;
+        self.units += 1;
+        let end = self.lexer.pos;
+        let one = Box::new(whole_number(1, start, end));
+        Some(Written::new(
+            Shape::Measured(one, Box::new(unit)),
+            start,
+            end,
+        ))
     }
 
     /// An exponent behind `^`: a sign and one factor; a further `^` belongs to the exponent.
@@ -109,7 +122,10 @@ impl Parser<'_> {
             }
             Tok::Fraction => self.deeper(|p| {
                 let above = p.argument("the numerator")?;
-                let below = p.argument("the denominator")?;
+                let below = match p.unit_alone() {
+                    Some(unit) => unit,
+                    None => p.argument("the denominator")?,
+                };
                 let stop = below.end;
                 Ok(above.over(below).at(start, stop))
             }),

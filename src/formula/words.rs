@@ -50,7 +50,7 @@ impl Lexer<'_> {
             if let Some(said) = percent
                 && self.symbols.find(word).is_none()
             {
-                return self.percent(start, said.len());
+                return self.percent(start, said.len(), 100);
             }
             if let Some(tok) = self.unit(false) {
                 return Ok(tok);
