@@ -17,6 +17,12 @@ use crate::interval::{Interval, Outcome, evaluate};
 pub(super) fn prove(a: &Expr, b: &Expr, domains: &Domains) -> Option<Proof> {
     let difference = a - b;
     if has_arc(&difference) {
+        let [x, y] = [a, b].map(unwound);
+        if (&x, &y) != (a, b)
+            && let proof @ Proof::Equal(..) = compare(&x, &y, domains)
+        {
+            return Some(proof);
+        }
         return whole_turns(&without_shared(&difference), domains)
             .or_else(|| with_like_arcs(a, b, domains));
     }
@@ -201,6 +207,38 @@ fn whole_turns(difference: &Expr, domains: &Domains) -> Option<Proof> {
         }
     }
     Some(Proof::Equal(assumed, Ground::Turns))
+}
+
+/// Arcs of functions of numbers, without both: asin(sin 10) is 3π − 10.
+fn unwound(e: &Expr) -> Expr {
+    use Function::{Acos, Asin, Atan, Cos, Sin, Tan};
+    let e = e.map_parts(unwound);
+    let Node::Call(arc, inside) = e.node() else {
+        return e;
+    };
+    let Node::Call(function, angle) = inside.node() else {
+        return e;
+    };
+    let pi = Expr::pi();
+    let turned = match (arc, function) {
+        (Asin, Sin) | (Atan, Tan) => angle / &pi + Expr::ratio(1, 2),
+        (Acos, Cos) => angle / &pi,
+        _ => return e,
+    };
+    let Outcome::Value(turns) = evaluate::<Interval>(&turned, &Point::default()) else {
+        return e;
+    };
+    let half = turns.low.floor();
+    if half != turns.high.floor() || half.abs() > 1e9 || !angle.is_constant() {
+        return e;
+    }
+    let half = half as i64;
+    let rest = angle - &(&pi * &Expr::from(half));
+    match (arc, half % 2 == 0) {
+        (Atan, _) | (_, true) => rest,
+        (Asin, false) => -rest,
+        (_, false) => pi - rest,
+    }
 }
 
 /// A term as a number times the rest.
