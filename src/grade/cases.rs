@@ -341,7 +341,12 @@ pub(super) fn of_key(key: &Key, answer: &str, options: &Options) -> Grade {
     let each = key.cases.iter();
     let found =
         each.filter_map(|part| judge(part, answer, options).or_else(|| on(part, answer, options)));
-    together(found.collect())
+    let mut grade = together(found.collect());
+    if key.has_hole && grade.is_equivalent() {
+        grade.note = "EQUIV_WHERE_DEFINED";
+        grade.assume(vec!["where one of the expected cases holds".into()]);
+    }
+    grade
 }
 
 /// The grade of an answer in cases; nothing where it is in none.
@@ -413,14 +418,15 @@ pub(super) fn together(found: Vec<Grade>) -> Grade {
     grade
 }
 
-/// The keys of an expected formula in cases, each on its part of the domain; nothing where it is in none.
+/// The keys of an expected formula in cases, each on its part of the domain, and whether they leave more than edges of it out;
+/// nothing where it is in none.
 pub(super) fn keys(
     expected: &str,
     question: &Question,
     symbols: &Symbols,
-) -> Option<Result<Vec<Key>, Fault>> {
+) -> Option<Result<(Vec<Key>, bool), Fault>> {
     let cases = parted(expected)?;
-    let (parts, _) = match parts(&cases, question, symbols) {
+    let (parts, left) = match parts(&cases, question, symbols) {
         Ok(found) => found,
         Err(fault) => return Some(Err(fault)),
     };
@@ -436,5 +442,7 @@ pub(super) fn keys(
             },
         )
     });
-    Some(keys.collect())
+    let is_hole = |d: &Domains| extent(d) == Extent::Open && has_points(d);
+    let all: Result<Vec<Key>, Fault> = keys.collect();
+    Some(all.map(|keys| (keys, left.iter().any(is_hole))))
 }

@@ -91,6 +91,47 @@ pub(super) fn raised(key: &Key, answer: &str, options: &Options, finding: &mut G
     }
 }
 
+/// `x = 3 y = 4` that is wrong as a chain, and would be right with a comma between two equations: it is not decided.
+pub(super) fn side_by_side(
+    key: &Key,
+    answer: &str,
+    options: &Options,
+    reading: &Reading,
+    finding: &mut Grade,
+) {
+    let is_chain = reading
+        .content
+        .relations()
+        .is_some_and(|(sides, _)| sides.len() > 2);
+    if !is_chain || finding.verdict != Verdict::Different || answer.len() > LONGEST {
+        return;
+    }
+    let Some(text) = with_commas(answer) else {
+        return;
+    };
+    let other = read::answer(key, &text).ok();
+    let right = other.is_some_and(|other| compare::contents(key, &other, options).is_equivalent());
+    if right {
+        let words = format!("it would be right as {text}; without a comma it is one chain");
+        ambiguous(finding, &words, "write a comma between two equations");
+    }
+}
+
+/// A text with a comma before each name behind a space that stands left of a further sign of equality.
+fn with_commas(text: &str) -> Option<String> {
+    let mut pieces = text.split('=');
+    let mut out = pieces.next()?.to_string();
+    let pieces: Vec<&str> = pieces.collect();
+    let (last, between) = pieces
+        .split_last()
+        .filter(|(_, between)| !between.is_empty())?;
+    for piece in between {
+        let (value, name) = piece.trim_end().rsplit_once(' ')?;
+        out.extend(["=", value.trim_end(), ", ", name, " "]);
+    }
+    Some(out + "=" + last)
+}
+
 /// A text with brackets around all letters, digits and `signs` behind each sign of a power; nothing where that changes nothing.
 fn raised_further(text: &str, signs: &str) -> Option<String> {
     let mut pieces = text.split('^');

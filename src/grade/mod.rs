@@ -137,6 +137,8 @@ pub struct Key {
     pub(crate) range: Option<Box<Key>>,
     /// The same on parts of the domain, where it is given in cases.
     pub(crate) cases: Vec<Key>,
+    /// Whether these cases leave a part of the domain out.
+    has_hole: bool,
     /// The key with a decimal comma, where a comma of its text is taken to part thousands and could be one: `1{,}234`.
     pub(crate) decimals: Option<Box<Key>>,
     /// The direction in words behind the key: along x and y, and about the axis out of the page.
@@ -178,10 +180,14 @@ pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
     };
     declare(&mut symbols, question);
     if let Some(cases) = cases::keys(expected, question, &symbols) {
-        let cases = cases?;
+        let (cases, has_hole) = cases?;
         let none = || *Fault::new("none of the cases occurs on the domain", 0, 0);
         let first = cases.first().cloned().ok_or_else(none)?;
-        return Ok(Key { cases, ..first });
+        return Ok(Key {
+            cases,
+            has_hole,
+            ..first
+        });
     }
     let strict = || {
         let mut strict = Symbols::strict();
@@ -316,6 +322,7 @@ fn from_reading(mut reading: Reading, question: &Question) -> Key {
         quantity: None,
         range: None,
         cases: Vec::new(),
+        has_hole: false,
         decimals: None,
         direction: None,
         declares_e,
@@ -489,6 +496,7 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
             || doubt::power_of_function(&reading.content).is_some());
     doubt::euler(key, &reading, options, &mut finding);
     doubt::raised(key, answer, options, &mut finding);
+    doubt::side_by_side(key, answer, options, &reading, &mut finding);
     doubt::primes(key, &reading, options, &mut finding);
     doubt::imaginary(key, &reading, &mut finding);
     doubt::any_whole_number(key, &reading, &mut finding);
