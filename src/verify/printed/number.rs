@@ -12,6 +12,7 @@ use crate::scene::{Print, Printed};
 use crate::verify::rounding::{bounds, fraction, magnitude_or_zero, ten_to};
 
 /// A number as it is printed.
+#[derive(Clone)]
 pub(super) struct Figure {
     /// The number in its unit.
     written: Expr,
@@ -149,6 +150,18 @@ impl Desk<'_> {
         finding: &mut Finding,
     ) -> Result<(), String> {
         let (asked, value) = (value, &self.by_answer(value));
+        let forces = figure.quantity.as_ref();
+        let forces = forces.and_then(|q| in_pounds_of_force(q, &self.other_dimension(value, q)?));
+        if let Some(quantity) = forces {
+            let figure = Figure {
+                unit: quantity.unit.value(),
+                quantity: Some(quantity),
+                ..figure.clone()
+            };
+            self.rounded(printed, &figure, of, asked, finding)?;
+            finding.because.push_str(", lb read as lbf");
+            return Ok(());
+        }
         // A number without a unit counts in that of the scene's data.
         let bare = (self.dimension(value)).filter(|d| figure.is_bare() && !d.is_none());
         let bare = bare.map(|dimension| self.scene.system().counted_in(&dimension));
@@ -246,6 +259,22 @@ impl Desk<'_> {
         }
         bounds(&put_in).ok_or_else(|| format!("{} has no value", write_plain(e)))
     }
+}
+
+/// A quantity whose pounds are forces, as in many books, where it has the dimension then that it should have.
+fn in_pounds_of_force(q: &Quantity, is: &Dimension) -> Option<Quantity> {
+    let mut text = String::new();
+    for piece in q.unit_text.split_inclusive(|c: char| !c.is_alphabetic()) {
+        let word = piece.trim_end_matches(|c: char| !c.is_alphabetic());
+        let force = if ["lb", "lbs"].contains(&word) {
+            "lbf"
+        } else {
+            word
+        };
+        text.extend([force, &piece[word.len()..]]);
+    }
+    let unit = dimension::unit(&text).ok()?;
+    (unit.dimension == *is).then(|| Quantity::of(q.written.clone(), unit, &text))
 }
 
 /// How a number was miscopied from the right one: its last digit, its sign, or a power of ten.
