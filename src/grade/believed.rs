@@ -16,7 +16,7 @@ use crate::numeric;
 use crate::scene::{Ask, Scene};
 use others::other_quantities;
 pub(super) use outcome::doubles;
-use outcome::fractions;
+use outcome::{fractions, has_no_value};
 pub use story::Story;
 
 /// Points at which every belief is tried.
@@ -394,10 +394,11 @@ impl Trials {
         for point in self.exact.iter().take(2) {
             let target: Option<Vec<Rational>> =
                 written.values.iter().map(|e| bounded(e, point)).collect();
-            if let (Some(target), Some(values)) = (target, fractions(written, slip, point))
-                && target != values
-            {
-                return false;
+            match (target, fractions(written, slip, point)) {
+                (Some(target), Some(values)) if target != values => return false,
+                // What is 0/0 comes out as something by rounding alone.
+                (Some(_), None) if has_no_value(written, slip, point) => return false,
+                _ => {}
             }
         }
         true

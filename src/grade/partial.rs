@@ -68,6 +68,7 @@ pub(crate) fn diagnose(ctx: &Context, expected: &Expr, answer: &Expr) -> Vec<Dia
         .or_else(|| trial.symbol_signs())
         .or_else(|| trial.doubled(ctx))
         .or_else(|| trial.exchanged(ctx))
+        .or_else(|| trial.exponent(ctx))
         .or_else(|| trial.special(ctx))
         .or_else(|| found.is_empty().then(|| trial.small_angle())?)
         .or_else(|| trial.power())
@@ -241,10 +242,40 @@ fn dimensions(ctx: &Context, expected: &Expr, answer: &Expr) -> Option<Diagnosis
             Some(Diagnosis::new("DIMENSION", message.clone(), message))
         }
         Err(clash) if !matches!(*clash, Clash::Unknown(_)) => {
-            let message = clash.message(&|e| ctx.say(e));
+            let message = told(*clash, expected, answer, &asked).message(&|e| ctx.say(e));
             Some(Diagnosis::new("DIMENSION_CLASH", message.clone(), message))
         }
         _ => None,
+    }
+}
+
+/// A clash of two terms with the one behind that is not as it should be: what stands in the expected formula too, or measures
+/// what the whole does, is right.
+fn told(clash: Clash, expected: &Expr, answer: &Expr, asked: &Dimension) -> Clash {
+    let Clash::Sum {
+        left,
+        left_is,
+        right,
+        right_is,
+    } = &clash
+    else {
+        return clash;
+    };
+    let bare = |e: &Expr| e.split_number().1;
+    let stands = |e: &Expr| expected.parts().any(|part| bare(part) == bare(e));
+    let is_whole = answer.terms().contains(left);
+    let is_turned = match stands(left) == stands(right) {
+        true => is_whole && right_is == asked,
+        false => stands(right),
+    };
+    match is_turned {
+        true => Clash::Sum {
+            left: right.clone(),
+            left_is: right_is.clone(),
+            right: left.clone(),
+            right_is: left_is.clone(),
+        },
+        false => clash,
     }
 }
 

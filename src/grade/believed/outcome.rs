@@ -34,6 +34,15 @@ pub(super) fn fractions(
     }
 }
 
+/// Whether nothing comes out of a slip in fractions although its data and the right answer are such.
+pub(super) fn has_no_value(written: &Written, slip: &Slip, point: &Point<Rational>) -> bool {
+    let truth = Slip::none(written.scene);
+    !matches!(slip.change, Some(Change::EnergyKept))
+        && numeric::given(&slip.scene, point).is_ok()
+        && fractions(written, &truth, point).is_some()
+        && fractions(written, slip, point).is_none()
+}
+
 pub(super) fn outcome<T: Number>(
     written: &Written,
     slip: &Slip,

@@ -309,23 +309,73 @@ impl<'a> Trial<'a> {
     }
 
     pub(super) fn symbol_signs(&self) -> Option<Diagnosis> {
-        self.answer.symbols().into_iter().find_map(|name| {
-            let minus = Weighed::from_rational(&ratio(-1, 1));
+        let minus = Weighed::from_rational(&ratio(-1, 1));
+        let mends = |name: &Symbol| {
             let turn = |point: &mut Place| {
-                let value = point.values.get_mut(&name);
-                let sine = point.directions.get_mut(&name).map(|(_, [_, sine])| sine);
+                let value = point.values.get_mut(name);
+                let sine = point.directions.get_mut(name).map(|(_, [_, sine])| sine);
                 let all = value.into_iter().chain(sine);
                 all.for_each(|v| *v = v.times(&minus));
             };
-            let message = format!("right with {name} replaced by -{name}");
-            let hint = format!("check the sign with which {name} enters");
-            let right = self.mends_at(turn, [(name.clone(), -Expr::symbol(&name))]);
-            right.then(|| Diagnosis::new("SYMBOL_SIGN", message, hint))
-        })
+            self.mends_at(turn, [(name.clone(), -Expr::symbol(name))])
+        };
+        // In a product the sign may be that of any factor.
+        let mut names: Vec<Symbol> = self.answer.symbols().into_iter().collect();
+        names.retain(mends);
+        let replaced = names
+            .iter()
+            .map(|name| format!("{name} replaced by -{name}"));
+        let message = format!("right with {}", any_of(replaced));
+        let hint = format!("check the sign with which {} enters", any_of(names.iter()));
+        (!names.is_empty()).then(|| Diagnosis::new("SYMBOL_SIGN", message, hint))
+    }
+
+    /// The expected formula without an exponent, or with one too many: cos θ for cos²θ.
+    pub(super) fn exponent(&self, ctx: &Context) -> Option<Diagnosis> {
+        let squares = |e: &Expr| -> Vec<(Expr, Expr)> {
+            let square = |part: &Expr| match part.node() {
+                Node::Power(base, k) if *k == Expr::from(2) => Some((part.clone(), base.clone())),
+                _ => None,
+            };
+            let whole = e.factors();
+            let mut all: Vec<_> = e.parts().filter_map(square).collect();
+            // What is off by a factor made of symbols is told as such.
+            all.retain(|(power, base)| base.as_symbol().is_none() || !whole.contains(power));
+            all
+        };
+        let lost = squares(self.expected)
+            .into_iter()
+            .find(|(power, base)| self.is(&self.expected.replace(power, base)));
+        // The expected formula may be written with the other function.
+        let lost = lost.or_else(|| {
+            let mut all = self.answer.parts();
+            let call = all.find(|part| {
+                let turns = matches!(part.node(), Node::Call(Function::Sin | Function::Cos, _));
+                turns && self.mends(&self.answer.replace(part, &part.powi(2)))
+            });
+            call.map(|call| (call.powi(2), call.clone()))
+        });
+        let gained = || {
+            let mut all = squares(self.answer).into_iter();
+            all.find(|(power, base)| self.mends(&self.answer.replace(power, base)))
+        };
+        let (lacks, (power, base)) = match lost {
+            Some(lost) => (true, lost),
+            None => (false, gained()?),
+        };
+        let [power, base] = [power, base].map(|e| ctx.say(&e));
+        let (right, mine) = if lacks { (power, base) } else { (base, power) };
+        let message = format!("right with {right} in place of {mine}");
+        Some(Diagnosis::new(
+            "POWER",
+            message,
+            format!("check the exponent of {mine}"),
+        ))
     }
 
     /// A length, mass or the like taken twice or half.
     pub(super) fn doubled(&self, ctx: &Context) -> Option<Diagnosis> {
+        let mut found: Vec<(&'static str, String, Symbol)> = Vec::new();
         for name in self.answer.symbols() {
             if self.turned(&name)[1] {
                 continue;
@@ -339,13 +389,17 @@ impl<'a> Trial<'a> {
                 };
                 if self.mends_at(scale, [(name.clone(), &symbol * &Expr::ratio(n, d))]) {
                     let shown = ctx.say(&symbol);
-                    let message = format!("right with {words} {shown} in place of {shown}");
-                    let hint = format!("check what {name} measures: the whole or the half");
-                    return Some(Diagnosis::new(code, message, hint));
+                    let message = format!("{words} {shown} in place of {shown}");
+                    found.push((code, message, name.clone()));
                 }
             }
         }
-        None
+        // In a quotient it may be twice the one or half of the other.
+        let (code, ..) = found.first()?;
+        let message = any_of(found.iter().map(|(_, message, _)| message));
+        let names = any_of(found.iter().map(|(.., name)| name));
+        let hint = format!("check what {names} measures: the whole or the half");
+        Some(Diagnosis::new(code, format!("right with {message}"), hint))
     }
 
     /// Two symbols of the same kind exchanged, or all symbols of body 1 with those of body 2.
@@ -506,6 +560,12 @@ impl<'a> Trial<'a> {
         let message = "the square of the expected value";
         right.then(|| Diagnosis::new("POWER", message, "a root is missing"))
     }
+}
+
+/// Words of which any may be meant.
+fn any_of(all: impl Iterator<Item = impl ToString>) -> String {
+    let all: Vec<String> = all.map(|one| one.to_string()).collect();
+    all.join(" or ")
 }
 
 /// The values of a formula at some points.

@@ -168,8 +168,8 @@ pub(super) fn supposition(text: &str) -> Option<(&str, Vec<&str>)> {
         let at = rest.find(*end).filter(|at| relates(&rest[..*at]))?;
         Some((at, end.len()))
     };
-    let colon = ends[..1].iter().find_map(|end| found(&end));
-    let end = colon.or_else(|| ends.iter().filter_map(|end| found(&end)).min());
+    let colon = ends[..1].iter().find_map(&found);
+    let end = colon.or_else(|| ends.iter().filter_map(found).min());
     // `for θ = 0 ω = 3v/(2l)`: behind a number the second equation begins with its name.
     let second = || {
         let (before, _) = rest.rsplit_once('=').filter(|_| supposes)?;

@@ -201,6 +201,8 @@ impl Desk<'_> {
         let (given, behind) = supposition(text)?;
         // `2 m` is a number of meters, though m be a mass.
         let read = |part: &str| {
+            let arrowed = self.with_arrows_at_dots(part);
+            let part = arrowed.as_deref().unwrap_or(part);
             let reading = formula::read(part, &self.symbols(part)).ok()?;
             Some(self.in_its_unit(part, &reading).unwrap_or(reading))
         };
