@@ -14,10 +14,9 @@ impl Lexer<'_> {
     pub(super) fn unit_below(&mut self) -> Option<Tok> {
         let degrees = self.text[..self.pos].trim_end();
         let turned = ["°", "\\circ", "\\circ}", "deg", "∘", "\\degree", "degrees"];
-        let circles = ["π", "pi"];
-        let mut marks = turned.iter().chain(&circles);
-        let marked = marks.any(|mark| degrees.ends_with(mark));
-        if !matches!(self.before, Before::Number { .. }) && !marked {
+        let turned = turned.iter().any(|mark| degrees.ends_with(mark));
+        let behind_pi = ["π", "pi"].iter().any(|pi| degrees.ends_with(pi));
+        if !matches!(self.before, Before::Number { .. }) && !turned && !behind_pi {
             return None;
         }
         let start = self.pos;
@@ -26,7 +25,12 @@ impl Lexer<'_> {
         if !below.starts_with(|c: char| c.is_ascii_alphabetic() || c == '(') {
             return None;
         }
-        let read = dimension::unit(&format!("1/{}", plain_unit(below)?)).ok()?;
+        let below = plain_unit(below)?;
+        // `2π/T` is one over a period, and no teslas.
+        if behind_pi && words(&below).any(is_symbol_first) {
+            return None;
+        }
+        let read = dimension::unit(&format!("1/{below}")).ok()?;
         self.pos = start + side.len();
         Some(Tok::Unit(Box::new(read)))
     }
@@ -38,8 +42,10 @@ impl Lexer<'_> {
         let mut ends = ends.take_while(|at| self.units_first && *at < LONGEST_UNIT);
         let whole = |at: usize| Some((at, plain_unit(&group[..at])?));
         let (end, plain) = ends.find_map(whole)?;
-        let declared = words(&plain).any(|w| self.symbols.find(w).is_some());
-        let read = dimension::unit(&plain).ok().filter(|_| !declared)?;
+        let upright = group[..end].contains('\\');
+        let symbol = |w| self.symbols.find(w).is_some() || !upright && is_symbol_first(w);
+        let read = dimension::unit(&plain).ok();
+        let read = read.filter(|_| !words(&plain).any(symbol))?;
         self.pos += end + 2;
         Some(read)
     }
