@@ -11,8 +11,9 @@ pub use crate::algebra::tidy;
 use crate::algebra::{self, Field, Sign};
 use crate::domain::{Domains, Roles, Sample, at_ends, roles, samples, samples_until};
 use crate::equality;
+use crate::expr::number::is;
 use crate::expr::{Expr, Function, Node, Point, Rational, Symbol, effort};
-use crate::formula::Sentence;
+use crate::formula::{Sentence, digits};
 use crate::interval::{Interval, Outcome, evaluate};
 
 /// Points at which a sign that could not be proved is looked at.
@@ -264,7 +265,7 @@ fn met_anywhere(e: &Expr, domains: &Domains) -> (usize, usize) {
     if (above > 0) == (below > 0) {
         return (above, below);
     }
-    let roles = roles(&[e]);
+    let roles = related_roles(e, domains);
     let (domains, _) = domains.completed(&roles);
     for sample in far_out(&roles, &domains) {
         match evaluate::<Interval>(e, &sample.point(roles.radians)) {
@@ -285,13 +286,18 @@ fn far_out(roles: &Roles, domains: &Domains) -> Vec<Sample> {
     led.filter(|sample| domains.admits(sample)).collect()
 }
 
-/// A point of the domain at which an exact value is such: within, at closed ends, or far out.
-pub(super) fn point_where(
-    e: &Expr,
-    domains: &Domains,
-    is_such: impl Fn(&Rational) -> bool,
-) -> Option<(Sample, Rational)> {
-    let roles = roles(&[e]);
+/// The symbols of an expression and of all relations that bear upon them: only with these is a point known to lie in the domain.
+fn related_roles(e: &Expr, domains: &Domains) -> Roles {
+    let own = roles(&[e]).symbols.keys().cloned().collect();
+    let bearing = domains.relations_of(&own);
+    let excesses = bearing.iter().map(|r| &r.excess);
+    roles(&[e].into_iter().chain(excesses).collect::<Vec<_>>())
+}
+
+/// A point of the domain at which a value is known to be above zero or below, or to be zero where that is looked for, and what it
+/// is in words: within, at closed ends, or far out.
+pub(super) fn point_where(e: &Expr, domains: &Domains, wanted: Sign) -> Option<(Sample, String)> {
+    let roles = related_roles(e, domains);
     let (domains, _) = domains.completed(&roles);
     let within = samples(&roles, &domains, POINTS);
     let mut ends = at_ends(within.get(..2).unwrap_or_default(), &domains);
@@ -299,9 +305,29 @@ pub(super) fn point_where(
     let far = far_out(&roles, &domains);
     let mut all = within.into_iter().chain(ends).chain(far);
     all.find_map(|sample| {
-        let value = e.evaluate(&sample.fractions())?;
-        is_such(&value).then_some((sample, value))
+        let value = value_at(e, &sample, roles.radians, wanted)?;
+        Some((sample, value))
     })
+}
+
+/// What a value is at a point, as a fraction or else rounded, where its sign is the one that is wanted.
+fn value_at(e: &Expr, at: &Sample, radians: bool, wanted: Sign) -> Option<String> {
+    const READABLE: usize = 12;
+    let sign = match evaluate::<Interval>(e, &at.point(radians)) {
+        Outcome::Value(v) if v.low > 0.0 => Some((Sign::Positive, v)),
+        Outcome::Value(v) if v.high < 0.0 => Some((Sign::Negative, v)),
+        _ => None,
+    };
+    let exact = e.evaluate(&at.fractions());
+    match sign {
+        Some((sign, v)) if sign == wanted => {
+            let exact = exact.map(|n| n.to_string().replace('-', "−"));
+            let short = exact.filter(|n| n.chars().count() <= READABLE);
+            Some(short.unwrap_or_else(|| format!("about {}", digits(v.low / 2.0 + v.high / 2.0))))
+        }
+        Some(_) => None,
+        None => exact.and_then(|n| (wanted == Sign::Zero && is(&n, 0, 1)).then(|| n.to_string())),
+    }
 }
 
 /// A sum of quotients times those of their denominators that are known to be positive.

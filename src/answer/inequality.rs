@@ -1,12 +1,10 @@
 //! Inequalities that hold for all parameters, or for none: decided by the sign of left side less right side.
 
-use num_traits::Signed as _;
-
 use super::Check;
 use super::calc::{Seen, has_both_signs, point_where, sign};
 use crate::algebra::Sign;
 use crate::domain::Domains;
-use crate::expr::{Expr, Rational};
+use crate::expr::Expr;
 use crate::formula::{Relation, Sentence, sentence};
 
 /// The sign of a formula in words.
@@ -42,16 +40,15 @@ pub(super) fn everywhere(s: Seen, relation: Relation) -> Option<bool> {
 pub(super) fn shown(gap: &Expr, relation: Relation, domains: &Domains) -> (Sentence, Check) {
     let seen = sign(gap, domains);
     let known = everywhere(seen, relation).filter(|_| seen.is_proved());
-    let fails = |value: &Rational| match relation {
-        Relation::Less => !value.is_negative(),
-        Relation::LessEqual => value.is_positive(),
-        Relation::Greater => !value.is_positive(),
-        _ => value.is_negative(),
+    let wrong: &[Sign] = match relation {
+        Relation::Less => &[Sign::Positive, Sign::Zero],
+        Relation::LessEqual => &[Sign::Positive],
+        Relation::Greater => &[Sign::Negative, Sign::Zero],
+        _ => &[Sign::Negative],
     };
-    let against = match known {
-        None => point_where(gap, domains, fails),
-        Some(_) => None,
-    };
+    // A plain failure is shown before one where both sides are the same.
+    let mut wrong = wrong.iter().filter(|_| known.is_none());
+    let against = wrong.find_map(|sign| point_where(gap, domains, *sign));
     let difference = sentence!("the difference of its sides is {}", gap);
     let words = sign_words(seen);
     let (text, why, holds) = match (known, against) {
@@ -69,14 +66,14 @@ pub(super) fn shown(gap: &Expr, relation: Relation, domains: &Domains) -> (Sente
             (text, why, Some(false))
         }
         (None, Some((at, value))) => {
-            let (value, at) = (Expr::from(value), at.words());
+            let at = at.words();
             let text = sentence!(
                 "it does not hold for all values: {}, which is {} at {}",
                 difference,
-                &value,
+                value,
                 at
             );
-            let why = "at one point of the domain the difference has another sign";
+            let why = "at one point of the domain it fails";
             (text, why, Some(false))
         }
         (None, None) if has_both_signs(gap, domains) => {

@@ -125,9 +125,10 @@ fn of_arcs(of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) 
     };
     let is_real = value.parts().all(is_inside);
     is_real.then_some(())?;
+    let tidied = tidy(&value, domains).ok();
     let value = match value.is_constant() {
-        true => tidy(&value, domains).ok()?,
-        false => value,
+        true => tidied?,
+        false => tidied.filter(|e| e.size() < value.size()).unwrap_or(value),
     };
     Some(Found {
         tends: Tends::To(value),
@@ -222,7 +223,7 @@ fn dying(of: &Expr, parameter: &Symbol, domains: &Domains) -> Option<Found> {
     let found = by_taylor(&rest, &name, &Expr::zero(), &domains)
         .or_else(|| by_powers(&rest, &name, false, &domains))?;
     Some(Found {
-        how: "found from the power, which dies away",
+        how: "found from the power of the parameter, or its inverse, whichever dies away",
         given: given.into_iter().chain(found.given).collect(),
         ..found
     })

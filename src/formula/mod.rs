@@ -59,7 +59,7 @@ use parser::{Parser, Side};
 pub(crate) use prose::{beside_condition, changes, concluded};
 pub use quotient::Quotient;
 pub(crate) use sentence::sentence;
-pub use sentence::{Piece, Sentence, capital, either, listed, sides, trimmed};
+pub use sentence::{Piece, Sentence, capital, digits, either, listed, sides, trimmed};
 pub(crate) use sets::UNNAMED;
 pub(crate) use several::{letters_apart, relations};
 pub use symbols::{Declared, Symbols, letter};

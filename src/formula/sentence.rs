@@ -90,12 +90,21 @@ impl Sentence {
         })
     }
 
-    /// Whether it says in words alone what a motion needs between its ends: "it does not come to rest while φ changes".
+    /// Whether it says in words alone what a motion needs between its ends: "it does not come to rest while φ changes", "a short and
+    /// smooth bend leads it on".
     pub fn is_of_the_way(&self) -> bool {
         self.0.iter().any(|piece| match piece {
-            Piece::Words(words) => words.contains("does not come to rest "),
+            Piece::Words(words) => {
+                words.contains("does not come to rest ") || words.contains(" smooth bend ")
+            }
             Piece::Formula(_) => false,
         })
+    }
+
+    /// Whether two sentences tell the same conditions, for whatever reasons.
+    pub fn tells_as(&self, other: &Sentence) -> bool {
+        let [a, b] = [self, other].map(|s| s.conditions().collect::<Vec<_>>());
+        self == other || !a.is_empty() && a == b
     }
 
     /// Whether it tells a condition at all, needed or partial, in a formula or in words.
@@ -209,6 +218,19 @@ fn together(items: &[String], word: &str) -> String {
         [first @ .., last] if !first.is_empty() => format!("{} {word} {last}", first.join(", ")),
         _ => items.concat(),
     }
+}
+
+/// A number with four significant digits.
+pub fn digits(value: f64) -> String {
+    if value == 0.0 {
+        return String::from("0");
+    }
+    let magnitude = value.abs().log10().floor();
+    if !(-4.0..6.0).contains(&magnitude) {
+        return format!("{value:.3e}");
+    }
+    let text = format!("{value:.*}", (3.0 - magnitude).max(0.0) as usize);
+    trimmed(&text).replace('-', "−")
 }
 
 /// A sentence starts with a capital.

@@ -177,7 +177,7 @@ pub fn answers(scene: &Scene, of: Option<&Told>, answers: &[Answer]) -> String {
         );
         let told: Vec<&Answer> = [a].into_iter().chain(alike).collect();
         let given = given_alike(&told, &scene.domains).into_iter();
-        let given = given.filter(|words| !throughout.contains(words));
+        let given = given.filter(|words| !throughout.iter().any(|s| s.tells_as(words)));
         lines.extend(given.map(|words| format!("given that {}", written(&words))));
         for line in lines {
             let _ = writeln!(out, "      {}", cut(&line));
@@ -208,7 +208,8 @@ fn throughout(given: &[Vec<Sentence>]) -> Vec<Sentence> {
     const SEVERAL: usize = 3;
     match given {
         [first, rest @ ..] if given.len() >= SEVERAL => {
-            let is_shared = |words: &&Sentence| rest.iter().all(|other| other.contains(words));
+            let is_in = |words: &Sentence, all: &[Sentence]| all.iter().any(|s| s.tells_as(words));
+            let is_shared = |words: &&Sentence| rest.iter().all(|other| is_in(words, other));
             first.iter().filter(is_shared).cloned().collect()
         }
         _ => Vec::new(),

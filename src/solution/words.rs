@@ -4,7 +4,7 @@ use super::{Inline, Math, Meaning, Name};
 use crate::derive::Derivation;
 use crate::dimension;
 use crate::expr::{Expr, Point, Symbol};
-pub use crate::formula::{capital, either, listed};
+pub use crate::formula::{capital, digits, either, listed};
 use crate::laws::{Place, Unknown};
 use crate::scene::{Parameter, Scene, with_noun};
 use crate::verify::Proof;
@@ -504,19 +504,6 @@ pub fn is_safe_latex(latex: &str) -> bool {
         }
     }
     depth == 0
-}
-
-/// A number with four significant digits.
-pub fn digits(value: f64) -> String {
-    if value == 0.0 {
-        return String::from("0");
-    }
-    let magnitude = value.abs().log10().floor();
-    if !(-4.0..6.0).contains(&magnitude) {
-        return format!("{value:.3e}");
-    }
-    let text = format!("{value:.*}", (3.0 - magnitude).max(0.0) as usize);
-    crate::formula::trimmed(&text).replace('-', "−")
 }
 
 /// A text of the derivation in which bodies are called as they are in sentences.

@@ -200,8 +200,8 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
     })
 }
 
-/// The domains on which a stage begins: a motion goes on where the case that leads to it happens, and an impact weighs its own
-/// conditions; the motions before come to their ends.
+/// The domains on which a motion begins: the case that leads to it happens, and the motions before come to their ends. An impact
+/// weighs its own conditions.
 fn begun(
     stage: &Stage,
     stages: &[StageTold],
@@ -209,8 +209,10 @@ fn begun(
     given: &[(String, Expr)],
     domains: Domains,
 ) -> Domains {
-    let is_impact = matches!(stage.kind, StageKind::Impact { .. });
-    let happens = given.iter().filter(|_| !is_impact).map(|(_, need)| need);
+    if matches!(stage.kind, StageKind::Impact { .. }) {
+        return domains;
+    }
+    let happens = given.iter().map(|(_, need)| need);
     let before = branch.into_iter().flat_map(|at| line(stages, at));
     let ends = before.flat_map(|(i, _)| &stages[i].needs);
     happens

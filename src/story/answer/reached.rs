@@ -407,18 +407,12 @@ pub(super) fn one_of_the_cases(
     besides(answer, all.iter());
 }
 
-/// Whether two sentences tell the same condition, for whatever reasons: it is told once.
-fn alike(a: &Sentence, b: &Sentence) -> bool {
-    let [a, b] = [a, b].map(|s| s.conditions().collect::<Vec<_>>());
-    !a.is_empty() && a == b
-}
-
 /// Puts conditions before those of an answer, none of them twice.
 fn besides<'a>(answer: &mut Answer, all: impl Iterator<Item = &'a Sentence>) {
     let mut before: Vec<Sentence> = Vec::new();
     for words in all {
         let mut known = before.iter().chain(&answer.assumptions);
-        if !known.any(|known| known == words || alike(known, words)) {
+        if !known.any(|known| known.tells_as(words)) {
             before.push(words.clone());
         }
     }
@@ -480,7 +474,7 @@ pub(in crate::story) fn tell(scene: &Scene, ask: &Ask, needs: &[Need], answer: &
     // One of several values is told of each.
     answer
         .assumptions
-        .dedup_by(|later, first| later == first || alike(later, first));
+        .dedup_by(|later, first| later.tells_as(first));
 }
 
 /// Whether an answer says by itself that something needed holds.

@@ -2,7 +2,7 @@
 
 use super::{arrival, balance, half, kept, meanwhile, pushed, tidied};
 use crate::algebra::Sign;
-use crate::answer::calc::{Seen, at_least_zero, is_zero, sign};
+use crate::answer::calc::{Seen, above_zero, at_least_zero, is_zero, sign};
 use crate::answer::solve::solve;
 use crate::domain::Domain;
 use crate::expr::{Expr, Point, ratio};
@@ -370,10 +370,8 @@ fn sets_out(
                 return Err(Refused::new(&stage.name, why, hint));
             }
             _ => {
-                assumptions.push(sentence!(
-                    "{}, so that weight sets it going",
-                    Sentence::not_negative(&begins)
-                ));
+                let sets = above_zero(&begins, domains);
+                assumptions.push(sentence!("{}, so that weight sets it going", sets));
                 needs.push(begins);
             }
         }
@@ -415,12 +413,12 @@ fn hurdles(
         assumptions.push(sentence!("it does not come to rest while {} changes", name));
         return Ok(());
     };
-    for place in places {
+    for (place, is_always) in places {
         let [low, high] = [begin, &place].map(|value| linkage.at(&lifted, value));
         let left = tidied(stage, &(start - &(&high - &low)))?;
         match sign(&left, &stage.scene.domains) {
             Seen::Proved(s) if s.is_not_negative() => {}
-            Seen::Proved(_) => {
+            Seen::Proved(_) if is_always => {
                 let place = write_plain(&place);
                 let why = format!("it does not get past `{q}` = {place}");
                 let hint = "end the stage before it, or give it more energy";
@@ -428,9 +426,18 @@ fn hurdles(
             }
             _ => {
                 let least = at_least_zero(&left, &stage.scene.domains);
-                let words = sentence!("{}, so that it gets past {} = {}", least, &name, &place);
-                assumptions.push(words);
-                needs.push(left);
+                if is_always {
+                    needs.push(left);
+                }
+                assumptions.push(match is_always {
+                    true => sentence!("{}, so that it gets past {} = {}", least, &name, &place),
+                    false => sentence!(
+                        "{} does not pass {}, or {}, so that it gets past it",
+                        &name,
+                        &place,
+                        least
+                    ),
+                });
             }
         }
     }
@@ -461,14 +468,14 @@ fn with_coordinate(linkage: &Linkage, point: &Point<f64>, value: f64) -> Point<f
     there
 }
 
-/// The places on the way at which what draws the linkage on turns from below zero to above, the same ones at every point looked at;
-/// nothing where they differ or are not found.
+/// The places at which what draws the linkage on turns from below zero to above, and whether they lie on the way at every point looked
+/// at or at some; nothing where they are not found.
 fn hurdles_at(
     stage: &Stage,
     linkage: &Linkage,
     drawn: &Expr,
     points: &[Point<f64>],
-) -> Option<Vec<Expr>> {
+) -> Option<Vec<(Expr, bool)>> {
     let q = &linkage.coordinate;
     let mut domains = stage.scene.domains.clone();
     domains.relations.retain(|r| !r.excess.mentions(q));
@@ -501,10 +508,8 @@ fn hurdles_at(
     for place in places {
         let seen = points.iter().map(|point| is_one(&place, point));
         let seen: Vec<bool> = seen.collect::<Option<_>>()?;
-        match (seen.contains(&true), seen.contains(&false)) {
-            (true, true) => return None,
-            (true, false) => out.push(tidied(stage, &place).ok()?),
-            _ => {}
+        if seen.contains(&true) {
+            out.push((tidied(stage, &place).ok()?, !seen.contains(&false)));
         }
     }
     (!out.is_empty()).then_some(out)

@@ -309,6 +309,14 @@ impl Asked<'_> {
         answer.worlds.is_empty() || answer.worlds.iter().any(is_so)
     }
 
+    /// Whether the motions have all that they need where a parameter has another value.
+    fn gets_there(&self, seen: &Seen, parameter: &Symbol, value: f64) -> bool {
+        let there = moved(&seen.point, &[(parameter.clone(), value)]);
+        let needs = self.stages.iter().flat_map(|told| &told.needs);
+        let mut values = needs.filter_map(|need| need.evaluate(&there));
+        values.all(|value| value >= 0.0)
+    }
+
     /// Whether what a contact with friction does changes at a value of its coefficient as told; `None` where it was not seen.
     fn turns(
         &self,
@@ -380,9 +388,11 @@ impl Asked<'_> {
         let names = [symbol.clone()].into_iter().collect();
         let far = points_of(names, &self.scene.domains, OTHERS);
         others.extend(far.filter_map(|p| p.values.get(symbol).copied()));
-        // Elsewhere the scene may go another way through its cases, where something else is best.
+        // Elsewhere the scene may go another way through its cases, where something else is best, or not get there.
         others.retain(|value| {
-            self.admits(seen, symbol, *value) && self.stays(seen, answer, symbol, *value)
+            self.admits(seen, symbol, *value)
+                && self.stays(seen, answer, symbol, *value)
+                && self.gets_there(seen, symbol, *value)
         });
         let beyond = |other: f64, best: f64| {
             let more = match which {
