@@ -302,7 +302,7 @@ impl Desk<'_> {
                 Some(true) => {}
                 Some(false) => return Status::Wrong,
                 None if self.says_a_bound([a, b], *sign) => {}
-                None if self.misses_a_bound([a, b]) => return Status::Wrong,
+                None if self.misses_a_bound([a, b], *sign) => return Status::Wrong,
                 None => status = Status::Undecided,
             }
         }
@@ -320,15 +320,22 @@ impl Desk<'_> {
             .any(|(_, grade)| grade.verdict == Verdict::Equivalent)
     }
 
-    /// Whether the sides of an inequality differ by a number alone where a parameter has the bound that is asked for:
-    /// `m w² ≥ 2 m g L` for a bound at w² = g L.
-    fn misses_a_bound(&self, sides: [&Expr; 2]) -> bool {
+    /// Whether an inequality excludes the bound that is asked for, its sides there differing by a number alone: `m w² ≥ 2 m g L` for
+    /// a bound at w² = g L. One that asks for less may be a step on the way.
+    fn misses_a_bound(&self, sides: [&Expr; 2], sign: Relation) -> bool {
         let [a, b] = sides.map(|e| self.truth(e));
+        let domains = &self.sheet.scene.domains;
         self.sheet.bounds().any(|bound| {
             let at = |e: &Expr| e.put(&bound.parameter, &bound.value);
-            let ratio = || quotient(&at(&a), &at(&b), &self.sheet.scene.domains).ok();
+            let ratio = || quotient(&at(&a), &at(&b), domains).ok();
             let speaks = [&a, &b].iter().any(|e| e.mentions(&bound.parameter));
-            speaks && ratio().is_some_and(|k| k.is_constant() && !k.is_zero() && !k.is_one())
+            let is_number = |k: Expr| k.is_constant() && !k.is_zero() && !k.is_one();
+            let excludes = || match (sign, algebra::sign(&(at(&a) - at(&b)), domains)) {
+                (Relation::Greater | Relation::GreaterEqual, Some(s)) => s == Sign::Negative,
+                (Relation::Less | Relation::LessEqual, Some(s)) => s == Sign::Positive,
+                _ => false,
+            };
+            speaks && ratio().is_some_and(is_number) && excludes()
         })
     }
 
