@@ -256,6 +256,10 @@ impl Sheet {
             others.extend(self.another_answer(entry, answer));
         }
         slip_first(&mut found, &mut grade.diagnosis);
+        if !found.is_empty() {
+            // Which exponent a belief changes is not told besides.
+            grade.diagnosis.retain(|d| d.code != "POWER");
+        }
         let mut all: Vec<Diagnosis> = sign.into_iter().chain(found).collect();
         all.append(&mut others);
         all.append(&mut grade.diagnosis);
