@@ -101,7 +101,7 @@ fn without_bars(
     Some(of.replace(&bars, &if is_above { inside } else { -inside }))
 }
 
-/// The limit of arcs, their multiples and sums: of each arc that of its argument, inside of which it is continuous.
+/// The limit of arcs and exponentials, their multiples and sums: of each that of its argument, inside of which it is continuous.
 fn of_arcs(of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) -> Option<Found> {
     let (mut how, mut given) = (None, Vec::new());
     let value = arcs_at(of, parameter, &mut |arc, x| {
@@ -137,7 +137,7 @@ fn of_arcs(of: &Expr, parameter: &Symbol, to: Option<&Expr>, domains: &Domains) 
     })
 }
 
-/// An expression of arcs with what each tends to in its place.
+/// An expression of arcs and exponentials with what each tends to in its place.
 fn arcs_at(
     e: &Expr,
     p: &Symbol,
@@ -145,8 +145,15 @@ fn arcs_at(
 ) -> Option<Expr> {
     match e.node() {
         _ if !e.mentions(p) => Some(e.clone()),
-        Node::Call(arc @ (Function::Acos | Function::Asin | Function::Atan), x) => tends(*arc, x),
+        Node::Call(of @ (Function::Acos | Function::Asin | Function::Atan | Function::Exp), x) => {
+            tends(*of, x)
+        }
         Node::Sum(_) | Node::Product(_) => e.try_map_parts(|part| arcs_at(part, p, tends)),
+        // No exponential is zero.
+        Node::Power(base, k) if k.as_number().is_some() => match base.node() {
+            Node::Call(Function::Exp, _) => Some(arcs_at(base, p, tends)?.power(k.clone())),
+            _ => None,
+        },
         _ => None,
     }
 }
@@ -254,6 +261,8 @@ fn without_powers(e: &Expr, p: &Symbol, growth: &mut Option<Growth>, power: &Exp
     let none = Domains::default();
     let rest = tidy(&exponent.put(p, &Expr::zero()), &none).ok()?;
     let rate = tidy(&exponent.derivative(p), &none).ok()?;
+    // Of exp(l/p) the power stays.
+    (!rate.mentions(p)).then_some(())?;
     let rest = match &base {
         Some(base) => base.power(rest),
         None => Expr::call(Function::Exp, rest),

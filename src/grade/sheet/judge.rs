@@ -256,10 +256,6 @@ impl Sheet {
             others.extend(self.another_answer(entry, answer));
         }
         slip_first(&mut found, &mut grade.diagnosis);
-        if !found.is_empty() {
-            // Which exponent a belief changes is not told besides.
-            grade.diagnosis.retain(|d| d.code != "POWER");
-        }
         let mut all: Vec<Diagnosis> = sign.into_iter().chain(found).collect();
         all.append(&mut others);
         all.append(&mut grade.diagnosis);
@@ -480,6 +476,8 @@ fn slip_first(found: &mut Vec<Diagnosis>, others: &mut Vec<Diagnosis>) {
     {
         found.insert(0, others.remove(at));
     }
+    // Which exponent a belief changes is not told besides.
+    others.retain(|d| found.is_empty() || d.code != "POWER");
 }
 
 /// What makes a direction the same one.

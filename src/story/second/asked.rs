@@ -309,12 +309,14 @@ impl Asked<'_> {
         answer.worlds.is_empty() || answer.worlds.iter().any(is_so)
     }
 
-    /// Whether the motions have all that they need where a parameter has another value.
+    /// Whether bodies pass through each other nowhere where a parameter has another value, as far as the scene is followed there.
     fn gets_there(&self, seen: &Seen, parameter: &Symbol, value: f64) -> bool {
         let there = moved(&seen.point, &[(parameter.clone(), value)]);
-        let needs = self.stages.iter().flat_map(|told| &told.needs);
-        let mut values = needs.filter_map(|need| need.evaluate(&there));
-        values.all(|value| value >= 0.0)
+        let followed = follow::follow(self.scene, &there);
+        followed.is_ok_and(|followed| {
+            let mut stages = followed.stages.iter().flatten();
+            stages.all(|passed| passed.passing.is_empty())
+        })
     }
 
     /// Whether what a contact with friction does changes at a value of its coefficient as told; `None` where it was not seen.
