@@ -39,10 +39,11 @@ impl Field {
             }
         }
         self.gather_squares(&mut best);
-        let mut split = self.split_circles(&best);
-        split.join_conjugates();
-        match split.factors.len() > best.factors.len() {
-            true => self.split_circles(&best),
+        let split = self.split_circles(&best);
+        let mut joined = split.clone();
+        joined.join_conjugates();
+        match joined.factors.len() > best.factors.len() {
+            true => split,
             false => best,
         }
     }

@@ -488,13 +488,15 @@ fn hurdles_at(
         is_known.then(|| roots.inside.into_iter().map(|root| root.value))
     };
     // Of an angle the same places come again after a turn.
-    let turn = Domain::angle(ratio(-1, 1), ratio(1, 1));
-    let places: Vec<Expr> = match stands(turn) {
-        Some(values) => {
-            let turned = |value: Expr| [0, -2, 2].map(|k| &value + &(Expr::from(k) * Expr::pi()));
-            values.flat_map(turned).collect()
+    let turn = &Expr::from(2) * &Expr::pi();
+    let turned = drawn.put(q, &(Expr::symbol(q) + turn.clone()));
+    let places: Vec<Expr> = match is_zero(&(turned - &drawn), &domains) {
+        Some(true) => {
+            let values = stands(Domain::angle(ratio(-1, 1), ratio(1, 1)))?;
+            let again = |value: Expr| [-1, 0, 1].map(|k| &value + &(Expr::from(k) * &turn));
+            values.flat_map(again).collect()
         }
-        None => stands(Domain::real())?.collect(),
+        _ => stands(Domain::real())?.collect(),
     };
     let slope = drawn.derivative(q);
     let is_one = |value: &Expr, point: &Point<f64>| {
