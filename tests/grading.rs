@@ -131,13 +131,9 @@ fn keys(scene: scene::Scene) -> Sheet {
 #[test]
 fn answers_to_scenes_get_their_verdict_and_the_belief_behind_them() {
     let mut wrong = String::new();
-    let mut sheets: BTreeMap<String, Sheet> = BTreeMap::new();
     for (file, line, cells) in rows(|name| name == "scenes.tsv") {
         let [path, quantity, answer, verdict, code] = [0, 1, 2, 3, 4].map(|i| cells[i].as_str());
-        let sheet = sheets.entry(path.to_string()).or_insert_with(|| {
-            let text = fs::read_to_string(root().join("derivations").join(path)).expect("a scene");
-            keys(scene::read(&text).expect("a sound scene"))
-        });
+        let sheet = shared::key(&Path::new("derivations").join(path));
         let entry = sheet.entry(quantity).expect("a question of the scene");
         let grade = sheet.judge(&entry, answer, &Options::default());
         let codes: Vec<&str> = grade.diagnosis.iter().map(|d| d.code).collect();
@@ -258,13 +254,17 @@ fn worked_solutions_are_judged_line_by_line() {
         .collect();
     files.sort();
     assert!(files.len() >= 19);
-    let misjudged = |file: PathBuf| {
-        let mut wrong = String::new();
+    // A scene with several solutions is derived once.
+    let mut of_scene: BTreeMap<String, Vec<(PathBuf, String)>> = BTreeMap::new();
+    for file in files {
         let text = fs::read_to_string(&file).expect("a solution");
         let (head, rows) = text.split_once('\n').expect("a scene and lines");
         let path = head.split_whitespace().nth(1).expect("the scene's path");
-        let scene = fs::read_to_string(root().join("derivations").join(path)).expect("a scene");
-        let sheet = keys(scene::read(&scene).expect("a sound scene"));
+        let solutions = of_scene.entry(path.to_owned()).or_default();
+        solutions.push((file, rows.to_owned()));
+    }
+    let misjudged = |sheet: &Sheet, file: &Path, rows: &str| {
+        let mut wrong = String::new();
         // The last rows tell the verdicts on the final answers.
         let (finals, rows): (Vec<&str>, Vec<&str>) =
             rows.lines().partition(|row| row.starts_with("answer\t"));
@@ -277,7 +277,7 @@ fn worked_solutions_are_judged_line_by_line() {
             .into_iter()
             .map(|rest| rest.split_once('\t').unwrap_or((rest, "")))
             .unzip();
-        let worked = check(&sheet, &lines.join("\n"), &Options::default());
+        let worked = check(sheet, &lines.join("\n"), &Options::default());
         for row in finals {
             let (name, told) = row[7..].split_once('\t').expect("a name and a verdict");
             let last = worked.finals.iter().find(|(asked, _)| asked == name);
@@ -325,7 +325,14 @@ fn worked_solutions_are_judged_line_by_line() {
         }
         wrong
     };
-    let wrong: String = files.into_par_iter().map(misjudged).collect();
+    let of_scene: Vec<_> = of_scene.into_iter().collect();
+    let wrong = of_scene.par_iter().map(|(path, solutions)| {
+        let sheet = shared::key(&Path::new("derivations").join(path));
+        let all = solutions.iter();
+        all.map(|(file, rows)| misjudged(sheet, file, rows))
+            .collect::<String>()
+    });
+    let wrong: String = wrong.collect();
     assert!(wrong.is_empty(), "{wrong}");
 }
 
@@ -439,9 +446,7 @@ fn numbers_are_judged_where_the_answer_needs_no_other_values() {
 
 #[test]
 fn a_number_without_a_unit_counts_in_that_of_the_scene() {
-    let path = root().join("tests/printed/ballistic-pendulum-in-feet.json");
-    let scene = fs::read_to_string(path).expect("a scene");
-    let sheet = keys(scene::read(&scene).expect("a sound scene"));
+    let sheet = shared::key(Path::new("tests/printed/ballistic-pendulum-in-feet.json"));
     for (quantity, answer, words) in [
         (
             "V",
@@ -507,10 +512,7 @@ fn random_wrong_answers_are_seldom_explained() {
         ("more/hammer-drives-a-pile.json", "eta", "M/(M+m)"),
         ("more/bowling-ball-begins-to-roll.json", "t", "2v/(7μ g)"),
     ];
-    let open = |path: &str| {
-        let text = fs::read_to_string(root().join("derivations").join(path)).expect("a scene");
-        keys(scene::read(&text).expect("a sound scene"))
-    };
+    let open = |path: &str| shared::key(&Path::new("derivations").join(path));
     let sheets: Vec<_> = numbers
         .iter()
         .map(|(path, name, ..)| (open(path), *name))
@@ -553,8 +555,7 @@ fn random_wrong_answers_are_seldom_explained() {
 
 #[test]
 fn an_unknown_name_is_no_fault_of_the_earlier_answers_beside_it() {
-    let text = fs::read_to_string(root().join("derivations/more/door-meets-its-stop.json"));
-    let sheet = keys(scene::read(&text.expect("a scene")).expect("a sound scene"));
+    let sheet = shared::key(Path::new("derivations/more/door-meets-its-stop.json"));
     let entry = sheet.entry("P_S").expect("a question of the scene");
     let grade = sheet.judge(&entry, "I (w + omega)/d", &Options::default());
     let told = format!("{:?}", grade.error.expect("a fault"));

@@ -21,7 +21,7 @@ struct Case {
     path: PathBuf,
     text: String,
     scene: scene::Scene,
-    worked: Worked,
+    worked: &'static Worked,
     /// Its solutions by detail, each written once for all tests.
     written: [OnceLock<Solution>; 3],
 }
@@ -29,9 +29,8 @@ struct Case {
 impl Case {
     fn read(path: PathBuf) -> Case {
         let text = fs::read_to_string(&path).expect("a readable scene");
-        let scene = scene::read(&text).unwrap_or_else(|f| panic!("{}", f.render("scene", &text)));
-        let worked =
-            worked::in_cases(&scene).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
+        let worked = shared::worked(&path).as_ref();
+        let worked = worked.unwrap_or_else(|why| panic!("{}: {why}", path.display()));
         Case {
             path,
             text,
@@ -112,23 +111,10 @@ fn every_step_of_every_solution_can_be_replayed() {
 
 #[test]
 fn steps_that_suppose_something_are_replayed_where_it_is_so() {
-    // Whether the scene supposes something by which it stands and falls.
-    let supposes = |path: &PathBuf| {
-        let text = fs::read_to_string(path).expect("a scene");
-        let scene = scene::read(&text).expect("a sound scene");
-        // Cases that differ in what is known are refused with their conditions.
-        let Ok(worked) = worked::in_cases(&scene) else {
-            return false;
-        };
-        let written = worked.solution(Detail::Normal);
-        let json = render::steps::solution(&written, &text, &[]);
-        let failed = |json: &serde_json::Value| {
-            let report = check::check(&json.to_string()).expect("a usable solution");
-            report.failed
-        };
-        let path = path.display();
-        assert_eq!(failed(&json).len(), 0, "{path}: {:?}", failed(&json));
-        // The contrary supposed, the motion found is another.
+    // Whether the scene supposes something by which it stands and falls: the contrary supposed, the motion found is another.
+    let supposes = |case: &&Case| {
+        let written = case.solution(Detail::Normal);
+        let json = render::steps::solution(written, &case.text, &[]);
         let mut contrary = json.clone();
         for need in contrary["needs"].as_array_mut().into_iter().flatten() {
             *need = format!("-({})", need.as_str().expect("a formula")).into();
@@ -136,10 +122,11 @@ fn steps_that_suppose_something_are_replayed_where_it_is_so() {
         for impact in contrary["impacts"].as_array_mut().into_iter().flatten() {
             impact["needs"] = serde_json::json!([]);
         }
-        contrary != json && !failed(&contrary).is_empty()
+        let report = |json| check::check(&format!("{json}")).expect("a usable solution");
+        contrary != json && report(json).failed.is_empty() && !report(contrary).failed.is_empty()
     };
-    let all = shared::files("tests/stories/scenes", "json");
-    assert!(all.par_iter().filter(|path| supposes(path)).count() > 0);
+    let stories = all_cases().filter(|case| !case.is_shipped());
+    assert!(stories.par_bridge().filter(supposes).count() > 0);
 }
 
 #[test]
@@ -1559,8 +1546,9 @@ fn what_a_teacher_would_say_is_said_and_what_an_editor_would_strike_is_not() {
             panic!("{row}");
         };
         if last.0 != path {
-            let case = Case::read(path.into());
-            let text = render::plain::solution(case.solution(Detail::Normal));
+            let worked = shared::worked(Path::new(path)).as_ref();
+            let worked = worked.unwrap_or_else(|why| panic!("{path}: {why}"));
+            let text = render::plain::solution(&worked.solution(Detail::Normal));
             let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
             last = (path.to_string(), text);
         }

@@ -13,25 +13,35 @@ use carom::render;
 use carom::scene::Scene;
 use carom::story::{Told, tell};
 
-fn scene(name: &str) -> Scene {
+/// Where the scene of a name lies.
+fn path(name: &str) -> PathBuf {
     let folders = [
         "tests/stories/scenes",
         "derivations/problems",
         "derivations/friction",
         "derivations/more",
     ];
-    let mut paths = folders
-        .map(|folder| format!("{folder}/{name}.json"))
-        .into_iter();
-    let path = paths
-        .find(|path| Path::new(path).exists())
-        .unwrap_or_else(|| panic!("no scene {name}"));
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
-    carom::scene::read(&text).unwrap_or_else(|faults| panic!("{}", faults.render(&path, &text)))
+    let paths = folders.map(|folder| Path::new(folder).join(format!("{name}.json")));
+    let path = paths.into_iter().find(|path| path.exists());
+    path.unwrap_or_else(|| panic!("no scene {name}"))
+}
+
+fn scene(name: &str) -> Scene {
+    let path = path(name);
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{name}: {e}"));
+    carom::scene::read(&text).unwrap_or_else(|faults| panic!("{}", faults.render(name, &text)))
 }
 
 fn told(scene: &Scene) -> Told {
     tell(scene).unwrap_or_else(|reason| panic!("{}: {reason}", scene.title))
+}
+
+/// The scene of a name, told once for all tests.
+fn told_of(name: &str) -> &'static Told {
+    match shared::worked(&path(name)) {
+        Ok(worked) => &worked.told,
+        Err(reason) => panic!("{name}: {reason}"),
+    }
 }
 
 fn shipped() -> Vec<String> {
@@ -45,7 +55,7 @@ fn shipped() -> Vec<String> {
 fn the_second_way_finds_the_numbers_of_every_formula() {
     for name in shipped() {
         let scene = scene(&name);
-        let told = told(&scene);
+        let told = told_of(&name);
         let mut held = 0;
         for seed in 0..40 {
             if held > 20 {
@@ -98,7 +108,7 @@ fn the_second_way_finds_the_numbers_of_every_formula() {
 fn the_answers_are_those_of_the_table_and_are_held() {
     let table = std::fs::read_to_string("tests/stories/answers.tsv").expect("the table");
     let mut wrong = Vec::new();
-    let mut last: Option<(String, Scene, Told)> = None;
+    let mut last: Option<(String, Scene, &Told)> = None;
     for row in table
         .lines()
         .filter(|l| !l.starts_with('#') && !l.is_empty())
@@ -108,9 +118,7 @@ fn the_answers_are_those_of_the_table_and_are_held() {
             panic!("a row has four columns: {row}");
         };
         if last.as_ref().is_none_or(|l| l.0 != *name) {
-            let scene = scene(name);
-            let told = told(&scene);
-            last = Some((name.to_string(), scene, told));
+            last = Some((name.to_string(), scene(name), told_of(name)));
         }
         let Some((_, scene, told)) = &last else {
             continue;
@@ -204,8 +212,7 @@ fn no_check_of_a_further_scene_with_stages_fails() {
 #[test]
 fn every_check_of_every_story_holds_and_every_question_has_an_answer() {
     for name in shipped() {
-        let scene = scene(&name);
-        let told = told(&scene);
+        let told = told_of(&name);
         assert!(told.holds(), "{name}");
         for a in &told.answers {
             assert!(
@@ -284,8 +291,7 @@ fn an_impact_that_begins_as_the_file_says_is_solved_in_fractions() {
 #[test]
 fn energy_is_kept_wherever_a_stage_says_so() {
     for name in shipped() {
-        let scene = scene(&name);
-        for stage in told(&scene).stages {
+        for stage in &told_of(&name).stages {
             for check in stage.checks.iter().filter(|c| c.kind == "integration") {
                 assert_ne!(
                     check.holds,
@@ -301,7 +307,7 @@ fn energy_is_kept_wherever_a_stage_says_so() {
 
 #[test]
 fn ways_that_only_a_boundary_would_allow_are_not_told() {
-    let told = told(&scene("ball-bounces-twice-on-rough-ground"));
+    let told = told_of("ball-bounces-twice-on-rough-ground");
     let ways = told.answers.iter().filter(|a| a.question == "w2").count();
     assert_eq!(ways, 5);
     let held = |a: &carom::answer::Answer| {
@@ -729,7 +735,7 @@ fn numbers_tell_formulas_of_answers_and_directions_in_degrees() {
 
 #[test]
 fn what_follows_the_case_that_is_supposed_rests_on_its_condition() {
-    let told = told(&scene("ball-bounces-with-backspin"));
+    let told = told_of("ball-bounces-with-backspin");
     let x = told.answers.iter().find(|a| a.name == "x");
     let given = plain(&x.expect("where it lands").assumptions);
     assert!(given.contains("sticks in compression"), "{given}");
@@ -746,8 +752,7 @@ fn an_answer_tells_what_it_rests_on() {
         let [name, answer, words, _] = columns.as_slice() else {
             panic!("a row has four columns: {row}");
         };
-        let scene = scene(name);
-        let told = told(&scene);
+        let (scene, told) = (scene(name), told_of(name));
         let is_it = |a: &&Answer| a.name.split("_case").next() == Some(answer);
         let mine: Vec<&Answer> = told.answers.iter().filter(is_it).collect();
         let given = carom::answer::given_alike(&mine, &scene.domains).into_iter();
