@@ -317,12 +317,10 @@ fn list(folder: &Path) -> Result<u8, Failure> {
     collect(folder, &mut files).map_err(|e| refused(folder, e))?;
     files.sort();
     for file in files {
-        let Ok(text) = std::fs::read_to_string(&file) else {
-            continue;
-        };
-        let words = match scene::read(&text) {
-            Ok(scene) => format!("{} · {}", scene.source, scene.title),
-            Err(_) => String::from("not a valid scene; `carom derive` tells why"),
+        let read = files::read(&file, scene::LONGEST).ok();
+        let words = match read.and_then(|text| scene::read(&text).ok()) {
+            Some(scene) => format!("{} · {}", scene.source, scene.title),
+            None => String::from("not a valid scene; `carom derive` tells why"),
         };
         print(&format!("{}\t{words}\n", file.display()))?;
     }

@@ -45,9 +45,13 @@ pub(super) fn save(path: &Path, bytes: &[u8], read: &[&Path]) -> Result<(), Fail
     }
     writable(path, read)?;
     let unwritable = |e: std::io::Error| unwritable(path, &e);
-    let target = followed(path).map_err(unwritable)?;
-    let old = std::fs::metadata(&target).ok();
+    let old = std::fs::metadata(path).ok();
     let in_place = old.as_ref().is_some_and(|m| !m.is_file() || has_names(m));
+    // A link to an open pipe leads to no name.
+    let target = match in_place {
+        true => path.to_path_buf(),
+        false => followed(path).map_err(unwritable)?,
+    };
     if in_place {
         let is_file = old.is_some_and(|m| m.is_file());
         let mut file = OpenOptions::new();
@@ -140,6 +144,10 @@ fn has_names(_: &Metadata) -> bool {
 
 /// Whether two paths name one regular file.
 fn is_same(a: &Path, b: &Path) -> bool {
+    let b = match b.as_os_str() == "-" {
+        true => Path::new("/dev/stdin"),
+        false => b,
+    };
     let both = std::fs::metadata(a).and_then(|a| Ok((a, std::fs::metadata(b)?)));
     let Ok((of_a, of_b)) = both else {
         return false;

@@ -8,7 +8,7 @@ use crate::derive::count::Counting;
 use crate::expr::{Expr, Vector};
 use crate::formula::{Sentence, sentence};
 use crate::laws::{self, Affine, Direction, Kinematics, Law, Place, Unknown};
-use crate::scene::{Ask, EnergyWhen, ImpulseAt, KnownQuantity, Question, Scene};
+use crate::scene::{Ask, Body, ContactLaw, EnergyWhen, ImpulseAt, KnownQuantity, Question, Scene};
 
 /// Most rows of a matrix whose determinant is told.
 const SQUARE: usize = 7;
@@ -123,6 +123,11 @@ impl Work<'_> {
                     };
                     out.push(make(&name, latex, words, form));
                 }
+            }
+            Asked::Energy(EnergyWhen::Lost, None) if loses_nothing(self.scene) => {
+                let nothing = self.field.element(&Expr::zero())?;
+                let form = self.value(&nothing)?;
+                out.push(make(&question.name, latex, words, form));
             }
             Asked::Energy(when, of) => {
                 let value = match self.with_parts(|parts, work| parts.energy(work, when, of)) {
@@ -479,6 +484,20 @@ impl Work<'_> {
             false => sentence!("its determinant is {}", &self.field.expr(&determinant)),
         }))
     }
+}
+
+/// Whether no kinetic energy can be lost, since at each contact −½ P·(u⁻ + u⁺) is zero and nothing else does work: bodies are
+/// smooth, leave each other as fast as they came, and what moves as it must is at rest.
+fn loses_nothing(scene: &Scene) -> bool {
+    let gives_back = |law: &ContactLaw| match law {
+        ContactLaw::Frictionless { restitution } => *restitution == Expr::one(),
+        _ => false,
+    };
+    let stands = |b: &Body| !b.is_fixed() || b.velocity.iter().chain([&b.spin]).all(Expr::is_zero);
+    scene.contacts.iter().all(|c| gives_back(&c.law))
+        && scene.blows.is_empty()
+        && scene.after.is_empty()
+        && scene.bodies.iter().all(stands)
 }
 
 fn components(v: [Affine<Expr>; 2], along: Option<&Vector>) -> Vec<(&'static str, Affine<Expr>)> {

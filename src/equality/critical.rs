@@ -11,6 +11,7 @@ use num_traits::{One, Zero};
 use super::Assumption;
 use super::line::{lowest, rough_zeros};
 use super::refute::sign_at;
+use super::valley::{SYMBOLS, along, downhill, free_symbols};
 use crate::algebra::{Field, Sign};
 use crate::domain::{Coordinate, Domain, Domains, Limit, Roles, Sample, far};
 use crate::expr::number::from_f64;
@@ -21,8 +22,6 @@ use crate::interval::{Interval, Outcome, evaluate};
 const MOST: usize = 20;
 /// Most arguments looked at.
 const ARGUMENTS: usize = 8;
-/// Most symbols walked along, from each point.
-const SYMBOLS: usize = 6;
 /// Most points walked from.
 const STARTS: usize = 10;
 /// How often every symbol is led to where an expression is least along it.
@@ -144,12 +143,6 @@ pub(super) fn points(
         }
     }
     out
-}
-
-fn free_symbols(arguments: &[Expr], domains: &Domains, at: &Sample) -> Vec<Symbol> {
-    let names: BTreeSet<Symbol> = arguments.iter().flat_map(|e| e.symbols()).collect();
-    let free = |name: &Symbol| at.coordinates.contains_key(name) && !domains.is_component(name);
-    names.into_iter().filter(free).take(SYMBOLS).collect()
 }
 
 /// The parts of a domain between numbers, which are rounded: they and their nearest neighbours belong to none.
@@ -284,7 +277,7 @@ pub(super) fn tested(
         }
         let starts = |count| near.iter().take(count);
         // What takes fewer steps first.
-        let ways: [&dyn Fn() -> Vec<Sample>; 7] = [
+        let ways: [&dyn Fn() -> Vec<Sample>; 8] = [
             &|| {
                 starts(1)
                     .flat_map(|start| corners(e, start, domains))
@@ -303,6 +296,10 @@ pub(super) fn tested(
             &|| {
                 let down = |start| descended(e, start, domains, roles);
                 starts(DESCENTS).map(down).collect()
+            },
+            &|| {
+                let down = |start| downhill(e, start, domains);
+                starts(DESCENTS).filter_map(down).collect()
             },
             &|| {
                 starts(2)
@@ -456,12 +453,6 @@ fn edges(e: &Expr, start: &Sample, domains: &Domains) -> Vec<Sample> {
         }
     }
     out
-}
-
-/// The domain of a symbol that has a number at a point.
-fn along<'d>(name: &Symbol, at: &Sample, domains: &'d Domains) -> Option<&'d Domain> {
-    let number = matches!(at.coordinates.get(name), Some(Coordinate::Number(_)));
-    domains.symbols.get(name).filter(|_| number)
 }
 
 /// A point with the numbers of an expression led towards the ends of their domains in every combination: what is linear in

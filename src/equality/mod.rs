@@ -16,6 +16,7 @@ mod modular;
 mod pinned;
 mod proof;
 mod refute;
+mod valley;
 mod verdict;
 
 use std::collections::BTreeSet;

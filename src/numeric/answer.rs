@@ -114,7 +114,11 @@ pub fn answer<T: Number>(
     match ask {
         Ask::Velocity { body, point, along } => {
             let body = known(*body)?;
-            let mut needs = vec![Unknown::Velocity(body, 0), Unknown::Velocity(body, 1)];
+            let along = along.as_ref().map(&value).transpose()?;
+            // A component may be determined where the other is not.
+            let uses = used(along.as_ref());
+            let axes = (0..2).filter(|k| uses[*k]);
+            let mut needs: Vec<Unknown> = axes.map(|k| Unknown::Velocity(body, k)).collect();
             let velocity = match point {
                 // An enclosure minus itself is no exact zero, so the center of mass goes without an arm.
                 None => {
@@ -124,14 +128,15 @@ pub fn answer<T: Number>(
                 Some((_, at)) => {
                     let point = value(at)?;
                     let arm = given.bodies[body].arm(&point);
-                    if !(arm[0].is_zero() && arm[1].is_zero()) {
+                    let swings = |k: usize| uses[k] && !arm[1 - k].is_zero();
+                    if swings(0) || swings(1) {
                         needs.push(Unknown::Spin(body));
                     }
                     determined(motion, &needs)?;
                     velocity_after(given, motion, body, &point)
                 }
             };
-            component(velocity, along.as_ref().map(&value).transpose()?)
+            component(velocity, along)
         }
         Ask::Spin { body, clockwise } => {
             let body = known(*body)?;
@@ -144,10 +149,8 @@ pub fn answer<T: Number>(
         }
         Ask::Impulse { from, on, along } => {
             let along = along.as_ref().map(&value).transpose()?;
-            // A component may be determined where the other is not: two hinges in a row share the pull along it.
-            let uses = along
-                .as_ref()
-                .map_or([true; 2], |d| [!d[0].is_zero(), !d[1].is_zero()]);
+            // Two hinges in a row share the pull along it.
+            let uses = used(along.as_ref());
             let (impulse, second) = impulse(*from, uses, given, motion)?;
             let felt = match second == *on {
                 true => impulse,
@@ -228,6 +231,11 @@ fn determined<T>(motion: &Motion<T>, needs: &[Unknown]) -> Result<(), NoAnswer> 
         none if none.is_empty() => Ok(()),
         open => Err(NoAnswer::NotDetermined(open)),
     }
+}
+
+/// Which components of a vector its component along a direction is made of.
+fn used<T: Number>(along: Option<&[T; 2]>) -> [bool; 2] {
+    along.map_or([true; 2], |d| [!d[0].is_zero(), !d[1].is_zero()])
 }
 
 fn component<T: Number>(v: [T; 2], along: Option<[T; 2]>) -> Result<Answer<T>, NoAnswer> {

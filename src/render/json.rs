@@ -29,11 +29,13 @@ pub fn told(scene: &Scene, told: &Told) -> Value {
     if let Some(impact) = told.alone() {
         return self::impact(scene, told, impact);
     }
+    let mut refusals = told.refusals();
+    refusals.extend(told.ended.iter().map(ToString::to_string));
     json!({
         "title": scene.title,
         "source": scene.source,
-        "admissible": told.refusals().is_empty(),
-        "refusals": told.refusals(),
+        "admissible": refusals.is_empty(),
+        "refusals": refusals,
         "answers": told.answers.iter().map(|a| answer(scene, told, a)).collect::<Vec<_>>(),
         "stages": told.stages.iter().map(|s| stage(scene, s)).collect::<Vec<_>>(),
         "readings": told.readings,

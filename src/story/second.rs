@@ -249,12 +249,14 @@ impl Units {
 struct Compared {
     worst: f64,
     points: usize,
+    values: usize,
     apart: Option<String>,
 }
 
 impl Compared {
     /// A value told and the one found; `shaken` is how far the told one moves with the data.
     fn put(&mut self, what: &str, [told, found]: [f64; 2], size: f64, shaken: impl Fn() -> f64) {
+        self.values += 1;
         let size = size.max(told.abs().max(found.abs()) * 1e-3).max(1e-300);
         let gap = (told - found).abs() / size;
         // A gap that is no number is one.
@@ -262,6 +264,12 @@ impl Compared {
             self.apart = Some(format!("{what} is {told:.9} here and {found:.9} there"));
         }
         self.worst = self.worst.max(gap);
+    }
+
+    /// A value told where the second way has none, since a stage leaves it open.
+    fn missing(&mut self, what: &str, told: f64, stage: &str) {
+        let words = || format!("{what} is {told:.9} here and open there since `{stage}`");
+        self.apart.get_or_insert_with(words);
     }
 
     fn check(self, what: &str, second: &Second<'_>) -> Check {
@@ -275,6 +283,10 @@ impl Compared {
                 ),
                 second.contradicts().then_some(false),
             );
+        }
+        if self.values == 0 && self.apart.is_none() {
+            let words = format!("nothing of {what} is determined, so that nothing is compared");
+            return Check::new(kind, words, None);
         }
         let points = crate::verify::points(self.points);
         let words = match &self.apart {
@@ -438,10 +450,14 @@ impl Second<'_> {
                 if state.why_open([told]).is_some() {
                     return;
                 }
-                if let (Some(value), Ok(found)) = (told.evaluate(&seen.point), found) {
-                    let what = format!("{what} of `{}` {when}", body.name);
-                    let shaken = || shaken(Some(told), &seen.point) + moved;
-                    compared.put(&what, [value, *found], size, shaken);
+                let what = format!("{what} of `{}` {when}", body.name);
+                match (told.evaluate(&seen.point), found) {
+                    (Some(value), Ok(found)) => {
+                        let shaken = || shaken(Some(told), &seen.point) + moved;
+                        compared.put(&what, [value, *found], size, shaken);
+                    }
+                    (Some(value), Err(open)) => compared.missing(&what, value, &open.stage),
+                    (None, _) => {}
                 }
             };
             for (k, axis) in ["x", "y"].into_iter().enumerate() {

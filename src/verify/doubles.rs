@@ -4,10 +4,11 @@
 //! value that all but vanishes has no digits of its own: it is measured by what a change of the data's last digits would
 //! make of it, as the independent solution shows.
 
-use super::{Check, Run, asked, evaluate, numeric_value};
+use super::{Check, Run, asked, evaluate, numeric_value, with_definitions};
 use crate::answer::Answer;
 use crate::derive::Derivation;
 use crate::expr::{Expr, Point};
+use crate::interval::rounding;
 use crate::numeric;
 use crate::scene::{Ask, Scene};
 
@@ -54,7 +55,8 @@ pub(super) fn check(
         let apart = (value - expected).abs();
         let mut off = apart / (unit * f64::EPSILON);
         if off > CLOSE {
-            let weight = condition(scene, ask, point, expected);
+            let condition = condition(scene, ask, point, expected);
+            let weight = condition.max(terms(closed, derivation, point));
             weighed |= weight > unit;
             off = apart / (weight.max(unit) * f64::EPSILON);
         }
@@ -68,6 +70,9 @@ pub(super) fn check(
         "doubles",
         match weighed {
             false => format!("within {worst:.0} ulp of nalgebra's solution in doubles"),
+            true if worst < 0.5 => String::from(
+                "as near to nalgebra's solution in doubles as rounding of the data allows",
+            ),
             true => format!(
                 "within {worst:.0} times what rounding of the data makes of it, of nalgebra's solution in doubles"
             ),
@@ -92,6 +97,13 @@ fn value_of(ask: &Ask, siblings: &[Ask], run: &Run<f64>) -> Option<(f64, f64)> {
         .filter_map(|ask| numeric_value(ask, run))
         .fold(f64::MIN_POSITIVE, |length, x| length.max(x.abs()));
     Some((value, length))
+}
+
+/// The size of the terms that a formula is made of, as what rounding may make of their sum tells: what is zero everywhere has
+/// no other size.
+fn terms(closed: &Expr, derivation: &Derivation, at: &Point<f64>) -> f64 {
+    let point = with_definitions(derivation, at);
+    point.map_or(0.0, |point| rounding(closed, &point) / f64::EPSILON)
 }
 
 /// Σ |xᵢ ∂f/∂xᵢ| over the data: what relative errors of the data do to the value.

@@ -152,15 +152,20 @@ pub fn prove(scene: &Scene, derivation: &Derivation) -> Proof {
 
 /// The value of an expression that may use the definitions of a derivation.
 pub fn evaluate<T: Scalar>(e: &Expr, derivation: &Derivation, at: &Point<T>) -> Option<T> {
-    if !derivation.in_steps {
-        return e.evaluate(at);
+    match derivation.in_steps {
+        true => e.evaluate(&with_definitions(derivation, at)?),
+        false => e.evaluate(at),
     }
+}
+
+/// A point with the values of the definitions of a derivation.
+fn with_definitions<T: Scalar>(derivation: &Derivation, at: &Point<T>) -> Option<Point<T>> {
     let mut point = at.clone();
     for definition in &derivation.definitions {
         let value = definition.value.evaluate(&point)?;
         point.values.insert(definition.name.clone(), value);
     }
-    e.evaluate(&point)
+    Some(point)
 }
 
 /// An expression with the definitions of a derivation put in.
@@ -329,11 +334,15 @@ fn exact_points(
         }
     }
     match equal {
-        0 => Check::new(
-            "exact points",
-            "at none of the points tried are all values rational",
-            None,
-        ),
+        0 => {
+            let ask = ask.as_ref();
+            let is_found = |run| ask.is_some_and(|ask| numeric_value(ask, run).is_some());
+            let words = match runs.is_empty() || runs.iter().any(is_found) {
+                true => "at none of the points tried are all values rational",
+                false => "the independent exact solution does not determine it",
+            };
+            Check::new("exact points", words, None)
+        }
         n => Check::new(
             "exact points",
             format!("equal to the independent exact solution at {}", points(n)),

@@ -75,6 +75,13 @@ fn by_parts(ctx: &Context, f: &Expr, g: &Expr, sought: Sought) -> Option<Grade> 
             let words = "the answer holds everywhere: it says nothing";
             Some(Grade::different("DIFF_EQUATION", "solutions", words))
         }
+        [Extent::None, _] | [_, Extent::None] => {
+            let beyond = vacuous(ctx, f, g, sought);
+            match beyond.is_equivalent() {
+                true => Some(beyond),
+                false => from_parts(ctx, f, g, compared, sought),
+            }
+        }
         _ => from_parts(ctx, f, g, compared, sought),
     }
 }
@@ -117,7 +124,7 @@ fn solutions(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {
     })
 }
 
-/// Two equations that both hold nowhere on the domain, or both everywhere.
+/// Two equations of which one holds nowhere on the domain, or both everywhere.
 fn vacuous(ctx: &Context, f: &Expr, g: &Expr, sought: Sought) -> Grade {
     let reals = over_reals(ctx.domains(), &[f, g]);
     let Some(compared) = locus::compare(f, g, &reals) else {
@@ -133,7 +140,7 @@ fn vacuous(ctx: &Context, f: &Expr, g: &Expr, sought: Sought) -> Grade {
     }
     match from_parts(ctx, f, g, compared, sought) {
         Some(mut finding) => {
-            let words = "neither equation has a solution on the domain: ";
+            let words = "not both equations have solutions on the domain: ";
             finding.proof.words = format!("{words}{REALS}, {}", finding.proof.words);
             finding.assumed.push(REALS.into());
             finding

@@ -155,6 +155,14 @@ impl Page<'_> {
         self.is_new(&line.math).then_some(line)
     }
 
+    /// The letter of the work of a force; of the only one without its name, unless that letter is taken.
+    fn work(&self, told: &StageTold, what: &str) -> Math {
+        let is_taken =
+            self.scene.parameter("W").is_some() || self.scene.question("W").is_some();
+        let alone = told.work.len() == 1 && !is_taken;
+        name("W", if alone { "" } else { what }, "", false)
+    }
+
     /// The work on the way and the kinetic energy at the end, whose value is left to an answer that is named after it.
     fn worked(
         &mut self,
@@ -164,7 +172,6 @@ impl Page<'_> {
         lines: &mut Vec<Line>,
     ) {
         let alone = told.work.len() == 1;
-        let letter = |what: &str| name("W", if alone { "" } else { what }, "", false);
         let gain = end - start;
         for (what, raw) in &told.work {
             let tidy = tidied(self.scene, if alone { &gain } else { raw });
@@ -177,12 +184,13 @@ impl Page<'_> {
             // A product that cancels is said at once.
             let is_plain = matches!(raw.node(), Node::Product(factors) if !factors.iter().any(|f| matches!(f.node(), Node::Sum(_))));
             let raw = if is_plain { value } else { raw };
-            lines.push(self.chain(vec![letter(what)], raw, value, &why));
+            let head = vec![self.work(told, what)];
+            lines.push(self.chain(head, raw, value, &why));
         }
         let after = start + &Expr::sum(told.work.iter().map(|(_, w)| w.clone()));
         let mut math = set("{} = {}", ["+", "-"].map(|mark| words::kinetic("", mark)));
         for (what, _) in &told.work {
-            math.extend(set("+ {}", [letter(what)]));
+            math.extend(set("+ {}", [self.work(told, what)]));
         }
         if !named {
             math.extend(set("= {}", [end.into()]));
@@ -208,7 +216,7 @@ impl Page<'_> {
                     "moment" => "the work of the moment",
                     _ => "the work of the force",
                 };
-                letters.push((name("W", if alone { "" } else { what }, "", false), why));
+                letters.push((self.work(told, what), why));
             }
             letters.push((words::kinetic("", "+"), "the kinetic energy at the end"));
         }

@@ -371,10 +371,11 @@ pub(super) fn position(
         format!("position of the center of mass of `{name}` at the {when} of `{stage}`{direction}");
     let mut out = Answer::blank(question, &format!("{}{suffix}", question.name), words);
     out.dimension = question.ask.dimension();
-    if let Some(why) = state.why_open(&state.center[body]) {
+    let there = dot(&state.center[body], along);
+    if let Some(why) = state.why_open([&there]) {
         return Ok(out.leave_open(why));
     }
-    let value = tidied(question, told, &dot(&state.center[body], along))?;
+    let value = tidied(question, told, &there)?;
     // An impact moves nothing, whatever its outcome.
     let moves = told.cases.is_empty();
     Ok(valued(out, value, if moves { granted } else { &[] }))

@@ -42,11 +42,12 @@ pub(super) fn touches(
             }
             let gap = one_sided.map_or_else(|| minus(at, &body.center), |o| o.gap(&body.center));
             if let Some(why) = before.why_open(&gap) {
-                let why = format!(
-                    "where `{}` is, and whether `{name}` touches it, is open: {why}",
-                    body.name
-                );
-                let hint = unsaid(&why, &body.name);
+                let is_open = |b: &usize| before.why_open(&before.center[*b]).is_some();
+                let lost = bodies.into_iter().find(is_open);
+                let lost = &lost.map_or(body, |b| &scene.bodies[b]).name;
+                let why =
+                    format!("where `{lost}` is, and whether `{name}` touches it, is open: {why}");
+                let hint = unsaid(&why, lost);
                 return Err(Refused::new(&stage.name, why, hint));
             }
             if gap

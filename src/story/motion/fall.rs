@@ -6,8 +6,8 @@ use super::{half, kept, meanwhile, tidied, together};
 use crate::answer::calc::{Seen, is_zero, sign};
 use crate::expr::{Expr, Vector, dot, minus};
 use crate::formula::sentence;
-use crate::scene::{Fall, FallEnd, Stage};
-use crate::story::{Cluster, Refused, StageTold, State};
+use crate::scene::{Fall, FallEnd, Stage, StageKind};
+use crate::story::{Cluster, Part, Refused, StageTold, State};
 
 /// Free fall or flight; clusters of bodies that are stuck together and turn do so about their common center of mass.
 pub(in crate::story) fn fall(
@@ -109,6 +109,46 @@ pub(in crate::story) fn fall(
     out.time = Some(time);
     supposed.told(&mut out);
     Ok(out)
+}
+
+/// Of a flight that lasts a given time and begins with something open: what is determined nonetheless, since each component
+/// moves by itself; gives that time. What is joined to another body has no flight of its own.
+pub(super) fn known(stage: &Stage, before: &State, after: &mut State) -> Option<Expr> {
+    let StageKind::Fall(fall) = &stage.kind else {
+        return None;
+    };
+    let FallEnd::Time(time) = &fall.until else {
+        return None;
+    };
+    let zero = Expr::zero();
+    let g = fall.gravity.as_ref().unwrap_or(&zero);
+    let put = |from: &Expr, rate: &Expr, gained: &Expr| {
+        let way = rate * time + &half(&(gained * time));
+        let is_open = before.why_open([from, rate]).is_some();
+        tidied(stage, &(from + &way)).ok().filter(|_| !is_open)
+    };
+    let bodies = fall.bodies().into_iter();
+    for b in bodies.filter(|b| before.part[*b] != Part::Joined) {
+        for (k, pull) in [&zero, g].into_iter().enumerate() {
+            let gained = -(pull * time);
+            let rate = &before.velocity[b][k];
+            if before.why_open([rate]).is_none()
+                && let Ok(end) = tidied(stage, &(rate + &gained))
+            {
+                after.velocity[b][k] = end;
+            }
+            if let Some(end) = put(&before.center[b][k], rate, &gained) {
+                after.center[b][k] = end;
+            }
+        }
+        if before.why_open([&before.spin[b]]).is_none() {
+            after.spin[b] = before.spin[b].clone();
+        }
+        if let Some(end) = put(&before.angle[b], &before.spin[b], &zero) {
+            after.angle[b] = end;
+        }
+    }
+    Some(time.clone())
 }
 
 impl Cluster {

@@ -45,14 +45,16 @@ pub(super) fn others(
             let e = from + &(rate * time);
             tidy(&e, &scene.domains).unwrap_or(e)
         };
+        // What is open leads to what is open, component by component.
+        let why_lost = |from: &Expr, rate: &Expr| {
+            let stays = is_zero(rate, &scene.domains) == Some(true);
+            before.why_open([from, rate]).filter(|_| !stays)
+        };
         if scene.axles.contains(&b) {
             match time {
                 Some(time) => after.angle[b] = put(&before.angle[b], &before.spin[b], time),
                 None => after.lose_angle(scene, b, "how long it turns has no closed form"),
             }
-            continue;
-        }
-        if before.why_open(motion().chain(&before.center[b])).is_some() {
             continue;
         }
         // What is prescribed goes on as it does, whatever acts on the others.
@@ -63,10 +65,17 @@ pub(super) fn others(
                 &body.name
             )),
             (Part::Free | Part::Waits, Some(time)) if weightless => {
-                for k in 0..2 {
-                    after.center[b][k] = put(&before.center[b][k], &before.velocity[b][k], time);
+                for (k, letter) in ["x", "y"].into_iter().enumerate() {
+                    let (from, rate) = (&before.center[b][k], &before.velocity[b][k]);
+                    after.center[b][k] = match why_lost(from, rate) {
+                        Some(why) => after.open(scene, [letter, ""], b, &why),
+                        None => put(from, rate, time),
+                    };
                 }
-                after.angle[b] = put(&before.angle[b], &before.spin[b], time);
+                match why_lost(&before.angle[b], &before.spin[b]) {
+                    Some(why) => after.lose_angle(scene, b, &why),
+                    None => after.angle[b] = put(&before.angle[b], &before.spin[b], time),
+                }
             }
             (part, _) => {
                 let why = match (part, weightless) {

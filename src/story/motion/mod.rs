@@ -149,8 +149,10 @@ pub(super) fn leads_nowhere(stage: &Stage, before: State, why: &str) -> StageTol
     for b in stage.kind.moved() {
         after.lose(&stage.scene, b, &why, true);
     }
-    meanwhile::others(stage, &before, &mut after, None);
+    let time = fall::known(stage, &before, &mut after);
+    meanwhile::others(stage, &before, &mut after, time.as_ref());
     let mut out = StageTold::new(stage, before, after);
+    out.time = time;
     out.words = vec![match why.strip_suffix(UNDETERMINED) {
         Some(laws) => sentence!(
             "where this leads is open, since {} do not determine how it begins",

@@ -410,7 +410,15 @@ pub(in crate::story) fn arms(stage: &Stage, turn: &Turn, spin: &Expr) -> [Vector
 
 /// A vector turned by the angle with this cosine and sine.
 pub(super) fn rotated(r: &Vector, [c, s]: &Vector) -> Vector {
-    [&(&r[0] * c) - &(&r[1] * s), &(&r[0] * s) + &(&r[1] * c)]
+    // What has no extent along an axis takes no sine with it.
+    let times = |r: &Expr, c: &Expr| match r.is_zero() {
+        true => Expr::zero(),
+        false => r * c,
+    };
+    [
+        times(&r[0], c) - times(&r[1], s),
+        times(&r[0], s) + times(&r[1], c),
+    ]
 }
 
 /// The angle turned through, counterclockwise, where the stage gives it or the time; `None` where it ends at a place.
@@ -422,6 +430,7 @@ fn angle_turned(stage: &Stage, turn: &Turn, spin: &Expr) -> Option<Expr> {
         }
         Until::For(time) => {
             let steady = spin * time;
+            let steady = tidy(&steady, &stage.scene.domains).unwrap_or(steady);
             let Some(torque) = &turn.torque else {
                 return Some(steady);
             };
