@@ -6,6 +6,9 @@ use proptest::prelude::*;
 use proptest::sample::select;
 use proptest::test_runner::RngSeed;
 
+#[path = "random_stories/whole.rs"]
+mod whole;
+
 /// A body with its center half a length from O, and what happens to it.
 #[derive(Clone, Debug)]
 struct Course {
@@ -505,6 +508,11 @@ fn what_has_one_freedom_is_followed_to_the_same_end() {
 #[test]
 fn what_is_stuck_together_flies_to_the_same_end() {
     same_end(flies_as_one());
+}
+
+#[test]
+fn what_impacts_leave_open_is_open_in_numbers_too() {
+    same_end(whole::scene());
 }
 
 fn same_end(stories: impl Strategy<Value = String>) {

@@ -117,9 +117,22 @@ class Grader:
 
     def _stream(self, lines: Iterator[Union[str, Mapping[str, Any]]]) -> Iterator[Grade]:
         first = 1
-        while chunk := [self._line(line) for line in itertools.islice(lines, _CHUNK)]:
+        fault: TypeError | None = None
+        while fault is None:
+            chunk = []
+            for line in itertools.islice(lines, _CHUNK):
+                try:
+                    chunk.append(self._line(line))
+                except TypeError as found:
+                    # What came before is graded first.
+                    fault = found
+                    break
+            if not chunk:
+                break
             yield from map(_grade, self._rust.judge(chunk, first))
             first += len(chunk)
+        if fault is not None:
+            raise fault
 
     def _line(self, line: Union[str, Mapping[str, Any]]) -> str:
         if isinstance(line, Mapping):

@@ -48,11 +48,42 @@ def boxed(text: str) -> str | None:
     return None if last is None else text[last[0] : last[1]].strip()
 
 
-def parse(text: str) -> list[Formula]:
-    r"""Reads a formula, the one in the last ``\boxed{}`` where there is one. Empty where nothing can be read as a whole."""
-    text = _given.text(text, "parse")
+_MATH = re.compile(r"\$\$(.+?)\$\$|\$(.+?)\$|\\\((.+?)\\\)|\\\[(.+?)\\\]", re.DOTALL)
+#: What Math-Verify's functions take besides. A time limit, a fallback and digits are none of carom's: it counts steps, and
+#: rounded numbers are a matter of `grade`'s tolerance.
+_MATH_VERIFY = {
+    "parse": {"extraction_config", "fallback_mode", "extraction_mode", "parsing_timeout", "raise_on_error"},
+    "verify": {
+        "float_rounding",
+        "numeric_precision",
+        "strict",
+        "allow_set_relation_comp",
+        "timeout_seconds",
+        "raise_on_error",
+    },
+}
+
+
+def _known(options: Mapping[str, Any], function: str) -> None:
+    for name in options:
+        if name not in _MATH_VERIFY[function]:
+            raise TypeError(f"{function}() got an unexpected keyword argument {name!r}")
+
+
+def _formula(text: str) -> str:
+    """The formula of a text: what is boxed, the whole text where that can be read, or else the last one set as mathematics."""
     inner = boxed(text)
-    formula = text if inner is None else inner
+    if inner is not None:
+        return inner
+    math = [next(filter(None, found)) for found in _MATH.findall(text)]
+    return text if not math or _carom.read(text)[1] == 0 else math[-1].strip()
+
+
+def parse(text: str, **options: Any) -> list[Formula]:
+    r"""Reads a formula: the one in the last ``\boxed{}`` where there is one, or else the whole text or the last ``$…$`` in it.
+    Empty where nothing can be read as a whole. The keywords of Math-Verify's `parse` are taken and have no effect."""
+    _known(options, "parse")
+    formula = _formula(_given.text(text, "parse"))
     found, status = _carom.read(formula)
     if status != 0:
         return []
@@ -62,9 +93,7 @@ def parse(text: str) -> list[Formula]:
 
 def _text(given: Read, what: str) -> str | None:
     if isinstance(given, str):
-        given = _given.text(given, what)
-        inner = boxed(given)
-        return given if inner is None else inner
+        return _formula(_given.text(given, what))
     if isinstance(given, Formula):
         return given.text
     if isinstance(given, Sequence) and not isinstance(given, (bytes, bytearray)):
@@ -74,9 +103,11 @@ def _text(given: Read, what: str) -> str | None:
     raise TypeError(f"{what}: expected a str or what parse() gave, got {type(given).__name__}")
 
 
-def verify(gold: Read, answer: Read, *, symbols: Mapping[str, Any] | None = None) -> bool:
+def verify(gold: Read, answer: Read, *, symbols: Mapping[str, Any] | None = None, **options: Any) -> bool:
     """Whether an answer is proved equal to the gold one, both as texts or as `parse` gave them. False where it is not, where
-    one of them cannot be read, and where it stays undecided: `grade` tells these apart."""
+    one of them cannot be read, and where it stays undecided: `grade` tells these apart. The keywords of Math-Verify's `verify`
+    are taken and have no effect."""
+    _known(options, "verify")
     texts = _text(gold, "gold"), _text(answer, "answer")
     if texts[0] is None or texts[1] is None:
         return False
@@ -94,6 +125,8 @@ def reward(
     cannot be read, gets `unreadable`. Completions are texts or lists of messages; columns of other names are ignored."""
     if isinstance(completions, (str, bytes)) or not isinstance(completions, Sequence):
         raise TypeError(f"completions: expected a list, got {type(completions).__name__}")
+    if isinstance(answer, (bytes, Mapping)) or not isinstance(answer, (str, Sequence)):
+        raise TypeError(f"answer: expected a str or a list of them, got {type(answer).__name__}")
     golds = [answer] * len(completions) if isinstance(answer, str) else list(answer)
     if len(golds) != len(completions):
         raise _carom.CaromError(f"{len(completions)} completions and {len(golds)} answers")

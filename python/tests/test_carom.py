@@ -102,6 +102,20 @@ def test_parse_and_verify_stand_where_checkers_of_training_stand():
     assert carom.parse("3v/(2l)")[0].symbols == ("l", "v")
 
 
+def test_what_comes_before_a_line_that_is_no_text_is_graded():
+    grades = carom.grade_many([{"id": 1, "expected": "a", "answer": "a"}, b"{}"])
+    assert next(grades).id == 1
+    with pytest.raises(TypeError, match="line: expected a str, got bytes"):
+        next(grades)
+
+
+def test_mathematics_within_a_sentence_is_found():
+    assert carom.verify("1/2", r"so x comes out as $\frac{1}{2}$, which is the answer", strict=False, timeout_seconds=3)
+    assert [f.plain for f in carom.parse(r"with $x=2$ it is \(y = \frac{1}{2}\) at last")] == ["y = 1/2"]
+    with pytest.raises(TypeError, match="tolerence"):
+        carom.verify("1", "1", tolerence=1)
+
+
 def test_the_last_box_that_closes_is_read():
     cases = {r"\boxed{1} \boxed{\frac{1}{2}}": r"\frac{1}{2}", r"\boxed{\text{\}}2} \boxed{3": r"\text{\}}2", r"\boxed{a\boxed{b}c}": "b"}
     assert {text: boxed(text) for text in cases} == cases
@@ -117,6 +131,8 @@ def test_rewards_are_one_nought_or_none():
     assert undecided.verdict == "undecided"
     assert carom.reward([r"\boxed{h \exp(2 n)}"], "h e^{2 n}") == [None]
     assert carom.reward([r"\boxed{1}"], "1+") == [None]
+    with pytest.raises(TypeError, match="answer: expected a str or a list"):
+        carom.reward([r"\boxed{3}"], 3)
 
 
 def test_printed_answers_are_held_against_the_derivation():

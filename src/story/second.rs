@@ -284,10 +284,6 @@ impl Compared {
                 second.contradicts().then_some(false),
             );
         }
-        if self.values == 0 && self.apart.is_none() {
-            let words = format!("nothing of {what} is determined, so that nothing is compared");
-            return Check::new(kind, words, None);
-        }
         let points = crate::verify::points(self.points);
         let words = match &self.apart {
             // The integrator works to 1e-12; what is below is the rounding of the machine at hand.
@@ -428,6 +424,10 @@ impl Second<'_> {
                 let shaken = || shaken(told.time.as_ref(), &seen.point);
                 compared.put("the time it takes", [time, *found], size, shaken);
             }
+        }
+        if compared.points > 0 && compared.values == 0 && compared.apart.is_none() {
+            let words = "nothing of the motion is determined, so that nothing is compared";
+            return Check::new("integration", words, None);
         }
         compared.check("the motion", self)
     }

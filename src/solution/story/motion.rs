@@ -157,8 +157,7 @@ impl Page<'_> {
 
     /// The letter of the work of a force; of the only one without its name, unless that letter is taken.
     fn work(&self, told: &StageTold, what: &str) -> Math {
-        let is_taken =
-            self.scene.parameter("W").is_some() || self.scene.question("W").is_some();
+        let is_taken = self.scene.parameter("W").is_some() || self.scene.question("W").is_some();
         let alone = told.work.len() == 1 && !is_taken;
         name("W", if alone { "" } else { what }, "", false)
     }
