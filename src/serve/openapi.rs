@@ -77,7 +77,7 @@ fn scene_fields() -> Vec<(&'static str, Value)> {
     let [(scene, of_scene), (name, of_name)] = SCENE;
     let scene = (
         scene,
-        json!({"description": of_scene, "type": ["object", "string"]}),
+        json!({"description": of_scene, "type": ["object", "string"], "minLength": 1}),
     );
     vec![
         scene,

@@ -285,7 +285,10 @@ fn result(done: Done, gives: Gives) -> Response {
 async fn unusable(shared: &Shared, said: &str, scene: String) -> Response {
     let mut message = said.trim_end();
     let mut more = Map::new();
-    if let Some((first, hint)) = message.split_once("\nhint: ") {
+    // Several faults stay together, each with its own hint.
+    if let Some((first, hint)) = message.split_once("\nhint: ")
+        && !hint.contains('\n')
+    {
         message = first;
         more.insert("hint".into(), json!(hint));
     }

@@ -131,8 +131,12 @@ impl Workshop {
             Some(said) => said.await.ok().and_then(Result::ok).unwrap_or_default(),
             None => Vec::new(),
         };
-        drop(draft);
-        let said = String::from_utf8_lossy(&said).into_owned();
+        let mut said = String::from_utf8_lossy(&said).into_owned();
+        // Who asks knows the text by its field and no file of this machine.
+        if let (Some(draft), Some((option, _))) = (draft, &job.file) {
+            let path = draft.path.display().to_string();
+            said = said.replace(&path, option.trim_start_matches('-'));
+        }
         if status.code().is_none() && said.contains("memory allocation of") {
             return Err(NoEnd::Hungry);
         }

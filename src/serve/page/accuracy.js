@@ -8,17 +8,24 @@ const LANGUAGES = [["python", "Python"], ["numpy", "NumPy"], ["c", "C"], ["rust"
 const measured = latest();
 const written = latest();
 
-// The impact that is chosen; a motion has no routes, and the first impact takes its place.
-function stage() {
-  const chosen = bench.about.stages.find((s) => s.name === bench.stage);
-  return chosen?.is_impact ? { stage: chosen.name } : {};
+// The impact that is chosen, or the first one where that is a motion; undefined where there are motions alone.
+function impact() {
+  const { stages } = bench.about;
+  if (!stages.length) return {};
+  const chosen = stages.find((s) => s.is_impact && s.name === bench.stage) ?? stages.find((s) => s.is_impact);
+  return chosen && { stage: chosen.name };
 }
 
 export async function showAccuracy() {
   const panel = $("accuracy");
+  const stage = impact();
+  if (!stage) {
+    panel.replaceChildren(make("p", { class: "note" }, "Motions have no equations to solve, and so no other routes beside their formulas."), code());
+    return;
+  }
   panel.replaceChildren(make("p", { class: "note", role: "status" }, "Measuring every route; this takes some seconds …"));
   try {
-    const found = await measured((signal) => ask("report", { ...scene(), ...stage() }, signal));
+    const found = await measured((signal) => ask("report", { ...scene(), ...stage }, signal));
     if (!found) return;
     const [report] = found.reports;
     const machine = report.machine;

@@ -57,6 +57,9 @@ export async function showFilm() {
 }
 
 // Parts of the film: where every body is from one time to another.
+// What is said of an answer that leads to no other motion.
+const none = (claim) => `${claim.quantity} is not a velocity or a spin just after the last impact, so your answer has no motion of its own; the right one is shown.`;
+
 function made(about, solved) {
   const { before, after, claimed, bodies: names } = about.film;
   const free = (name, stage, samples, other) => ({
@@ -86,8 +89,8 @@ function made(about, solved) {
     parts.push(free("after the impact", end, after, claimed.length ? claimed : null));
     if (claim) note = claimed.length
       ? `After the impact: full lines, the right motion; broken lines, that of ${claim.quantity} = ${claim.answer}.`
-      : `${claim.quantity} is not a velocity or a spin just after the last impact, so your answer has no motion of its own; the right one is shown.`;
-  }
+      : none(claim);
+  } else if (!note && claim) note = none(claim);
   const real = parts.reduce((sum, part) => sum + part.time, 0);
   const slow = real ? Math.max(1, LONGEST / 2 / real) : 1;
   const speed = real > LONGEST ? real / LONGEST : 1 / slow;

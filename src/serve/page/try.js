@@ -79,8 +79,9 @@ async function shown(grade, quantity, answer) {
   const [words, kind] = WORDS[grade.verdict] ?? [grade.verdict, "unsure"];
   const parts = [make("strong", {}, words), make("p", { class: "note" }, grade.proof.words)];
   if (grade.error) parts.push(make("p", {}, grade.error.message), grade.error.hint ? make("p", {}, grade.error.hint) : null);
-  for (const d of hints) {
-    parts.push(make("p", {}, ...prose(set, d.hint)));
+  for (const [i, d] of hints.entries()) {
+    const isNew = hints.findIndex((other) => other.hint === d.hint) === i;
+    if (isNew) parts.push(make("p", {}, ...prose(set, d.hint)));
     if (d.message !== d.hint) parts.push(make("details", {}, make("summary", {}, "What it seems to be"), ...prose(set, d.message)));
   }
   if (c) {
