@@ -68,7 +68,7 @@ function code() {
   const text = make("pre", { tabindex: "0", "aria-label": "Code" });
   const write = async () => {
     try {
-      const request = { ...scene(), ...stage(), lang: language.value, plain: plain.checked };
+      const request = { ...scene(), ...impact(), lang: language.value, plain: plain.checked };
       const found = await written((signal) => ask("emit", request, signal));
       if (found !== undefined) text.textContent = found;
     } catch (problem) {
