@@ -112,9 +112,11 @@ pub fn run(args: &GradeArgs) -> Result<u8, Failure> {
         return steps(scene, file, args, &options);
     }
     let answer = args.answer.as_deref().unwrap_or_default();
+    let mut notes = Vec::new();
     let grade = match (&args.scene, &args.expected) {
         (Some(path), _) => {
-            let sheet = open(path)?;
+            let sheet;
+            (sheet, notes) = told(path, command::sheet(read_scene(path, &[])?))?;
             let name = args.quantity.clone();
             let name = name.or_else(|| command::only_quantity(&sheet));
             let name = name.ok_or_else(|| {
@@ -140,7 +142,7 @@ pub fn run(args: &GradeArgs) -> Result<u8, Failure> {
     };
     print(&match args.format {
         Format::Text => render::grade::text(&grade, answer),
-        Format::Json => versioned(&render::grade::json(&grade, answer)),
+        Format::Json => versioned(&with_notes(render::grade::json(&grade, answer), &notes)),
     })?;
     Ok(match grade.verdict {
         Verdict::Equivalent => 0,
@@ -157,16 +159,27 @@ pub(super) fn open(path: &Path) -> Result<Sheet, Failure> {
 
 /// The same of a scene that was read.
 pub(super) fn sheet(path: &Path, scene: Scene) -> Result<Sheet, Failure> {
-    told(path, command::sheet(scene))
+    Ok(told(path, command::sheet(scene))?.0)
 }
 
 /// What was found of a file, its notes told on the way.
-fn told<T>(path: &Path, found: Result<(T, Vec<String>), String>) -> Result<T, Failure> {
+fn told<T>(
+    path: &Path,
+    found: Result<(T, Vec<String>), String>,
+) -> Result<(T, Vec<String>), Failure> {
     let (found, notes) = found.map_err(|why| refused(path, why))?;
-    for note in notes {
+    for note in &notes {
         complain(&format!("{}: {note}", path.display()));
     }
-    Ok(found)
+    Ok((found, notes))
+}
+
+/// What is to be said of the scene that something was held against, such as that it is not possible, beside it as data.
+fn with_notes(mut data: Value, notes: &[String]) -> Value {
+    if !notes.is_empty() {
+        data["scene_notes"] = json!(notes);
+    }
+    data
 }
 
 /// Longest worked solution, in bytes.
@@ -259,7 +272,7 @@ pub fn verify(args: &VerifyArgs) -> Result<u8, Failure> {
         if let Some(answers) = &args.answers {
             scene.printed = printed_list(answers)?;
         }
-        let mut findings = told(path, command::printed(scene.clone()))?;
+        let (mut findings, notes) = told(path, command::printed(scene.clone()))?;
         for finding in &findings {
             worst = match (finding.holds, worst) {
                 (Some(false), _) => 1,
@@ -273,7 +286,10 @@ pub fn verify(args: &VerifyArgs) -> Result<u8, Failure> {
         }
         match args.format {
             Format::Text => print(&render::printed::text(&scene, &findings, total))?,
-            Format::Json => all.push(render::printed::json(&scene, &findings)),
+            Format::Json => {
+                let data = render::printed::json(&scene, &findings);
+                all.push(with_notes(data, &notes));
+            }
         }
     }
     if args.format == Format::Json {

@@ -176,6 +176,9 @@ fn decide_on(a: &Expr, b: &Expr, domains: &Domains, roles: &Roles, size: Size) -
     }
 }
 
+/// A formula of so many parts is first looked at for another order of them: a sum of fractions has a large common denominator.
+const LONG: usize = 50;
+
 /// A formula with the parts of its sums and products in one order.
 fn ordered(e: &Expr) -> Expr {
     let sorted = |parts: &[Expr]| {
@@ -256,7 +259,8 @@ impl Search<'_> {
     fn proof(&self) -> Proof {
         let (a, b, domains) = (self.a, self.b, self.domains);
         // What costs much to multiply out is often the same in another order.
-        let same = a == b || work(a).saturating_add(work(b)) > COSTLY && ordered(a) == ordered(b);
+        let costly = || a.size() > LONG || work(a).saturating_add(work(b)) > COSTLY;
+        let same = a == b || a.size() == b.size() && costly() && ordered(a) == ordered(b);
         if same && self.tally.both_defined > 0 {
             return Proof::Equal(Vec::new(), Ground::NormalForm);
         }

@@ -120,6 +120,12 @@ pub(super) fn known(stage: &Stage, before: &State, after: &mut State) -> Option<
     let FallEnd::Time(time) = &fall.until else {
         return None;
     };
+    // As long as another motion that has no closed form.
+    if let Some(during) = &stage.during
+        && stage.kind.mentions(&during.time)
+    {
+        return None;
+    }
     let zero = Expr::zero();
     let g = fall.gravity.as_ref().unwrap_or(&zero);
     let put = |from: &Expr, rate: &Expr, gained: &Expr| {
