@@ -133,8 +133,25 @@ pub fn sign(e: &Expr, domains: &Domains) -> Seen {
     if soon_has_both_signs(e, domains) {
         return Seen::Mixed;
     }
-    if let Some(sign) = algebra::sign(e, domains).or_else(|| constant(e)) {
-        return Seen::Proved(sign);
+    match shown(e, domains) {
+        Some(sign) => Seen::Proved(sign),
+        None => seen(e, domains),
+    }
+}
+
+/// The sign on the domain where it is proved. What points would show, which takes many of them, is not looked at.
+pub fn proved(e: &Expr, domains: &Domains) -> Option<Sign> {
+    match soon_has_both_signs(e, domains) {
+        true => None,
+        false => shown(e, domains),
+    }
+}
+
+/// The sign by proof.
+fn shown(e: &Expr, domains: &Domains) -> Option<Sign> {
+    let simple = algebra::sign(e, domains).or_else(|| constant(e));
+    if simple.is_some() {
+        return simple;
     }
     // A factor such as cos(π/36) − sin(π/18) has its sign by itself.
     if let Node::Product(factors) = e.node() {
@@ -142,29 +159,23 @@ pub fn sign(e: &Expr, domains: &Domains) -> Seen {
         let (fixed, rest): (Vec<Expr>, Vec<Expr>) = factors.iter().cloned().partition(is_fixed);
         let rest = Expr::product(rest);
         match constant(&Expr::product(fixed)) {
-            Some(Sign::Positive) if rest != *e => return sign(&rest, domains),
-            Some(Sign::Negative) => return sign(&-&rest, domains),
+            Some(Sign::Positive) if rest != *e => return proved(&rest, domains),
+            Some(Sign::Negative) => return proved(&-&rest, domains),
             _ => {}
         }
     }
-    match in_bars(e, |_| true) {
-        Some((bars, inside)) => {
-            // It has its sign where it has it with either sign of what stands in bars.
-            let [one, other] = [inside.clone(), -inside].map(|side| {
-                let open = e.replace(&bars, &side);
-                sign(&open, &domains.given(&side, true))
-            });
-            match (one, other) {
-                (Seen::Proved(a), Seen::Proved(b)) if a == b => one,
-                (Seen::Proved(a), Seen::Proved(b))
-                    if a.is_not_negative() && b.is_not_negative() =>
-                {
-                    Seen::Proved(Sign::NotNegative)
-                }
-                _ => seen(e, domains),
-            }
+    // It has its sign where it has it with either sign of what stands in bars.
+    let (bars, inside) = in_bars(e, |_| true)?;
+    let [one, other] = [inside.clone(), -inside].map(|side| {
+        let open = e.replace(&bars, &side);
+        proved(&open, &domains.given(&side, true))
+    });
+    match (one?, other?) {
+        (a, b) if a == b => Some(a),
+        (a, b) if [a, b].iter().all(|s| Seen::Proved(*s).is_not_negative()) => {
+            Some(Sign::NotNegative)
         }
-        None => seen(e, domains),
+        _ => None,
     }
 }
 

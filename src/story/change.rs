@@ -5,7 +5,7 @@
 
 use super::{Case, StageTold};
 use crate::algebra::Sign;
-use crate::answer::calc::{Seen, essential, is_zero, sign};
+use crate::answer::calc::{essential, is_zero, proved};
 use crate::domain::Domains;
 use crate::expr::{Expr, Vector, dot, minus};
 use crate::formula::{Sentence, listed, sentence};
@@ -47,7 +47,7 @@ pub(super) fn slack(told: &StageTold, before: &StageTold) -> Option<Sentence> {
         return None;
     };
     let scene = &told.placed.scene;
-    let is_positive = |e: &Expr| sign(e, &scene.domains) == Seen::Proved(Sign::Positive);
+    let is_positive = |e: &Expr| proved(e, &scene.domains) == Some(Sign::Positive);
     let speed = |b: usize, along: &Vector| dot(&case.after.velocity[b], along) / dot(along, along);
     let loosens = |string: &&Strung| {
         let (Some(first), Some(last)) = (string.over.first(), string.over.last()) else {
@@ -215,11 +215,12 @@ impl Change<'_> {
 
     /// The word for a value above zero, or below; nothing where its sign depends on the values.
     fn one_of<'w>(&self, e: &Expr, [plus, minus]: [&'w str; 2]) -> Option<Way<'w>> {
-        match (self.way(e), sign(e, self.domains)) {
+        let proved = proved(e, self.domains);
+        match (above(proved, e, self.domains, self.given), proved) {
             (Some(true), _) => Some(Way::Sure(plus)),
             (Some(false), _) => Some(Way::Sure(minus)),
-            (None, Seen::Proved(Sign::NotNegative)) => Some(Way::NotBack([plus, minus])),
-            (None, Seen::Proved(Sign::NotPositive)) => Some(Way::NotBack([minus, plus])),
+            (None, Some(Sign::NotNegative)) => Some(Way::NotBack([plus, minus])),
+            (None, Some(Sign::NotPositive)) => Some(Way::NotBack([minus, plus])),
             (None, _) => None,
         }
     }
@@ -261,12 +262,18 @@ impl Change<'_> {
     }
 }
 
-/// Whether a value is above zero where some others are not negative; `None` where that is not known.
+/// Whether a value is above zero where some others are not negative; `None` where that is not known. What was only seen at
+/// points is not said.
 pub(super) fn way(e: &Expr, domains: &Domains, given: &[&Expr]) -> Option<bool> {
-    // What was only seen at points is not said.
-    match sign(e, domains) {
-        Seen::Proved(Sign::Positive) => return Some(true),
-        Seen::Proved(Sign::Negative) => return Some(false),
+    above(proved(e, domains), e, domains, given)
+}
+
+/// The same of a value whose sign may be proved.
+fn above(proved: Option<Sign>, e: &Expr, domains: &Domains, given: &[&Expr]) -> Option<bool> {
+    match proved {
+        Some(Sign::Positive) => return Some(true),
+        Some(Sign::Negative) => return Some(false),
+        _ if given.is_empty() => return None,
         _ => {}
     }
     let rest = essential(e, domains);
