@@ -21,16 +21,21 @@ pub struct Worked {
     pub scene: Scene,
     /// Its stages, or its one impact, told.
     pub told: Told,
-    /// That its law of friction makes energy at the values given, where it does.
-    pub gain: Option<String>,
+    /// What is strange of its friction at the values given: that a law makes energy, that a contact jams.
+    pub strange: Vec<String>,
 }
 
 /// Works a scene out; the words say why it cannot be.
 pub fn out(scene: &Scene) -> Result<Worked, String> {
-    let gain = verify::friction::gain(scene);
+    let strange = verify::friction::strange(scene);
     let scene = verify::friction::settled(scene)?;
     let told = story::tell(&scene).map_err(|reason| reason.to_string())?;
-    Ok(Worked { scene, told, gain })
+    Ok(Worked {
+        scene,
+        told,
+        strange,
+    }
+    .weighed())
 }
 
 /// The same, with every case that friction leaves: they are told as outcomes of one stage.
@@ -61,8 +66,12 @@ pub fn to_draw(scene: &Scene, last: Option<&str>) -> Result<Worked, String> {
 
 /// A scene for pictures, of whose energy nothing is said.
 fn drawn(scene: Scene, told: Told) -> Worked {
-    let gain = None;
-    Worked { scene, told, gain }
+    let strange = Vec::new();
+    Worked {
+        scene,
+        told,
+        strange,
+    }
 }
 
 /// The first case of an impact whose friction no values settle, to be drawn where that case holds.
@@ -77,6 +86,21 @@ pub fn first_case(scene: &Scene) -> Option<Scene> {
 }
 
 impl Worked {
+    /// The same with what is strange of the friction in its stages.
+    pub fn weighed(mut self) -> Worked {
+        if self.scene.has_stages() {
+            for (name, impact) in self.impacts() {
+                let found = verify::friction::strange(&impact.undecided());
+                let found = found.into_iter().map(|what| match name.as_str() {
+                    IMPACT => what,
+                    _ => format!("in `{name}`, {what}"),
+                });
+                self.strange.extend(found);
+            }
+        }
+        self
+    }
+
     /// Whether no check failed, no laws contradict each other, and what is told can happen.
     pub fn holds(&self) -> bool {
         self.told.holds()
@@ -162,8 +186,8 @@ impl Worked {
         for why in self.refusals() {
             solution.begin_with(&format!("{why}."));
         }
-        if let Some(gain) = &self.gain {
-            solution.end_with(&self.scene, &format!("Note that {gain}."));
+        for strange in &self.strange {
+            solution.end_with(&self.scene, &format!("Note that {strange}."));
         }
         for what in self.undecided() {
             solution.end_with(&self.scene, &format!("Not judged: {what}."));

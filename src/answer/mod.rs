@@ -345,8 +345,10 @@ impl Answer {
             let bears = sought.iter().any(|s| e.mentions(s));
             !bears && calc::constant(&e.substitute(&values)) == Some(Sign::Negative)
         };
-        let mut each = self.assumptions.iter().flat_map(Sentence::conditions);
-        let (e, open) = each.find(is_broken)?;
+        let rests = self.assumptions.iter().flat_map(Sentence::conditions);
+        let decided = scene.decided().flat_map(|(_, decided)| decided.excesses());
+        let decided = decided.map(|(e, closed)| (e, !closed));
+        let (e, open) = rests.chain(decided).find(is_broken)?;
         Some(match open {
             true => Sentence::positive(&e),
             false => Sentence::not_negative(&e),

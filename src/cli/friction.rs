@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{Failure, Format, SceneArgs, files, impacts, only, print, refused, versioned};
-use carom::scene::{ContactLaw, Scene};
+use carom::scene::Scene;
 use carom::verify::compare::{NoComparison, compare};
 use carom::{numeric, plot, render};
 
@@ -51,11 +51,7 @@ pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
 fn undecided(mut impacts: Vec<(String, Scene)>) -> Vec<(String, Scene)> {
     for (name, impact) in &mut impacts {
         name.truncate(name.find(", case ").unwrap_or(name.len()));
-        for contact in &mut impact.contacts {
-            if let ContactLaw::Decided(decided) = &contact.law {
-                contact.law = ContactLaw::Friction(Box::new(decided.law.clone()));
-            }
-        }
+        *impact = std::mem::take(impact).undecided();
     }
     impacts.dedup_by(|a, b| a.0 == b.0);
     impacts

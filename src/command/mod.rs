@@ -15,8 +15,9 @@ use crate::expr::effort;
 use crate::render::friction::Shown;
 use crate::render::{self, json::versioned};
 use crate::scene::{self, Scene};
-use crate::worked;
-use crate::{answer, numeric, story, verify};
+use crate::worked::{self, Worked};
+use crate::story::{self, Told};
+use crate::{answer, numeric, verify};
 
 pub use lines::{Lines, refuse};
 pub use printed::printed;
@@ -98,8 +99,15 @@ pub fn derive(scene: &Scene, format: Format) -> Result<Output, String> {
     }
     let worked = worked::out(scene)?;
     let text = match format {
-        Format::Text => render::text::told(scene, &worked.told),
-        Format::Json => versioned(&render::json::told(scene, &worked.told)),
+        Format::Text => {
+            let noted = [Vec::new(), worked.strange.clone()];
+            render::text::noted(&noted) + &render::text::told(scene, &worked.told)
+        }
+        Format::Json => {
+            let mut told = render::json::told(scene, &worked.told);
+            told["notes"] = serde_json::json!(worked.strange);
+            versioned(&told)
+        }
     };
     Ok(Output::new(text, worked.holds()))
 }
@@ -112,7 +120,8 @@ fn cases(scene: &Scene, format: Format) -> Result<Output, String> {
     let mut shown = Vec::new();
     for i in judged.pick.cases(&table) {
         let case = &table.cases[i];
-        let told = story::tell(&case.scene).map_err(|why| why.to_string())?;
+        let told = case.ends.then(|| story::tell(&case.scene)).transpose();
+        let told = told.map_err(|why| why.to_string())?;
         shown.push(Shown { case, told });
     }
     let about = answer::about(scene, table.about.iter(), &BTreeMap::new())
@@ -122,9 +131,9 @@ fn cases(scene: &Scene, format: Format) -> Result<Output, String> {
         Format::Json => versioned(&render::friction::json(scene, &table, &judged, &shown)),
     };
     let holds = judged.supposed_holds != Some(false)
-        && !shown.is_empty()
+        && shown.iter().any(|s| s.told.is_some())
         && judged.checks.iter().all(|c| c.holds != Some(false))
-        && shown.iter().all(|s| s.told.is_proved());
+        && shown.iter().flat_map(|s| &s.told).all(Told::is_proved);
     Ok(Output::new(text, holds))
 }
 
@@ -151,26 +160,25 @@ fn solve_impact(scene: &Scene, numbers: Numbers, format: Format) -> Result<Outpu
             render::double_numbers(numeric::doubles(scene).map_err(|why| why.to_string())?)
         }
     };
-    let refusals = refusals(&scene.staged(worked::IMPACT));
-    let gain = verify::friction::gain(scene).map_or_else(String::new, |gain| gain + "\n");
+    let worked = worked::to_draw(&scene.staged(worked::IMPACT), None).ok();
+    let noted = [
+        worked.map_or_else(Vec::new, refusals),
+        verify::friction::strange(scene),
+    ];
     let text = match format {
-        Format::Text => {
-            render::text::refused(&refusals) + &gain + &render::text::numbers(scene, &found)
-        }
-        Format::Json => versioned(&render::json::refused(
+        Format::Text => render::text::noted(&noted) + &render::text::numbers(scene, &found),
+        Format::Json => versioned(&render::json::noted(
             render::json::numbers(scene, &found),
-            &refusals,
+            &noted,
         )),
     };
-    Ok(Output::new(text, refusals.is_empty()))
+    Ok(Output::new(text, noted[0].is_empty()))
 }
 
 /// Why what the numbers tell cannot happen, as far as the stages themselves say so.
-fn refusals(scene: &Scene) -> Vec<String> {
-    let told = worked::to_draw(scene, None);
-    let all = told.map_or_else(|_| Vec::new(), |worked| worked.refusals());
+fn refusals(worked: Worked) -> Vec<String> {
     let alone = format!("{}: ", worked::IMPACT);
-    let all = all.into_iter();
+    let all = worked.refusals().into_iter();
     all.map(|why| why.strip_prefix(&alone).unwrap_or(&why).to_owned())
         .collect()
 }
@@ -197,19 +205,24 @@ fn follow(scene: &Scene, format: Format) -> Result<Output, String> {
     let point = numeric::follow::values(scene)
         .map_err(|missing| numeric::NoPoint::Missing(missing).to_string())?;
     let followed = numeric::follow(scene, &point).map_err(|undefined| undefined.to_string())?;
-    let refusals = refusals(scene);
+    let worked = worked::to_draw(scene, None).ok().map(Worked::weighed);
+    let strange = worked.as_ref().map(|worked| worked.strange.clone());
+    let noted = [
+        worked.map_or_else(Vec::new, refusals),
+        strange.unwrap_or_default(),
+    ];
     let text = match format {
         Format::Text => {
             let numbers = render::stages::text(scene, &followed, &point);
-            render::text::refused(&refusals) + &numbers
+            render::text::noted(&noted) + &numbers
         }
         Format::Json => {
             let numbers = render::stages::json(scene, &followed, &point);
-            versioned(&render::json::refused(numbers, &refusals))
+            versioned(&render::json::noted(numbers, &noted))
         }
     };
     let is_possible = |passed: &numeric::follow::Passed| passed.is_possible();
     let mut stages = followed.stages.iter();
     let holds = stages.all(|s| s.as_ref().is_ok_and(is_possible));
-    Ok(Output::new(text, holds && refusals.is_empty()))
+    Ok(Output::new(text, holds && noted[0].is_empty()))
 }

@@ -35,6 +35,8 @@ pub struct Table {
     pub tangent: Vector,
     /// What the contact feels.
     pub space: ContactSpace,
+    /// Whether the contact, free along its tangent, can move in one way only: that of a body on a hinge, or on a track.
+    pub one_way: bool,
     /// What the direction of friction depends on.
     pub side: Side,
     /// The cases that the domain allows.
@@ -44,7 +46,8 @@ pub struct Table {
     /// The least |P_t|/P_n of an impulse that stops the contact, with the sign of −P_t: what sticking without rebound needs,
     /// whatever the law; `None` where the contact can move in one way only, so that no one impulse stops it.
     pub stopping_ratio: Option<Expr>,
-    /// |b|/a: with less friction a contact whose slip has ended does not hold; `None` where its sign is not known.
+    /// |b|/a: with less friction a contact whose slip has ended does not hold; `None` where its sign is not known, and for laws
+    /// that follow no path.
     pub holding: Option<Expr>,
     /// The coefficient of friction from which the contact jams while it slips (Painlevé), c/(s b); `None` where it never
     /// does.
@@ -64,6 +67,9 @@ pub struct Case {
     pub direction: Direction,
     /// What must hold besides.
     pub conditions: Vec<Bound>,
+    /// Whether the impact comes to an end. A body on a hinge or track that sticks has no way to rebound, and nothing ends it
+    /// under laws that ask for that.
+    pub ends: bool,
     /// The closed forms of the impulse (P_t, P_n) in a, b, c, u_t⁻, u_n⁻ put in.
     pub impulse: [Expr; 2],
     /// The scene with the mode's two conditions in place of the law.
@@ -156,45 +162,35 @@ pub fn table(scene: &Scene) -> Result<Option<Table>, Stop> {
         tangential: forms.tidy(tangential)?,
         normal: forms.tidy(u_n)?,
     };
+    let one_way = !space.is_held() && forms.has_one_way(&space)?;
+    if one_way && matches!(law.hypothesis, Hypothesis::ChatterjeeRuina { .. }) {
+        let name = &scene.contacts[contact].name;
+        return Err(Stop::NoAnswer(format!(
+            "{}'s law has no answer at `{name}`: it divides by zero where a contact can move in one way only, like that of a body on a hinge\nhint: take Poisson's, or see `carom compare`",
+            law.hypothesis.name()
+        )));
+    }
     let side = side(&space, &law);
-    let directions = forms.directions(&side)?;
     let mut table = Table {
         contact,
         stopping_ratio: forms.ratio(&space)?,
-        holding: forms.holding(&space)?,
+        holding: match law.hypothesis.has_path() {
+            true => forms.holding(&space)?,
+            false => None,
+        },
         jamming: None,
         jump: None,
         about: Vec::new(),
         law,
         normal,
         tangent,
+        one_way,
         side,
         cases: Vec::new(),
         ruled_out: 0,
         space,
     };
-    for s in &directions {
-        for mode in modes(&table.space, &table.law, *s) {
-            match forms.conditions(&mode, &table.law)? {
-                Some(conditions) => {
-                    let direction = match directions.len() {
-                        1 => Direction::Only(*s),
-                        _ => Direction::Asked(*s),
-                    };
-                    let case = forms.case(scene, &table, mode, direction, conditions)?;
-                    table.cases.push(case);
-                }
-                None => table.ruled_out += 1,
-            }
-        }
-        if table.jamming.is_none() && !table.space.tangential.is_zero() {
-            table.jamming = forms.jamming(&table.space, *s)?;
-            if table.jamming.is_some() {
-                table.jump = forms.jump(&table.space, &table.law, *s)?;
-            }
-        }
-    }
-    forms.without_directions(&mut table)?;
+    forms.fill(scene, &mut table)?;
     let asked = thresholds(scene, &table, &mut forms)?;
     for case in &mut table.cases {
         case.scene.questions.clone_from(&asked);
@@ -214,11 +210,19 @@ fn alone(scene: &Scene, contact: usize) -> Result<(), Stop> {
             if field.sign(&element) != Some(Sign::Zero) {
                 let name = &scene.contacts[contact].name;
                 let what = beside_friction(&other.name, name);
-                return Err(Stop::Strikes(format!("{what}\nhint: {ALONE}")));
+                return Err(Stop::NoAnswer(format!("{what}\nhint: {ALONE}")));
             }
         }
     }
     Ok(())
+}
+
+/// Whether a law lets a contact that sticks end with a rebound.
+fn law_asks_for_rebound(law: &Friction) -> bool {
+    matches!(
+        law.hypothesis,
+        Hypothesis::Newton | Hypothesis::Stronge | Hypothesis::Brach { .. }
+    )
 }
 
 /// Whether something of this sign is never positive, or where it may vanish never negative.
@@ -243,6 +247,33 @@ impl Forms {
         all.extend(space.parts().map(Clone::clone));
         field.prepare(all.iter());
         Forms { field }
+    }
+
+    /// The cases, and where it jams.
+    fn fill(&mut self, scene: &Scene, table: &mut Table) -> Result<(), Stop> {
+        let directions = self.directions(&table.side)?;
+        for s in &directions {
+            for mode in modes(&table.space, &table.law, *s) {
+                match self.conditions(&mode, &table.law)? {
+                    Some(conditions) => {
+                        let direction = match directions.len() {
+                            1 => Direction::Only(*s),
+                            _ => Direction::Asked(*s),
+                        };
+                        let case = self.case(scene, table, mode, direction, conditions)?;
+                        table.cases.push(case);
+                    }
+                    None => table.ruled_out += 1,
+                }
+            }
+            if table.jamming.is_none() && !table.space.tangential.is_zero() {
+                table.jamming = self.jamming(&table.space, *s)?;
+                if table.jamming.is_some() {
+                    table.jump = self.jump(&table.space, &table.law, *s)?;
+                }
+            }
+        }
+        self.without_directions(table)
     }
 
     /// The form to print; as it is, where another form rests on a sign that was only seen at points.
@@ -329,26 +360,30 @@ impl Forms {
                 });
             }
         }
+        let (left, up) = self.without_signed_factors(&when.of)?;
         Ok(Bound {
-            left: self.without_positive_factors(&when.of)?,
-            relation: relation(true),
+            left,
+            relation: relation(up),
             right: Expr::zero(),
             when: vec![when],
         })
     }
 
-    /// An expression of the same sign, as short as its factors allow.
-    fn without_positive_factors(&mut self, e: &Expr) -> Result<Expr, Stop> {
+    /// An expression of the same sign, or where `false` of the opposite one, as short as its factors allow.
+    fn without_signed_factors(&mut self, e: &Expr) -> Result<(Expr, bool), Stop> {
         let Node::Product(factors) = e.node() else {
-            return Ok(e.clone());
+            return Ok((e.clone(), true));
         };
         let mut kept = Vec::new();
+        let mut up = true;
         for factor in factors {
-            if self.sign(factor)? != Some(Sign::Positive) {
-                kept.push(factor.clone());
+            match self.sign(factor)? {
+                Some(Sign::Positive) => {}
+                Some(Sign::Negative) => up = !up,
+                _ => kept.push(factor.clone()),
             }
         }
-        Ok(Expr::product(kept))
+        Ok((Expr::product(kept), up))
     }
 
     /// The scene of one case.
@@ -383,6 +418,7 @@ impl Forms {
             mode: mode.mode,
             direction,
             conditions,
+            ends: !(table.one_way && mode.mode.sticks() && law_asks_for_rebound(&table.law)),
             impulse: mode.impulse,
             scene: settled,
             slip_ends,

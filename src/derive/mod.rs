@@ -166,15 +166,15 @@ pub enum Stop {
     Limit(String),
     /// Laws and givens contradict each other; the words name the law at which it shows.
     Contradiction(String),
-    /// Something else strikes beside a contact with friction; the words say what.
-    Strikes(String),
+    /// A law of friction has no answer, as beside something else that strikes; the words say why.
+    NoAnswer(String),
 }
 
 impl fmt::Display for Stop {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Stop::Limit(what) => write!(f, "stopped at a limit: {what}"),
-            Stop::Strikes(why) => f.write_str(why),
+            Stop::NoAnswer(why) => f.write_str(why),
             Stop::Contradiction(law) => write!(
                 f,
                 "the laws contradict each other: {law} cannot hold together with the others"

@@ -67,7 +67,9 @@ impl fmt::Display for NoPath {
             NoPath::NeverEnds => {
                 "under this hypothesis the impact has no end: the contact sticks where it cannot move along its normal, and e > 0 asks for a rebound (Poisson's hypothesis has an answer)"
             }
-            NoPath::Singular => "the law divides by zero: the contact cannot move freely in both directions",
+            NoPath::Singular => {
+                "the law divides by zero: its contact does not come together, or cannot move freely in both directions"
+            }
             NoPath::Irrational => {
                 "the end of the impact holds a square root that is no fraction\nhint: leave out --exact"
             }

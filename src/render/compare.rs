@@ -9,6 +9,7 @@ use crate::figure::{Ink, Label};
 use crate::plot::{Axis, Curve, Mark, Plot, draw};
 use crate::scene::Scene;
 use crate::verify::compare::{Comparison, Outcome};
+use crate::verify::friction::JAMS;
 
 /// Laws side by side for the terminal.
 pub fn text(scene: &Scene, c: &Comparison) -> String {
@@ -92,9 +93,7 @@ pub fn text(scene: &Scene, c: &Comparison) -> String {
         .filter_map(|r| r.outcome.as_ref().ok())
         .any(|o| o.energy.jams)
     {
-        say(String::from(
-            "\nthe contact jams while it slips (Painlevé): slip dies at once, whatever the speed of approach",
-        ));
+        say(format!("\n{contact} {JAMS}"));
     }
     out
 }

@@ -3,22 +3,27 @@
 use serde_json::{Value, json};
 
 use super::{latex, unicode};
+use crate::algebra::{Sign, sign};
 use crate::answer::{Answer, Check};
 use crate::derive::friction::{Bound, Case, Direction, Table};
 use crate::expr::Expr;
-use crate::formula::{Sentence, write_plain};
+use crate::formula::{Relation, Sentence, write_plain};
 use crate::scene::{Friction, Hypothesis, Scene};
 use crate::story::Told;
 use crate::verify::Proof;
-use crate::verify::friction::{Judged, Pick};
+use crate::verify::friction::{JAMS, Judged, Pick};
 
 /// A case with everything derived for it.
 pub struct Shown<'a> {
     /// The case.
     pub case: &'a Case,
-    /// The impact in this case.
-    pub told: Told,
+    /// The impact in this case; `None` where it has no end.
+    pub told: Option<Told>,
 }
+
+/// What is said of a case that has no answer.
+const NO_END: &str =
+    "  no answer: it sticks where it cannot move along its normal, and nothing ends the impact (Poisson's hypothesis has an answer)";
 
 /// The table for the terminal.
 pub fn text(
@@ -31,7 +36,16 @@ pub fn text(
     let mut out = String::new();
     let mut say = |line: &str| out.extend([line, "\n"]);
     let contact = &scene.contacts[table.contact].name;
-    say(&super::heading(&scene.title, &scene.source));
+    let one = match (shown, &judged.pick) {
+        ([one], Pick::Values(_) | Pick::Supposed(_)) => Some(one),
+        _ => None,
+    };
+    let refusals = one.and_then(|one| one.told.as_ref()).map(Told::refusals);
+    for refusal in refusals.iter().flatten() {
+        say(refusal);
+    }
+    let heading = super::heading(&scene.title, &scene.source);
+    say(&heading);
     say(&law_words(scene, table));
     say(&format!(
         "\nwhat {contact} feels of its bodies, along the tangent t and the normal n:"
@@ -49,19 +63,23 @@ pub fn text(
     for line in bounds(scene, table) {
         say(&line);
     }
-    if let Some(words) = verdict(table, judged) {
+    if let Some(words) = verdict(scene, table, judged) {
         say(&words);
     }
-    if let ([one], Pick::Values(_) | Pick::Supposed(_)) = (shown, &judged.pick) {
+    if let Some(one) = one {
         say(&format!(
             "\n{contact} {}{}",
             table.called(one.case).words(),
             holds_where(scene, &table.law, one.case)
         ));
-        let full = super::text::told(&one.case.scene, &one.told);
-        // The heading stands above already.
-        let rest = full.split_once('\n').map_or("", |(_, rest)| rest);
-        say(rest.trim_end());
+        let full = one.told.as_ref();
+        let full = full.map(|told| super::text::told(&one.case.scene, told));
+        // What stands above already.
+        let rest = full.as_ref().map(|full| full.split_once(&format!("{heading}\n")));
+        say(match rest {
+            None => NO_END,
+            Some(rest) => rest.map_or("", |(_, rest)| rest).trim_end(),
+        });
     } else {
         let excluded = match table.ruled_out {
             0 => String::new(),
@@ -74,11 +92,15 @@ pub fn text(
                 table.called(each.case).words(),
                 holds_where(scene, &table.law, each.case)
             ));
-            let Some(impact) = each.told.alone() else {
+            let Some(told) = &each.told else {
+                say(NO_END);
+                continue;
+            };
+            let Some(impact) = told.alone() else {
                 continue;
             };
             let is_common = |a: &&Answer| about.iter().any(|b| b.name == a.name);
-            for answer in each.told.answers.iter().filter(|a| !is_common(a)) {
+            for answer in told.answers.iter().filter(|a| !is_common(a)) {
                 say(&format!("  {}", super::text::says(scene, None, answer)));
                 for line in &answer.text {
                     say(&format!("    {}", line.written(|e| unicode(scene, e))));
@@ -204,7 +226,7 @@ fn bounds(scene: &Scene, table: &Table) -> Vec<String> {
 }
 
 /// What the values say of the supposed mode and of the energy.
-fn verdict(table: &Table, judged: &Judged) -> Option<String> {
+fn verdict(scene: &Scene, table: &Table, judged: &Judged) -> Option<String> {
     let mut words = Vec::new();
     if judged.supposed_holds == Some(false) {
         words.push(String::from(
@@ -217,21 +239,29 @@ fn verdict(table: &Table, judged: &Judged) -> Option<String> {
         ));
     }
     if let Some(values) = &judged.at_values {
-        words.push(values.told(table.law.hypothesis.name()));
+        let law = table.law.hypothesis.name();
+        words.push(match judged.supposed_holds {
+            Some(false) => format!("what happens there {}", values.energy_words(law)),
+            _ => values.told(law),
+        });
         if values.jams {
-            words.push(String::from(
-                "and the contact jams: the normal velocity does not grow while it slips",
-            ));
+            let contact = &scene.contacts[table.contact].name;
+            words.push(format!("{contact} {JAMS}"));
         }
     }
     (!words.is_empty()).then(|| words.join("\n"))
 }
 
 fn bound(scene: &Scene, b: &Bound) -> String {
+    let edge = || sign(&(&b.left - &b.right), &scene.domains).is_some_and(Sign::is_not_negative);
+    let relation = match b.relation {
+        Relation::LessEqual if edge() => Relation::Equal,
+        relation => relation,
+    };
     format!(
         "{} {} {}",
         unicode(scene, &b.left),
-        b.relation.sign(),
+        relation.sign(),
         unicode(scene, &b.right)
     )
 }
@@ -239,9 +269,9 @@ fn bound(scene: &Scene, b: &Bound) -> String {
 fn holds_where(scene: &Scene, law: &Friction, case: &Case) -> String {
     let mut all = Vec::new();
     if let Direction::Asked(s) | Direction::Follows(s) = case.direction {
-        let what = match law.hypothesis {
-            Hypothesis::Newton | Hypothesis::Poisson | Hypothesis::Stronge => "slip before is",
-            Hypothesis::ChatterjeeRuina { .. } | Hypothesis::Brach { .. } => "friction is",
+        let what = match law.hypothesis.has_path() {
+            true => "slip before is",
+            false => "friction is",
         };
         let way = if s > 0 { "along t" } else { "against t" };
         all.push(format!("{what} {way}"));
@@ -259,7 +289,9 @@ pub fn json(scene: &Scene, table: &Table, judged: &Judged, shown: &[Shown]) -> V
     let cases: Vec<Value> = shown
         .iter()
         .map(|each| {
-            let mut value = super::json::told(&each.case.scene, &each.told);
+            let told = each.told.as_ref();
+            let told = told.map(|told| super::json::told(&each.case.scene, told));
+            let mut value = told.unwrap_or_else(|| json!({"reason": NO_END.trim_start()}));
             if let Value::Object(fields) = &mut value {
                 fields.insert("mode".into(), json!(table.called(each.case).words()));
                 fields.insert("direction".into(), json!(each.case.direction.sign()));
@@ -309,6 +341,6 @@ pub fn json(scene: &Scene, table: &Table, judged: &Judged, shown: &[Shown]) -> V
         "jams": judged.at_values.as_ref().map(|v| v.jams),
         "cases": cases,
         "checks": judged.checks,
-        "verified": holds && shown.iter().all(|s| s.told.is_proved()),
+        "verified": holds && shown.iter().flat_map(|s| &s.told).all(Told::is_proved),
     })
 }

@@ -170,9 +170,10 @@ pub fn numbers(scene: &Scene, numbers: &[super::Number]) -> Value {
     json!({"title": scene.title, "source": scene.source, "answers": answers})
 }
 
-/// Numbers, with why what they tell cannot happen; empty where it can.
-pub fn refused(mut numbers: Value, refusals: &[String]) -> Value {
+/// Numbers, with why what they tell cannot happen, and with what is strange of it; each empty where nothing is.
+pub fn noted(mut numbers: Value, [refusals, strange]: &[Vec<String>; 2]) -> Value {
     numbers["not_possible"] = json!(refusals);
+    numbers["notes"] = json!(strange);
     numbers
 }
 

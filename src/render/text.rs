@@ -350,9 +350,10 @@ fn left_out(out: &mut String, d: &Derivation) {
     }
 }
 
-/// Why what follows cannot happen, one reason a line.
-pub fn refused(refusals: &[String]) -> String {
-    refusals.iter().map(|why| format!("{why}\n")).collect()
+/// Why what follows cannot happen, and what is strange of it, one a line.
+pub fn noted(noted: &[Vec<String>; 2]) -> String {
+    let all = noted.iter().flatten();
+    all.map(|what| format!("{what}\n")).collect()
 }
 
 /// Numbers, one a line.

@@ -51,6 +51,14 @@ impl<T> Hypothesis<T> {
         }
     }
 
+    /// Whether it follows the path of the impulse, on which slip ends at some point; the others state the impulse outright.
+    pub fn has_path(&self) -> bool {
+        matches!(
+            self,
+            Hypothesis::Newton | Hypothesis::Poisson | Hypothesis::Stronge
+        )
+    }
+
     /// Whether it can gain kinetic energy at one contact; Poisson's, Stronge's, and Chatterjee and Ruina's never do.
     pub fn may_gain(&self) -> bool {
         matches!(self, Hypothesis::Newton | Hypothesis::Brach { .. })
@@ -260,6 +268,16 @@ impl Scene {
             ContactLaw::Decided(decided) => Some((c, &**decided)),
             _ => None,
         })
+    }
+
+    /// The same with the laws of friction in place of what was decided.
+    pub fn undecided(mut self) -> Scene {
+        for contact in &mut self.contacts {
+            if let ContactLaw::Decided(decided) = &contact.law {
+                contact.law = ContactLaw::Friction(Box::new(decided.law.clone()));
+            }
+        }
+        self
     }
 }
 

@@ -111,6 +111,11 @@ pub fn judge(scene: &Scene, table: &Table) -> Judged {
         (Some(cases), Some(case)) => Some(cases.contains(&case)),
         _ => None,
     };
+    let supposed = supposed.map(|mut cases| {
+        let sign = Signs::of(scene);
+        cases.retain(|i| sign.goes(&table.side, &table.cases[*i]) != Some(false));
+        cases
+    });
     let pick = match (supposed, by_values) {
         (Some(cases), Some(case)) if cases.contains(&case) => Pick::Values(case),
         (Some(cases), _) => Pick::Supposed(cases),
@@ -146,19 +151,31 @@ pub struct Outcome {
     pub slip_ends: Option<Scene>,
     /// Whether it goes so, as far as the values of the scene and what it supposes tell.
     pub is_so: bool,
+    /// Whether the law lets the impact come to an end.
+    pub ends: bool,
 }
 
 /// The ways a scene with friction can go, as far as its values and what it supposes leave several; the scene itself where
 /// there is no friction. The table is held against the path of the impulse first.
 pub fn outcomes(scene: &Scene) -> Result<Vec<Outcome>, String> {
-    let mut all = all_outcomes(scene)?;
+    let [mut all, _] = all_outcomes(scene)?;
     all.retain(|outcome| outcome.is_so);
-    Ok(all)
+    match all.is_empty() {
+        true => Err(no_end()),
+        false => Ok(all),
+    }
 }
 
-/// The same with those that its values exclude.
-pub fn all_outcomes(scene: &Scene) -> Result<Vec<Outcome>, String> {
-    effort::of_scene(|| out_of_table(scene))
+/// Why a law of friction has no answer where nothing ends the impact.
+pub fn no_end() -> String {
+    NoPath::NeverEnds.to_string()
+}
+
+/// The same with those that its values exclude; beside them those in which the law lets the impact have no end.
+pub fn all_outcomes(scene: &Scene) -> Result<[Vec<Outcome>; 2], String> {
+    let all = effort::of_scene(|| out_of_table(scene))?;
+    let (ended, endless) = all.into_iter().partition(|outcome| outcome.ends);
+    Ok([ended, endless])
 }
 
 fn out_of_table(scene: &Scene) -> Result<Vec<Outcome>, String> {
@@ -171,6 +188,7 @@ fn out_of_table(scene: &Scene) -> Result<Vec<Outcome>, String> {
                 when: Vec::new(),
                 slip_ends: None,
                 is_so: true,
+                ends: true,
             };
             return Ok(vec![alone]);
         }
@@ -191,6 +209,7 @@ fn out_of_table(scene: &Scene) -> Result<Vec<Outcome>, String> {
         when: case.needs(&table.side),
         slip_ends: case.slip_ends.clone(),
         is_so: picked.contains(&i),
+        ends: case.ends,
     };
     let all = table.cases.iter().enumerate();
     let supposed = all.filter(|(_, case)| is_supposed(&table, case));
@@ -277,11 +296,17 @@ impl Signs<'_> {
         }
     }
 
+    /// Whether friction has the direction of a case; `None` where a sign is not known.
+    fn goes(&self, side: &Side, case: &Case) -> Option<bool> {
+        match case.direction {
+            Direction::Asked(s) => direction_holds(self.sign(&side.of)?, || self.sign(&side.tie), s),
+            _ => Some(true),
+        }
+    }
+
     /// Whether a case holds; `None` where a sign is not known.
     fn holds(&self, side: &Side, case: &Case) -> Option<bool> {
-        if let Direction::Asked(s) = case.direction
-            && !direction_holds(self.sign(&side.of)?, || self.sign(&side.tie), s)?
-        {
+        if !self.goes(side, case)? {
             return Some(false);
         }
         let mut all = true;
@@ -317,12 +342,22 @@ fn satisfied(sign: std::cmp::Ordering, when: &When) -> bool {
     sign.is_gt() || !when.strict && sign.is_eq()
 }
 
-/// That the law of friction of a scene makes energy at its values; nothing where it does not, or values are missing.
-pub fn gain(scene: &Scene) -> Option<String> {
-    let (_, law) = scene.friction()?;
-    let values = at_values(scene).filter(|v| v.gain > ROUNDING * v.energy_before)?;
-    Some(values.told(law.hypothesis.name()))
+/// What is strange of an impact with friction at the values of its scene: that its law makes energy, that it jams.
+pub fn strange(scene: &Scene) -> Vec<String> {
+    let found = scene.friction();
+    let Some(((contact, law), values)) = found.zip(found.and_then(|_| at_values(scene))) else {
+        return Vec::new();
+    };
+    let gains = values.gain > ROUNDING * values.energy_before;
+    let gains = gains.then(|| values.told(law.hypothesis.name()));
+    let name = &scene.contacts[contact].name;
+    let jams = values.jams.then(|| format!("at the values of the scene `{name}` {JAMS}"));
+    gains.into_iter().chain(jams).collect()
 }
+
+/// What a contact does that jams.
+pub const JAMS: &str =
+    "jams (Painlevé): the normal velocity does not grow while it slips, and slip dies at once";
 
 /// The impact at the values of the scene.
 fn at_values(scene: &Scene) -> Option<AtValues> {
@@ -366,7 +401,7 @@ fn followed<T: Number + PartialOrd>(
 /// At exact points: one case holds, and its impulse is that of the path. Energy is watched on the way.
 fn against_path(scene: &Scene, table: &Table, checks: &mut Vec<Check>) {
     let needed = numeric::needed(scene);
-    let mut seen: BTreeMap<Mode, usize> = BTreeMap::new();
+    let mut seen: BTreeMap<(Mode, bool), usize> = BTreeMap::new();
     let mut compared = 0;
     let mut gains = 0;
     let mut wrong: Option<String> = None;
@@ -390,23 +425,27 @@ fn against_path(scene: &Scene, table: &Table, checks: &mut Vec<Check>) {
                 gains += usize::from(followed.path.gain() > large);
                 same(table, &exact, &rounded, impulse, 1e-9)
             }
+            Err(Some(NoPath::NeverEnds | NoPath::Singular)) => without_end(table, &exact),
             Err(_) => continue,
         };
         match outcome {
-            Ok(Some(mode)) => {
+            Ok(Some(case)) => {
                 compared += 1;
-                *seen.entry(mode).or_default() += 1;
+                *seen.entry((table.called(case), case.ends)).or_default() += 1;
             }
             Ok(None) => {}
             Err(words) => wrong = Some(words),
         }
     }
-    let modes = seen.iter().map(|(mode, n)| format!("{} {n}", mode.words()));
+    let modes = seen.iter().map(|((mode, ends), n)| match ends {
+        true => format!("{} {n}", mode.words()),
+        false => format!("{} and has no end {n}", mode.words()),
+    });
     let modes = modes.collect::<Vec<String>>().join(", ");
     let (words, holds) = match (wrong, compared) {
         (Some(words), _) => (words, Some(false)),
         (None, 0) => {
-            let words = "at none of the points tried are all values rational";
+            let words = "at none of the points tried are all values rational, which holding them against it takes";
             (words.into(), None)
         }
         (None, n) => {
@@ -447,14 +486,24 @@ fn energy(law: &Friction, gains: usize, points: usize) -> Check {
     }
 }
 
-/// The mode of the one case that holds at a point, if its impulse is the one given; `None` where it has no value there.
-fn same<T: Number>(
-    table: &Table,
+/// The one case that holds at a point where the path has no end, if it is one without.
+fn without_end<'a>(
+    table: &'a Table,
     exact: &Point<Rational>,
-    at: &Point<T>,
-    impulse: &[T; 2],
-    tolerance: f64,
-) -> Result<Option<Mode>, String> {
+) -> Result<Option<&'a Case>, String> {
+    let has_value = |case: &Case| case.impulse.iter().all(|p| p.evaluate(exact).is_some());
+    match holding(table, exact)? {
+        Some(case) if case.ends && !has_value(case) => Ok(None),
+        Some(case) if case.ends => Err(format!(
+            "`{}` holds at one point where the path has no end",
+            table.called(case).words()
+        )),
+        found => Ok(found),
+    }
+}
+
+/// The one case that holds at a point; `None` where it has no value there.
+fn holding<'a>(table: &'a Table, exact: &Point<Rational>) -> Result<Option<&'a Case>, String> {
     let sign = |e: &Expr| e.evaluate(exact).map(|x| x.cmp(&Number::zero()));
     let mut holding = Vec::new();
     for case in &table.cases {
@@ -488,9 +537,29 @@ fn same<T: Number>(
             holding.push(case);
         }
     }
-    let [case] = holding.as_slice() else {
-        return Err(format!("{} cases hold at one point", holding.len()));
+    match holding.as_slice() {
+        [case] => Ok(Some(case)),
+        all => Err(format!("{} cases hold at one point", all.len())),
+    }
+}
+
+/// The one case that holds at a point, if its impulse is the one given; `None` where it has no value there.
+fn same<'a, T: Number>(
+    table: &'a Table,
+    exact: &Point<Rational>,
+    at: &Point<T>,
+    impulse: &[T; 2],
+    tolerance: f64,
+) -> Result<Option<&'a Case>, String> {
+    let Some(case) = holding(table, exact)? else {
+        return Ok(None);
     };
+    if !case.ends {
+        return Err(format!(
+            "the path ends at one point where `{}` has no end",
+            table.called(case).words()
+        ));
+    }
     let [Some(p_t), Some(p_n)] = [0, 1].map(|i| case.impulse[i].evaluate(at)) else {
         return Ok(None);
     };
@@ -504,5 +573,5 @@ fn same<T: Number>(
             ));
         }
     }
-    Ok(Some(table.called(case)))
+    Ok(Some(case))
 }

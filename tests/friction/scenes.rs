@@ -402,3 +402,46 @@ fn where_nothing_slips_before_and_one_way_only_is_driven_there_is_one_direction(
     let cases: Vec<Mode> = table.cases.iter().map(|case| table.called(case)).collect();
     assert_eq!(cases, [Mode::Sticks, Mode::Slides], "{cases:?}");
 }
+
+/// What the commands tell: a command, a scene, what stands in place of what in it, values, the status, and texts between bars;
+/// with `not:` in front it stands nowhere.
+#[test]
+fn the_commands_tell_what_the_table_says() {
+    let rows = std::fs::read_to_string("tests/friction/told.tsv").expect("the table");
+    let rows = rows.lines().filter(|line| !line.starts_with('#'));
+    let mut wrong = Vec::new();
+    for (i, row) in rows.enumerate() {
+        let cells: Vec<&str> = row.split('\t').collect();
+        let [command, path, put, set, status, texts, why] = cells[..] else {
+            panic!("not seven columns: {row}")
+        };
+        let mut scene = std::fs::read_to_string(path).expect("the scene");
+        for pair in put.split(" || ").filter(|pair| !pair.is_empty()) {
+            let (old, new) = pair.split_once(" => ").expect("old => new");
+            assert!(scene.contains(old), "{why}: {old}");
+            scene = scene.replace(old, new);
+        }
+        let file = format!("friction-{i}.json");
+        let file = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(file);
+        std::fs::write(&file, scene).expect("a writable folder");
+        let mut run = std::process::Command::new(env!("CARGO_BIN_EXE_carom"));
+        run.args(command.split(' ')).arg(&file);
+        set.split_whitespace().for_each(|value| {
+            run.args(["--set", value]);
+        });
+        let out = run.output().expect("carom runs");
+        let said = [out.stdout, out.stderr].concat();
+        let said = String::from_utf8_lossy(&said);
+        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        let code = out.status.code().map_or(String::new(), |c| c.to_string());
+        let mut texts = texts.split(" | ");
+        let holds = texts.all(|text| match text.strip_prefix("not: ") {
+            Some(text) => !said.contains(text),
+            None => said.contains(text),
+        });
+        if code != status || !holds {
+            wrong.push(format!("{why}: status {code}: {said}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}

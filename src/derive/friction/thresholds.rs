@@ -1,11 +1,13 @@
 //! The coefficient of friction from which, or up to which, something happens, out of the table of cases.
 
 use std::collections::BTreeSet;
+use std::convert::Infallible;
 
 use super::super::Stop;
 use super::{Case, Direction, Forms, Table};
 use crate::expr::{Expr, Symbol};
-use crate::scene::{Ask, FrictionEvent, Mode, Question, Scene};
+use crate::laws::friction::side;
+use crate::scene::{Ask, ContactSpace, FrictionEvent, Mode, Question, Scene};
 
 /// The questions that need no answer of a case.
 pub(super) fn of_parameters(scene: &Scene, asked: Vec<Question>) -> Vec<Question> {
@@ -36,13 +38,23 @@ pub(super) fn thresholds(
     let mut out = scene.questions.clone();
     for question in &mut out {
         // Where there is none on the whole domain the question stays as it is, and is left open.
-        if let Ask::Friction { event, .. } = question.ask
-            && let Some(formula) = threshold(table, forms, event)?
-        {
+        let Ask::Friction { event, .. } = question.ask else {
+            continue;
+        };
+        let formula = match threshold(table, forms, event)? {
+            None => at_values(scene, table, event)?,
+            formula => formula,
+        };
+        if let Some(formula) = formula {
+            let mut cases = table.cases.iter();
+            let endless = cases.any(|case| !case.ends);
             question.ask = Ask::Value {
                 formula,
                 with: Vec::new(),
                 meaning: String::from(match event {
+                    FrictionEvent::Sticks if endless => {
+                        "coefficient of friction from which it has no answer: it would stick, and nothing would end the impact"
+                    }
                     FrictionEvent::Sticks => "least coefficient of friction with which it sticks",
                     FrictionEvent::Slides => "largest coefficient of friction with which it slides",
                     FrictionEvent::Jams => "least coefficient of friction with which it jams",
@@ -53,6 +65,44 @@ pub(super) fn thresholds(
         }
     }
     Ok(out)
+}
+
+/// The same at the values that a scene gives its other parameters, where it has no one formula on the domain.
+fn at_values(
+    scene: &Scene,
+    table: &Table,
+    event: FrictionEvent,
+) -> Result<Option<Expr>, Stop> {
+    let Some(mu) = table.law.mu.as_symbol() else {
+        return Ok(None);
+    };
+    let mut values = scene.values();
+    values.remove(mu);
+    let put = |e: &Expr| e.substitute(&values);
+    let Ok(law) = (table.law).try_map(|e| Ok::<_, Infallible>(put(e)));
+    let [a, b, c, tangential, normal] = table.space.parts().map(put);
+    let space = ContactSpace {
+        a,
+        b,
+        c,
+        tangential,
+        normal,
+    };
+    let is_put = |e: &Expr| e.symbols().iter().all(|s| &**s == "pi");
+    if values.is_empty() || !space.parts().iter().all(|e| is_put(e)) {
+        return Ok(None);
+    }
+    let mut forms = Forms::new(scene, &law, &space);
+    let mut there = Table {
+        side: side(&space, &law),
+        law,
+        space,
+        cases: Vec::new(),
+        jamming: None,
+        ..table.clone()
+    };
+    forms.fill(scene, &mut there)?;
+    threshold(&there, &mut forms, event)
 }
 
 /// The coefficient of friction from which, or up to which, something happens.

@@ -81,7 +81,7 @@ impl Reader<'_, '_> {
             if !places.is_empty() || !declared.any(|d| *d.name == *event.0) {
                 if let Some((with, _)) = q.with.iter().flat_map(|m| &m.0).next() {
                     let message = "nothing is put into a threshold of friction by `with`";
-                    let hint = "ask for it without, and take its name as the \"value\" of another question, `with` what you put in";
+                    let hint = "give the parameters these values in the scene, by `value`, or with --set";
                     return self.refuse(with, message, hint);
                 }
                 return self.sticking(&places, parameter, holds, event);

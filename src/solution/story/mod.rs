@@ -638,6 +638,9 @@ impl Page<'_> {
             false if self.told.fails_in_claims_alone(self.scene) => {
                 "What was to be shown does not hold, as it says there; the other results stand."
             }
+            false if self.told.is_proved() && self.told.ended.is_empty() => {
+                "What cannot happen stands first: do not use these results."
+            }
             false => "A check failed: do not use these results before the fault is found.",
             true if self.solution.detail != Detail::Normal => return,
             true if is_followed && self.told.stages.iter().any(|s| s.cases.is_empty()) => {

@@ -13,7 +13,7 @@ pub(super) use outcome::acting;
 
 use incoming::{approach, hand_on, hinges_fit, touches};
 use outcome::{
-    Active, ENERGY, add_possible, case, fits, gain, is_refuted, put_to_act, state_after,
+    Active, ENERGY, add_possible, case, fits, gain, is_refuted, no_answer, put_to_act, state_after,
 };
 
 use super::{Case, Kept, Refused, StageTold, State};
@@ -54,12 +54,15 @@ pub(super) fn tell(
     let handed = hand_on(&mut base, named);
     let mut cases: Vec<Case> = Vec::new();
     let mut contradiction = None;
+    let mut endless = Vec::new();
     for set in subsets(one_sided, supposed) {
         let mut acting = base.clone();
         let wanted = put_to_act(&mut acting, one_sided, &set);
-        let outcomes =
-            friction::outcomes(&acting).map_err(|why| Refused::new(&stage.name, why, ""))?;
-        for mut outcome in outcomes {
+        let [outcomes, without] =
+            friction::all_outcomes(&acting).map_err(|why| Refused::new(&stage.name, why, ""))?;
+        let goes_so = |outcome: &friction::Outcome| outcome.is_so;
+        endless.extend(without.into_iter().filter(goes_so));
+        for mut outcome in outcomes.into_iter().filter(goes_so) {
             // No table stands beside this impact to tell what Newton's or Brach's law gains.
             outcome.scene.gains_energy = base.gains_energy;
             let active = Active {
@@ -82,6 +85,9 @@ pub(super) fn tell(
     }
     if cases.len() > 1 {
         cases.retain(|case| !is_refuted(&base, case, &handed) && fits(case, given, &base.domains));
+    }
+    if cases.is_empty() && !endless.is_empty() {
+        return Err(Refused::new(&stage.name, friction::no_end(), ""));
     }
     if cases.is_empty() {
         return Err(no_case(stage, &base, contradiction));
@@ -111,6 +117,7 @@ pub(super) fn tell(
         }
     }
     assumptions.extend(cases.iter().filter_map(|case| gain(&base, case)));
+    assumptions.extend(endless.iter().filter_map(|o| no_answer(o, &base, &handed)));
     let checks = cases[0].proof.scene.clone();
     Ok(StageTold {
         kept,

@@ -9,7 +9,7 @@ use crate::answer::calc::{Seen, essential, is_zero, sign, tidy};
 use crate::derive::{self, Derivation};
 use crate::domain::{Domains, roles, samples_until};
 use crate::expr::{Expr, Symbol};
-use crate::formula::Sentence;
+use crate::formula::{Sentence, sentence};
 use crate::laws::Unknown;
 use crate::scene::{Ask, ContactLaw, EnergyWhen, ImpulseAt, OneSided, Question, Scene, Stage};
 use crate::story::{Case, Part, Refused, State};
@@ -119,6 +119,11 @@ pub(super) fn case(
     let proof = verify::prove(&scene, &derivation);
     let mut possible = verify::possible::judge(&scene, &derivation);
     possible.put(handed, &scene.values(), &scene.domains);
+    if scene.decided().any(|(_, d)| d.law.supposing.is_some()) {
+        for (words, need) in conditions.iter().filter(|(words, _)| *words == outcome.words) {
+            possible.suppose(words, need, &scene.values());
+        }
+    }
     Ok(Some(Case {
         possible,
         active: set.iter().map(|i| one_sided[*i].name.clone()).collect(),
@@ -362,6 +367,31 @@ pub(super) fn gain(scene: &Scene, case: &Case) -> Option<Sentence> {
             "that no energy is gained, which {name}’s hypothesis with friction does not ensure"
         ))),
     }
+}
+
+/// Where a law of friction has no answer, because the impact has no end.
+pub(super) fn no_answer(
+    outcome: &friction::Outcome,
+    scene: &Scene,
+    handed: &BTreeMap<Symbol, Expr>,
+) -> Option<Sentence> {
+    let (_, law) = scene.friction()?;
+    let name = law.hypothesis.name();
+    let needs = outcome.when.iter().map(|need| need.substitute(handed));
+    let open = |need: &Expr| {
+        let sign = sign(need, &scene.domains);
+        !matches!(sign, Seen::Proved(s) if s.is_not_negative())
+    };
+    let needs = needs.filter(open);
+    let needs = needs.map(|need| Sentence::not_negative(&essential(&need, &scene.domains)));
+    let needs = Sentence::join(needs, " and ");
+    let words = format!("{name}’s hypothesis has no answer where ");
+    Some(sentence!(
+        "{}{} ({})",
+        words,
+        needs,
+        format!("{}, and nothing ends it", outcome.words)
+    ))
 }
 
 /// Whether the values that the scene gives rule a case out.

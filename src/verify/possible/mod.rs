@@ -18,9 +18,10 @@
 //! - energy: nothing is gained at all contacts together, −Σ ½ P·(u⁻ + u⁺) ≥ 0 (Kelvin's theorem; moving walls do their work
 //!   outside this sum). Where all contacts have one restitution, Carnot's theorem gives it; where a blow acts at the same
 //!   instant, the sum depends on the order of events and is not judged;
-//! - restitution: of a contact without law, u⁺·n ≤ −u⁻·n, so that the implied e = −u⁺·n/u⁻·n is at most 1.
+//! - restitution: of a contact without law, u⁺·n ≤ −u⁻·n, so that the implied e = −u⁺·n/u⁻·n is at most 1;
+//! - supposed: given values keep to what is supposed of a contact with friction.
 //!
-//! The last two do not apply to a scene that says it gains energy. The normal is the one the scene gives, and that of the
+//! Energy and restitution do not apply to a scene that says it gains energy. The normal is the one the scene gives, and that of the
 //! outlines wherever they have one: none at corners, at the ends of rods and inside a body. A thin rod or a ring can be
 //! touched from either side; then n points to the body that touches it, as its center or its approach tells.
 
@@ -30,10 +31,12 @@ mod sides;
 
 use std::collections::BTreeMap;
 
+use crate::algebra::Sign;
+use crate::answer::calc::constant;
 use crate::derive::Derivation;
 use crate::domain::Domains;
 use crate::expr::{Expr, Symbol, Vector, dot, minus};
-use crate::formula::{Sentence, sentence};
+use crate::formula::{Sentence, sentence, write_plain};
 use crate::laws::{self, Unknown};
 use crate::scene::outline::Need;
 use crate::scene::{Body, Contact, ContactLaw, Scene, touch};
@@ -64,6 +67,7 @@ pub enum Rule {
     Push,
     Energy,
     Restitution,
+    Supposed,
 }
 
 impl Rule {
@@ -76,6 +80,7 @@ impl Rule {
             Rule::Push => "push",
             Rule::Energy => "energy",
             Rule::Restitution => "restitution",
+            Rule::Supposed => "supposed",
         }
     }
 }
@@ -222,10 +227,34 @@ impl Possible {
             let number = outright.substitute(values);
             if condition.at_values.is_none() && number.is_constant() {
                 let sign = decide::sign(&number, domains);
-                condition.at_values = sign.map(crate::algebra::Sign::is_not_negative);
+                condition.at_values = sign.map(Sign::is_not_negative);
             }
         }
         decide::without_consequences(&mut self.conditions, domains);
+        (self.verdict, self.at_values) = concluded(&self.conditions, &self.not_judged);
+    }
+
+    /// Takes note that given values do not keep to what is supposed of a contact with friction, where they do not.
+    pub fn suppose(&mut self, words: &str, need: &Expr, values: &BTreeMap<Symbol, Expr>) {
+        if constant(&need.substitute(values)) != Some(Sign::Negative) {
+            return;
+        }
+        // What else fails there fails for what does not happen.
+        let others = self.conditions.iter_mut();
+        let others = others.filter(|c| c.rule != Rule::Supposed);
+        others.for_each(|c| c.at_values = None);
+        let takes = Sentence::not_negative(need).written(write_plain);
+        self.conditions.push(Condition {
+            rule: Rule::Supposed,
+            words: words.to_owned(),
+            otherwise: format!(
+                "what is supposed, that {words}, does not happen: it takes {takes}"
+            ),
+            verdict: Verdict::Where,
+            essential: None,
+            is_equation: false,
+            at_values: Some(false),
+        });
         (self.verdict, self.at_values) = concluded(&self.conditions, &self.not_judged);
     }
 
@@ -273,7 +302,16 @@ pub fn judge(scene: &Scene, derivation: &Derivation) -> Possible {
         }
         judge.energy();
     }
-    judge.outcome()
+    let mut possible = judge.outcome();
+    for (c, decided) in scene.decided() {
+        if let Some(supposed) = decided.law.supposing {
+            let words = supposed.of(&scene.contacts[c].name);
+            for (need, _) in decided.excesses() {
+                possible.suppose(&words, &need, &scene.values());
+            }
+        }
+    }
+    possible
 }
 
 struct Judge<'a> {
@@ -639,5 +677,5 @@ fn concluded(conditions: &[Condition], not_judged: &[String]) -> (Verdict, Optio
 
 /// Whether an expression is zero on the whole domain, by its normal form.
 fn is_zero(e: &Expr, domains: &Domains) -> bool {
-    decide::sign(e, domains) == Some(crate::algebra::Sign::Zero)
+    decide::sign(e, domains) == Some(Sign::Zero)
 }
