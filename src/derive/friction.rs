@@ -11,7 +11,7 @@ mod thresholds;
 
 use super::Stop;
 use space::contact_space;
-use thresholds::{of_parameters, thresholds};
+use thresholds::{at_given, of_parameters, thresholds};
 
 use crate::algebra::{Field, Sign};
 use crate::expr::{Expr, Function, Node, Vector};
@@ -195,6 +195,7 @@ pub fn table(scene: &Scene) -> Result<Option<Table>, Stop> {
     for case in &mut table.cases {
         case.scene.questions.clone_from(&asked);
     }
+    let asked = at_given(scene, &table, asked)?;
     table.about = of_parameters(scene, asked);
     Ok(Some(table))
 }

@@ -38,33 +38,51 @@ pub(super) fn thresholds(
     let mut out = scene.questions.clone();
     for question in &mut out {
         // Where there is none on the whole domain the question stays as it is, and is left open.
-        let Ask::Friction { event, .. } = question.ask else {
-            continue;
-        };
-        let formula = match threshold(table, forms, event)? {
-            None => at_values(scene, table, event)?,
-            formula => formula,
-        };
-        if let Some(formula) = formula {
-            let mut cases = table.cases.iter();
-            let endless = cases.any(|case| !case.ends);
-            question.ask = Ask::Value {
-                formula,
-                with: Vec::new(),
-                meaning: String::from(match event {
-                    FrictionEvent::Sticks if endless => {
-                        "coefficient of friction from which it has no answer: it would stick, and nothing would end the impact"
-                    }
-                    FrictionEvent::Sticks => "least coefficient of friction with which it sticks",
-                    FrictionEvent::Slides => "largest coefficient of friction with which it slides",
-                    FrictionEvent::Jams => "least coefficient of friction with which it jams",
-                }),
-                dimension: None,
-                polar: None,
-            };
+        if let Ask::Friction { event, .. } = question.ask
+            && let Some(formula) = threshold(table, forms, event)?
+        {
+            question.ask = found(table, event, formula);
         }
     }
     Ok(out)
+}
+
+/// A threshold as a question for its formula.
+fn found(table: &Table, event: FrictionEvent, formula: Expr) -> Ask {
+    let endless = table.cases.iter().any(|case| !case.ends);
+    Ask::Value {
+        formula,
+        with: Vec::new(),
+        meaning: String::from(match event {
+            FrictionEvent::Sticks if endless => {
+                "coefficient of friction from which it has no answer: it would stick, and nothing would end the impact"
+            }
+            FrictionEvent::Sticks => "least coefficient of friction with which it sticks",
+            FrictionEvent::Slides => "largest coefficient of friction with which it slides",
+            FrictionEvent::Jams => "least coefficient of friction with which it jams",
+        }),
+        dimension: None,
+        polar: None,
+    }
+}
+
+/// Thresholds that have no formula on the domain, as the values of the scene make them: nobody's formula is held against them.
+pub(super) fn at_given(
+    scene: &Scene,
+    table: &Table,
+    mut asked: Vec<Question>,
+) -> Result<Vec<Question>, Stop> {
+    for question in &mut asked {
+        if let Ask::Friction { event, .. } = question.ask
+            && let Some(value) = at_values(scene, table, event)?
+        {
+            question.ask = found(table, event, value);
+            if let Ask::Value { meaning, .. } = &mut question.ask {
+                meaning.push_str(", at the given values");
+            }
+        }
+    }
+    Ok(asked)
 }
 
 /// The same at the values that a scene gives its other parameters, where it has no one formula on the domain.

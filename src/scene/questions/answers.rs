@@ -81,7 +81,7 @@ impl Reader<'_, '_> {
             if !places.is_empty() || !declared.any(|d| *d.name == *event.0) {
                 if let Some((with, _)) = q.with.iter().flat_map(|m| &m.0).next() {
                     let message = "nothing is put into a threshold of friction by `with`";
-                    let hint = "give the parameters these values in the scene, by `value`, or with --set";
+                    let hint = "give the parameters these values in the scene, by `value` or with --set; where the threshold is a formula, another question takes its name as its \"value\", `with` what you put in";
                     return self.refuse(with, message, hint);
                 }
                 return self.sticking(&places, parameter, holds, event);
@@ -178,6 +178,10 @@ impl Reader<'_, '_> {
                 FrictionEvent::Slides => ("slides", "<="),
                 FrictionEvent::Sticks => ("sticks", ">="),
                 FrictionEvent::Jams => ("jams", ">="),
+            };
+            let mu = match mu.starts_with(char::is_alphabetic) {
+                true => mu,
+                false => "mu",
             };
             let hint = format!(
                 "let `{mu}` be a parameter, ask first \"mu_c\": {{\"threshold\": \"{mu}\", \"holds\": \"{contact} {word}\"}}, and then {{\"threshold\": \"{of}\", \"holds\": \"{mu} {sign} mu_c\"}}",
