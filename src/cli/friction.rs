@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{Failure, Format, SceneArgs, files, impacts, only, print, refused, versioned};
-use carom::scene::Scene;
+use carom::scene::{ContactLaw, Hypothesis, Scene};
 use carom::verify::compare::{NoComparison, compare};
 use carom::{numeric, plot, render};
 
@@ -28,7 +28,16 @@ pub struct CompareArgs {
 /// Lays the laws of contact side by side.
 pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
     let scene = args.input.read()?;
-    let all = undecided(impacts(&args.input.scene, &scene)?);
+    let path = &args.input.scene;
+    let all = match impacts(path, &scene) {
+        Ok(all) if !all.is_empty() => all,
+        // Where its own law has no answer, the others may have one.
+        own => match impacts(path, &by_poisson(&scene)) {
+            Ok(all) if !all.is_empty() => all,
+            _ => own?,
+        },
+    };
+    let all = undecided(all);
     let scene = only(&args.input.scene, all, args.stage.as_deref())?;
     let refused = |reason: String| refused(&args.input.scene, reason);
     if scene.friction().is_none() && scene.contacts.len() > 1 {
@@ -45,6 +54,18 @@ pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
         Format::Json => versioned(&render::compare::json(&scene, &found)),
     })?;
     Ok(0)
+}
+
+/// The scene with Poisson's hypothesis at the contacts in its stages.
+fn by_poisson(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    let contacts = scene.stages.iter_mut();
+    for contact in contacts.flat_map(|stage| &mut stage.scene.contacts) {
+        if let ContactLaw::Friction(law) = &mut contact.law {
+            law.hypothesis = Hypothesis::Poisson;
+        }
+    }
+    scene
 }
 
 /// Impacts before anything is decided about their contacts; all outcomes of a stage begin alike.

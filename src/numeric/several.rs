@@ -203,14 +203,19 @@ impl Contacts {
         &self.before + &self.response * impulses
     }
 
-    /// (1 + e) u⁻, what Newton's law takes away.
+    /// (1 + e) u⁻, what Newton's law takes away; where bodies part already there is nothing to turn round.
     fn turned(&self) -> DVector<f64> {
-        DVector::from_fn(self.before.len(), |i, _| {
-            (1.0 + self.restitution[i]) * self.before[i]
+        DVector::from_fn(self.before.len(), |i, _| match self.before[i] {
+            parting if parting > 0.0 => parting,
+            closing => (1.0 + self.restitution[i]) * closing,
         })
     }
 
+    /// Newton's law at every contact, where none of them parts already.
     fn newton(&self) -> Option<DVector<f64>> {
+        if self.before.iter().any(|u| *u > REST * self.before.amax()) {
+            return None;
+        }
         let lu = self.response.clone().lu();
         let found = lu.solve(&-self.turned())?;
         let gap = (&self.response * &found + self.turned()).amax();

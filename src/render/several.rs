@@ -49,6 +49,9 @@ fn verdict(all: &[Candidate]) -> &'static str {
     }
 }
 
+/// Why no springs are among the candidates.
+const NO_SPRINGS: &str = "Springs between the bodies are integrated for e = 1 at every contact only: what loses energy there would have to be chosen.";
+
 /// The candidates for the terminal.
 pub fn text(scene: &Scene, all: &[Candidate]) -> String {
     let mut out = String::new();
@@ -82,6 +85,10 @@ pub fn text(scene: &Scene, all: &[Candidate]) -> String {
         let _ = writeln!(out, "    {}\n", judged(candidate));
     }
     let _ = writeln!(out, "{}", verdict(all));
+    let mut laws = all.iter().flat_map(|candidate| &candidate.laws);
+    if !laws.any(|law| matches!(law, Law::LinearSprings | Law::HertzSprings)) {
+        let _ = writeln!(out, "{NO_SPRINGS}");
+    }
     out
 }
 

@@ -8,7 +8,7 @@ use super::fault::number_words;
 use super::fault::{Fault, Span};
 use super::proof::{Given, Zero, middle, violation, zero};
 use super::touch::Placed;
-use super::{ALONE, Ask, Contact, Hinge, Scene, beside_friction, touch};
+use super::{ALONE, Ask, Contact, ContactLaw, Hinge, Scene, beside_friction, touch};
 use crate::algebra::{Sign, sign};
 use crate::expr::{Expr, Function, Node, Symbol, Vector, dot, minus};
 use crate::interval::{Interval, Outcome, evaluate};
@@ -234,6 +234,18 @@ fn approach(scene: &Scene, i: usize, given: &Given, span: Span) -> Option<Fault>
     let contact = scene.contacts.get(i)?;
     let speed = separation(scene, contact)?;
     let name = &contact.name;
+    // Beside another contact that collides, what parts may be driven in all the same.
+    let collides = |other: &Contact| {
+        let speed = separation(scene, other);
+        speed.is_some_and(|speed| match evaluate::<Interval>(&speed, given) {
+            Outcome::Value(value) => value.high < 0.0,
+            _ => sign(&speed, &scene.domains) == Some(Sign::Negative),
+        })
+    };
+    let is_plain = |c: &Contact| matches!(c.law, ContactLaw::Frictionless { .. });
+    if scene.contacts.iter().all(is_plain) && scene.contacts.iter().any(collides) {
+        return None;
+    }
     let hint = "the normal points out of the first body into the second; check the order of `bodies`, and the velocities";
     if let Outcome::Value(value) = evaluate::<Interval>(&speed, given) {
         if value.low <= 0.0 {

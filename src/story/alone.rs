@@ -14,6 +14,9 @@ use crate::scene::{Scene, Stage};
 use crate::verify::possible::{self, Rule};
 use crate::verify::{self, APPROACH};
 
+/// What to do where the laws of several contacts cannot hold together.
+const SEVERAL: &str = "with values, `carom compare` tells what Moreau's law, Poisson's and one impact after the other give";
+
 /// Tells the one impact of a scene.
 pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
     let derivation = derive::derive(scene).map_err(|stop| Refused::stop("", stop))?;
@@ -45,7 +48,10 @@ pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
                 "these laws contradict each other: {}",
                 counting.conflict.join("; ")
             ),
-            "",
+            match scene.contacts.len() {
+                0 | 1 => "",
+                _ => SEVERAL,
+            },
         )
     });
     let stage = Stage::alone(scene.clone());

@@ -145,6 +145,8 @@ pub struct Possible {
     pub not_judged: Vec<String>,
     /// What is worth knowing besides, in words.
     pub notes: Vec<String>,
+    /// Whether several contacts without friction collide at once, for which there are other laws.
+    pub beside: bool,
 }
 
 impl Possible {
@@ -173,6 +175,8 @@ impl Possible {
             .all(|r| refusing.contains(r));
         let may = if refusing.iter().all(|rule| *rule == Rule::Energy) {
             "; where a charge, a spring or a motor gives it, the scene has \"gains_energy\": true"
+        } else if self.beside {
+            "; with values, `carom compare` tells what several contacts at once give"
         } else if is_turned {
             "; a normal leads from the first body to the second: turn it, or exchange the bodies"
         } else {
@@ -653,6 +657,11 @@ impl Judge<'_> {
             conditions: self.conditions,
             not_judged: self.not_judged,
             notes: self.notes,
+            beside: {
+                let contacts = &self.scene.contacts;
+                let is_plain = |c: &Contact| matches!(c.law, ContactLaw::Frictionless { .. });
+                contacts.len() > 1 && contacts.iter().all(is_plain)
+            },
         }
     }
 }
