@@ -216,6 +216,7 @@ pub fn given_alike(all: &[&Answer], domains: &Domains) -> Vec<Sentence> {
     let is_common = |s: &&Sentence| all.iter().all(|a| a.assumptions.contains(s));
     let first = all.first().into_iter().flat_map(|a| &a.assumptions);
     let mut out: Vec<Sentence> = first.filter(is_common).cloned().collect();
+    without_weaker(&mut out);
     let own = |a: &&Answer| {
         let own = a.assumptions.iter().filter(|s| !is_common(s));
         own.cloned().collect::<Vec<_>>()
@@ -224,15 +225,55 @@ pub fn given_alike(all: &[&Answer], domains: &Domains) -> Vec<Sentence> {
     if all.len() < 2 || each.iter().any(Vec::is_empty) {
         return out;
     }
-    let joined = match each.as_slice() {
-        [a, b] => as_one(a, b, domains).or_else(|| as_one(b, a, domains)),
-        _ => None,
-    };
-    out.extend(joined.unwrap_or_else(|| {
-        let each = each.into_iter().map(|own| Sentence::join(own, " and "));
-        vec![Sentence::join(each, ", or that ")]
-    }));
+    let each = merged(each, domains);
+    match each.as_slice() {
+        // One of them holds always.
+        all if all.iter().any(Vec::is_empty) => {}
+        [one] => out.extend(one.iter().cloned()),
+        _ => {
+            let each = each.into_iter().map(|own| Sentence::join(own, " and "));
+            out.push(Sentence::join(each, ", or that "));
+        }
+    }
     out
+}
+
+/// Most cases of which two are looked for that are one.
+const MERGED: usize = 4;
+
+/// What several cases need, with those that are one told once.
+fn merged(mut each: Vec<Vec<Sentence>>, domains: &Domains) -> Vec<Vec<Sentence>> {
+    let pair = |each: &[Vec<Sentence>]| {
+        let all = 0..each.len();
+        let mut pairs = all.clone().flat_map(|i| all.clone().map(move |j| (i, j)));
+        pairs.find_map(|(i, j)| {
+            let one = (i != j).then(|| as_one(&each[i], &each[j], domains));
+            Some((i, j, one.flatten()?))
+        })
+    };
+    while (2..=MERGED).contains(&each.len())
+        && let Some((i, j, one)) = pair(&each)
+    {
+        each[i] = one;
+        each.remove(j);
+    }
+    each
+}
+
+/// Leaves away that something is not negative where it is told to be positive.
+fn without_weaker(all: &mut Vec<Sentence>) {
+    let positive: Vec<Expr> = all
+        .iter()
+        .flat_map(Sentence::conditions)
+        .filter_map(|(e, open)| open.then_some(e))
+        .collect();
+    all.retain(|words| {
+        let mut told = words.conditions();
+        match (told.next(), told.next()) {
+            (Some((e, false)), None) => !positive.contains(&e),
+            _ => true,
+        }
+    });
 }
 
 /// Either that x ≥ 0, or that x ≤ 0 and z ≥ 0, as z ≥ 0, where this holds wherever x ≥ 0; for the same reason: a contact sticks,

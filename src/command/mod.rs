@@ -15,8 +15,8 @@ use crate::expr::effort;
 use crate::render::friction::Shown;
 use crate::render::{self, json::versioned};
 use crate::scene::{self, Scene};
-use crate::worked::{self, Worked};
 use crate::story::{self, Told};
+use crate::worked::{self, Worked};
 use crate::{answer, numeric, verify};
 
 pub use lines::{Lines, refuse};

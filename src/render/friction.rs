@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::{latex, unicode};
-use crate::algebra::{Sign, sign};
+use crate::answer::calc::sign;
 use crate::answer::{Answer, Check};
 use crate::derive::friction::{Bound, Case, Direction, Table};
 use crate::expr::Expr;
@@ -22,8 +22,7 @@ pub struct Shown<'a> {
 }
 
 /// What is said of a case that has no answer.
-const NO_END: &str =
-    "  no answer: it sticks where it cannot move along its normal, and nothing ends the impact (Poisson's hypothesis has an answer)";
+const NO_END: &str = "  no answer: it sticks where it cannot move along its normal, and nothing ends the impact (Poisson's hypothesis has an answer)";
 
 /// The table for the terminal.
 pub fn text(
@@ -75,7 +74,9 @@ pub fn text(
         let full = one.told.as_ref();
         let full = full.map(|told| super::text::told(&one.case.scene, told));
         // What stands above already.
-        let rest = full.as_ref().map(|full| full.split_once(&format!("{heading}\n")));
+        let rest = full
+            .as_ref()
+            .map(|full| full.split_once(&format!("{heading}\n")));
         say(match rest {
             None => NO_END,
             Some(rest) => rest.map_or("", |(_, rest)| rest).trim_end(),
@@ -87,42 +88,7 @@ pub fn text(
         };
         say(&format!("\n{} cases{excluded}:", shown.len()));
         for each in shown {
-            say(&format!(
-                "\n{contact} {}{}",
-                table.called(each.case).words(),
-                holds_where(scene, &table.law, each.case)
-            ));
-            let Some(told) = &each.told else {
-                say(NO_END);
-                continue;
-            };
-            let Some(impact) = told.alone() else {
-                continue;
-            };
-            let is_common = |a: &&Answer| about.iter().any(|b| b.name == a.name);
-            for answer in told.answers.iter().filter(|a| !is_common(a)) {
-                say(&format!("  {}", super::text::says(scene, None, answer)));
-                for line in &answer.text {
-                    say(&format!("    {}", line.written(|e| unicode(scene, e))));
-                }
-                let of_case = |words: &&Sentence| impact.assumptions().all(|own| own != **words);
-                for words in answer.assumptions.iter().filter(of_case) {
-                    let words = words.written(|e| unicode(scene, e));
-                    say(&format!("    given that {words}"));
-                }
-            }
-            for words in (impact.proof.assumptions.iter()).filter(|w| w.condition().is_some()) {
-                let words = words.written(|e| unicode(scene, e));
-                say(&format!("  given that {words}"));
-            }
-            for definition in &impact.derivation.definitions {
-                say(&format!(
-                    "    with {} = {}",
-                    definition.name,
-                    unicode(scene, &definition.value)
-                ));
-            }
-            say(&format!("  {}", proved(&impact.proof)));
+            say(case(scene, table, each, about).trim_end());
         }
         if let Some(note) = super::text::nothing_asked(scene) {
             say(&format!("\n{note}"));
@@ -141,6 +107,50 @@ pub fn text(
         };
         say(&format!("  {mark}: {}: {}", c.kind, c.words));
     }
+    out
+}
+
+/// One of several cases: when it holds, and its answers.
+fn case(scene: &Scene, table: &Table, each: &Shown, about: &[Answer]) -> String {
+    let mut out = String::new();
+    let mut say = |line: &str| out.extend([line, "\n"]);
+    say(&format!(
+        "\n{} {}{}",
+        scene.contacts[table.contact].name,
+        table.called(each.case).words(),
+        holds_where(scene, &table.law, each.case)
+    ));
+    let Some(told) = &each.told else {
+        say(NO_END);
+        return out;
+    };
+    let Some(impact) = told.alone() else {
+        return out;
+    };
+    let is_common = |a: &&Answer| about.iter().any(|b| b.name == a.name);
+    for answer in told.answers.iter().filter(|a| !is_common(a)) {
+        say(&format!("  {}", super::text::says(scene, None, answer)));
+        for line in &answer.text {
+            say(&format!("    {}", line.written(|e| unicode(scene, e))));
+        }
+        let of_case = |words: &&Sentence| impact.assumptions().all(|own| own != **words);
+        for words in answer.assumptions.iter().filter(of_case) {
+            let words = words.written(|e| unicode(scene, e));
+            say(&format!("    given that {words}"));
+        }
+    }
+    for words in (impact.proof.assumptions.iter()).filter(|w| w.condition().is_some()) {
+        let words = words.written(|e| unicode(scene, e));
+        say(&format!("  given that {words}"));
+    }
+    for definition in &impact.derivation.definitions {
+        say(&format!(
+            "    with {} = {}",
+            definition.name,
+            unicode(scene, &definition.value)
+        ));
+    }
+    say(&format!("  {}", proved(&impact.proof)));
     out
 }
 
@@ -253,7 +263,7 @@ fn verdict(scene: &Scene, table: &Table, judged: &Judged) -> Option<String> {
 }
 
 fn bound(scene: &Scene, b: &Bound) -> String {
-    let edge = || sign(&(&b.left - &b.right), &scene.domains).is_some_and(Sign::is_not_negative);
+    let edge = || sign(&(&b.left - &b.right), &scene.domains).is_not_negative();
     let relation = match b.relation {
         Relation::LessEqual if edge() => Relation::Equal,
         relation => relation,

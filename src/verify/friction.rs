@@ -299,7 +299,9 @@ impl Signs<'_> {
     /// Whether friction has the direction of a case; `None` where a sign is not known.
     fn goes(&self, side: &Side, case: &Case) -> Option<bool> {
         match case.direction {
-            Direction::Asked(s) => direction_holds(self.sign(&side.of)?, || self.sign(&side.tie), s),
+            Direction::Asked(s) => {
+                direction_holds(self.sign(&side.of)?, || self.sign(&side.tie), s)
+            }
             _ => Some(true),
         }
     }
@@ -351,7 +353,9 @@ pub fn strange(scene: &Scene) -> Vec<String> {
     let gains = values.gain > ROUNDING * values.energy_before;
     let gains = gains.then(|| values.told(law.hypothesis.name()));
     let name = &scene.contacts[contact].name;
-    let jams = values.jams.then(|| format!("at the values of the scene `{name}` {JAMS}"));
+    let jams = values
+        .jams
+        .then(|| format!("at the values of the scene `{name}` {JAMS}"));
     gains.into_iter().chain(jams).collect()
 }
 
@@ -487,10 +491,7 @@ fn energy(law: &Friction, gains: usize, points: usize) -> Check {
 }
 
 /// The one case that holds at a point where the path has no end, if it is one without.
-fn without_end<'a>(
-    table: &'a Table,
-    exact: &Point<Rational>,
-) -> Result<Option<&'a Case>, String> {
+fn without_end<'a>(table: &'a Table, exact: &Point<Rational>) -> Result<Option<&'a Case>, String> {
     let has_value = |case: &Case| case.impulse.iter().all(|p| p.evaluate(exact).is_some());
     match holding(table, exact)? {
         Some(case) if case.ends && !has_value(case) => Ok(None),

@@ -86,11 +86,7 @@ pub(super) fn at_given(
 }
 
 /// The same at the values that a scene gives its other parameters, where it has no one formula on the domain.
-fn at_values(
-    scene: &Scene,
-    table: &Table,
-    event: FrictionEvent,
-) -> Result<Option<Expr>, Stop> {
+fn at_values(scene: &Scene, table: &Table, event: FrictionEvent) -> Result<Option<Expr>, Stop> {
     let Some(mu) = table.law.mu.as_symbol() else {
         return Ok(None);
     };

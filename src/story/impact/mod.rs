@@ -34,20 +34,7 @@ pub(super) fn tell(
     named: &[(Symbol, Expr)],
     given: &[(String, Expr)],
 ) -> Result<StageTold, Refused> {
-    let mut base = stage.scene.clone();
-    for (body, (v, w)) in base
-        .bodies
-        .iter_mut()
-        .zip(before.velocity.iter().zip(&before.spin))
-    {
-        body.velocity = v.clone();
-        // A particle that went round a point had an angular velocity, but has no spin.
-        body.spin = if body.is_particle() {
-            Expr::zero()
-        } else {
-            w.clone()
-        };
-    }
+    let mut base = in_motion(&stage.scene, &before);
     touches(course, stage, &base, one_sided, &before)?;
     hinges_fit(stage, &base, &before)?;
     let approaching = approach(stage, &base, &before)?;
@@ -126,6 +113,21 @@ pub(super) fn tell(
         checks,
         ..StageTold::new(stage, before, after)
     })
+}
+
+/// The scene with its bodies in the motion that comes in.
+fn in_motion(scene: &Scene, before: &State) -> Scene {
+    let mut scene = scene.clone();
+    let motions = before.velocity.iter().zip(&before.spin);
+    for (body, (v, w)) in scene.bodies.iter_mut().zip(motions) {
+        body.velocity = v.clone();
+        // A particle that went round a point had an angular velocity, but has no spin.
+        body.spin = match body.is_particle() {
+            true => Expr::zero(),
+            false => w.clone(),
+        };
+    }
+    scene
 }
 
 /// That nothing can come out of an impact, and why.

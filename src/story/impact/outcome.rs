@@ -13,7 +13,7 @@ use crate::formula::{Sentence, sentence};
 use crate::laws::Unknown;
 use crate::scene::{Ask, ContactLaw, EnergyWhen, ImpulseAt, OneSided, Question, Scene, Stage};
 use crate::story::{Case, Part, Refused, State};
-use crate::verify::possible::Rule;
+use crate::verify::possible::{Possible, Rule};
 use crate::verify::{self, friction};
 
 /// Name of the question after the kinetic energy lost; no name of a scene has a blank at its end.
@@ -119,11 +119,7 @@ pub(super) fn case(
     let proof = verify::prove(&scene, &derivation);
     let mut possible = verify::possible::judge(&scene, &derivation);
     possible.put(handed, &scene.values(), &scene.domains);
-    if scene.decided().any(|(_, d)| d.law.supposing.is_some()) {
-        for (words, need) in conditions.iter().filter(|(words, _)| *words == outcome.words) {
-            possible.suppose(words, need, &scene.values());
-        }
-    }
+    against_values(&mut possible, &scene, &conditions, &outcome.words);
     Ok(Some(Case {
         possible,
         active: set.iter().map(|i| one_sided[*i].name.clone()).collect(),
@@ -138,6 +134,20 @@ pub(super) fn case(
         derivation,
         proof,
     }))
+}
+
+/// Takes note where given values do not keep to what is supposed of a contact with friction.
+fn against_values(
+    possible: &mut Possible,
+    scene: &Scene,
+    conditions: &[(String, Expr)],
+    rubs: &str,
+) {
+    if scene.decided().any(|(_, d)| d.law.supposing.is_some()) {
+        for (words, need) in conditions.iter().filter(|(words, _)| words == rubs) {
+            possible.suppose(words, need, &scene.values());
+        }
+    }
 }
 
 /// Closed forms by name of the answer, with what was handed on put in.

@@ -251,9 +251,7 @@ impl Possible {
         self.conditions.push(Condition {
             rule: Rule::Supposed,
             words: words.to_owned(),
-            otherwise: format!(
-                "what is supposed, that {words}, does not happen: it takes {takes}"
-            ),
+            otherwise: format!("what is supposed, that {words}, does not happen: it takes {takes}"),
             verdict: Verdict::Where,
             essential: None,
             is_equation: false,
