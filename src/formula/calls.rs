@@ -248,7 +248,7 @@ impl Parser<'_> {
                 Tok::Name(name) => Some(name.clone()),
                 _ => None,
             };
-            let hat = name.as_ref().is_some_and(|n| n.ends_with("_hat"));
+            let hat = name.as_ref().is_some_and(|n| n.contains("_hat"));
             let goes_on = match &token.tok {
                 Tok::Name(_) if hat => false,
                 Tok::Name(_) | Tok::Root(_) | Tok::Fraction | Tok::Open(_) if numeric => true,

@@ -3,7 +3,7 @@
 use num_traits::{Signed, Zero};
 
 use super::fault::Faulty;
-use super::written::{Link, Shape, Sign, Written, has_arrow};
+use super::written::{Link, Shape, Sign, Written, has_components, is_unit};
 use crate::expr::{Expr, Function, Rational, number};
 
 /// Largest exponent that is a plain number.
@@ -37,7 +37,7 @@ pub(crate) fn value(w: &Written, mode: Mode) -> Faulty<Value> {
             "i_hat" => Ok(Value::Vector([Expr::one(), Expr::zero(), Expr::zero()])),
             "j_hat" => Ok(Value::Vector([Expr::zero(), Expr::one(), Expr::zero()])),
             "k_hat" => Ok(Value::Vector([Expr::zero(), Expr::zero(), Expr::one()])),
-            name if mode.components && has_arrow(name) => {
+            name if mode.components && has_components(name) => {
                 let along = |axis: &str| Expr::symbol(&format!("{name}_{axis}"));
                 Ok(Value::Vector([along("x"), along("y"), along("z")]))
             }
@@ -57,7 +57,7 @@ pub(crate) fn value(w: &Written, mode: Mode) -> Faulty<Value> {
                     .is_some_and(|k| number::is(&k.value, 2, 1)) =>
         {
             match value(base, mode)? {
-                Value::Vector(v) => scalar(dot(&v, &v)),
+                Value::Vector(v) => scalar(dotted(&v, &v)),
                 Value::Scalar(e) => scalar(e.powi(2)),
                 Value::Matrix(_) => Err(base.fault(UNREAD)),
             }
@@ -80,7 +80,7 @@ pub(crate) fn value(w: &Written, mode: Mode) -> Faulty<Value> {
             }
         }
         Shape::Call(Function::Abs, inner) if inner.is_vector() => match value(inner, mode)? {
-            Value::Vector(v) => scalar(dot(&v, &v).sqrt()),
+            Value::Vector(v) => scalar(dotted(&v, &v).sqrt()),
             _ => Err(inner.fault(UNREAD)),
         },
         Shape::Call(function, argument) => scalar(Expr::call(*function, one(argument, mode)?)),
@@ -90,7 +90,7 @@ pub(crate) fn value(w: &Written, mode: Mode) -> Faulty<Value> {
         Shape::Bracket(inner) => value(inner, mode),
         Shape::Abs(inner) => scalar(match value(inner, mode)? {
             Value::Scalar(e) => Expr::call(Function::Abs, e),
-            Value::Vector(v) => dot(&v, &v).sqrt(),
+            Value::Vector(v) => dotted(&v, &v).sqrt(),
             Value::Matrix(rows) => determinant(inner, &rows)?,
         }),
         Shape::Measured(inner, unit) => times(w, value(inner, mode)?, unit.value()),
@@ -128,6 +128,14 @@ pub(crate) fn one(w: &Written, mode: Mode) -> Faulty<Expr> {
 const UNREAD: &str = "a matrix stands where a number is expected";
 /// Most pieces of an entry of a product of matrices.
 const LARGEST_ENTRY: usize = 2_000;
+
+/// The scalar product of two vectors.
+fn dotted(a: &[Expr; 3], b: &[Expr; 3]) -> Expr {
+    match a == b && is_unit(a) {
+        true => Expr::one(),
+        false => dot(a, b),
+    }
+}
 
 fn sum(w: &Written, terms: &[(Sign, Written)], mode: Mode) -> Faulty<Value> {
     let mut scalars = Vec::with_capacity(terms.len());
@@ -196,7 +204,7 @@ fn product(w: &Written, factors: &[(Link, Written)], mode: Mode) -> Faulty<Value
             }
             // Two vectors: a dot or a cross says what is meant.
             (Value::Vector(b), Some((at, Value::Vector(a)))) => match link {
-                Link::Times => scalars.insert(at, dot(&a, &b)),
+                Link::Times => scalars.insert(at, dotted(&a, &b)),
                 Link::Cross => held = Some((at, Value::Vector(cross(&a, &b)))),
                 _ => {
                     let message = "a product of two vectors is not read";

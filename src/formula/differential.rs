@@ -6,7 +6,7 @@
 use super::fault::{Fault, Faulty};
 use super::lexer::Lexer;
 use super::symbols::name;
-use super::symbols::{Parts, is_greek};
+use super::symbols::{Parts, both, is_greek};
 use super::token::Tok;
 
 /// Ways to write the sign of a derivative, apart from a plain d.
@@ -177,8 +177,11 @@ impl Lexer<'_> {
         order: u32,
     ) -> Faulty<Tok> {
         let dots = match (of.accent, order) {
-            ("", 1) => Some("dot"),
-            ("", 2) | ("dot", 1) => Some("ddot"),
+            ("dot", 1) => Some("ddot"),
+            ("vec_dot", 1) => Some("vec_ddot"),
+            ("hat_dot", 1) => Some("hat_ddot"),
+            ("" | "vec" | "hat", 1) => both(of.accent, "dot"),
+            ("" | "vec" | "hat", 2) => both(of.accent, "ddot"),
             _ => None,
         };
         if by.key() == "t"

@@ -10,7 +10,7 @@ use super::marks::{decoration, degree_mark, shows_space};
 use super::note::{Note, Remark};
 use super::symbols::{Symbols, is_angle_name};
 use super::token::{Before, Literal, Tok, Token};
-use super::written::{has_arrow, is_axis};
+use super::written::{has_components, is_axis};
 use crate::expr::{Symbol, ratio};
 
 /// The decision that turns all slashes round; sites below it are turned one by one.
@@ -152,7 +152,7 @@ impl<'a> Lexer<'a> {
             Tok::Comma => self.vectors = true,
             // A letter and `_hat` at least.
             Tok::Name(name) if name.len() > 4 => {
-                self.vectors |= name.contains("_hat") || has_arrow(name);
+                self.vectors |= is_axis(name) || has_components(name);
             }
             _ => {}
         }

@@ -4,7 +4,7 @@
 //! fit together. Symbols carry their units themselves and do not go together with units here.
 
 use super::fault::Faulty;
-use super::written::{Link, Shape, Written};
+use super::written::{Link, Shape, Written, is_axis};
 use crate::dimension::Dimension;
 use crate::expr::{Rational, ratio};
 
@@ -13,7 +13,7 @@ pub(super) fn dimension(w: &Written) -> Faulty<Dimension> {
     let none = Dimension::none();
     match &w.shape {
         Shape::Number(_) => Ok(none),
-        Shape::Symbol(name) if &**name == "pi" || name.ends_with("_hat") => Ok(none),
+        Shape::Symbol(name) if &**name == "pi" || is_axis(name) => Ok(none),
         Shape::Symbol(name) => {
             let message = format!("the symbol {name} stands beside units");
             Err(w

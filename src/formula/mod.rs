@@ -71,7 +71,7 @@ pub use visible::{is_hidden, visible};
 pub use write::{latex_name, latex_words, unicode_name, write_latex, write_plain, write_unicode};
 pub use written::{Link, Shape, Sign, Written};
 pub(crate) use written::{
-    along_axes, along_axis, has_arrow, is_component, vector_name, with_arrow,
+    along_axes, along_axis, has_arrow, has_components, is_component, vector_name, with_arrow,
 };
 
 /// Longest formula, in bytes.
@@ -522,7 +522,17 @@ fn read_inner(
     }
     let mut contents = Vec::with_capacity(sides.len());
     let mut unit = None;
-    let components = lexer.vectors && sides.iter().any(|side| side.written.multiplies_vectors());
+    let any = |so: &dyn Fn(&Written) -> bool| sides.iter().any(|side| so(&side.written));
+    let mode = convert::Mode {
+        upper: true,
+        components: true,
+    };
+    // Names with hats alone are numbers where they are no vectors: `\hat{a}\hat{b}`.
+    let known = |name: &str| symbols.find(&format!("{name}_x")).is_some();
+    let vectors = |w: &Written| w.multiplies_vectors() || w.names_hat(&known);
+    let components = lexer.vectors
+        && any(&vectors)
+        && (any(&Written::names_vector) || !any(&|w| convert::value(w, mode).is_err()));
     for (i, side) in sides.iter().enumerate() {
         // The name of what is asked for stays a name.
         let named = i == 0 && sides.len() > 1 && matches!(side.written.shape, Shape::Symbol(_));

@@ -233,6 +233,18 @@ impl<'a> FromIterator<&'a str> for Symbols {
 /// Accents that are part of a name.
 pub(crate) const ACCENTS: [&str; 6] = ["hat", "dot", "ddot", "bar", "vec", "tilde"];
 
+/// What two accents over one letter make: dots may stand over an arrow or a hat, and an accent over nothing is itself.
+pub(crate) fn both(one: &'static str, other: &'static str) -> Option<&'static str> {
+    match (one, other) {
+        ("", only) | (only, "") => Some(only),
+        ("vec", "dot") | ("dot", "vec") => Some("vec_dot"),
+        ("vec", "ddot") | ("ddot", "vec") => Some("vec_ddot"),
+        ("hat", "dot") | ("dot", "hat") => Some("hat_dot"),
+        ("hat", "ddot") | ("ddot", "hat") => Some("hat_ddot"),
+        _ => None,
+    }
+}
+
 /// A name in its parts.
 #[derive(Clone, Default, Debug)]
 pub(crate) struct Parts {
@@ -294,8 +306,8 @@ pub(crate) fn parts_of(name: &str) -> Parts {
         // `x_dot1` is ẋ₁: digits may stand right behind an accent.
         let letters = piece.trim_end_matches(|c: char| c.is_ascii_digit());
         match ACCENTS.iter().find(|accent| **accent == letters) {
-            Some(accent) if parts.accent.is_empty() => {
-                parts.accent = accent;
+            Some(accent) if both(parts.accent, accent).is_some() => {
+                parts.accent = both(parts.accent, accent).unwrap_or_default();
                 parts.pieces.push(piece[letters.len()..].to_string());
             }
             _ => parts.pieces.push(piece.replace(['{', '}'], "")),

@@ -4,12 +4,14 @@ use super::fault::{Fault, Faulty};
 use super::lexer::Lexer;
 use super::note::Remark;
 use super::symbols::name;
-use super::symbols::{Parts, among, is_greek, letters_at};
+use super::symbols::{Parts, among, both, is_greek, letters_at};
 use super::token::{Before, Literal, Pair, Tok, function};
 use crate::expr::{Function, Symbol, ratio};
 
 /// Most different names in one formula.
 const MAX_NAMES: usize = 256;
+/// What makes bold letters vectors: their products, and bars around them.
+const SIGNS_OF_VECTORS: [&str; 8] = ["\\times", "×", "\\cdot", "·", "|", "‖", "\\lVert", "\\|"];
 /// Functions that are not read, with brackets behind their names.
 const OTHER_FUNCTIONS: &str = "max min hypot floor ceil round trunc erf erfc gcd lcm mod sinc mean avg sum conj conjugate arg int \
     integrate diff matrix heaviside Heaviside determinant trace transpose imag real cross dot lim limit solve factorial lambertw";
@@ -614,15 +616,12 @@ impl Lexer<'_> {
         if let Some(found) = name::find(&whole, self.symbols) {
             return Ok(Tok::Name(found.name.clone()));
         }
-        let crossed = || ["\\times", "×"].iter().any(|sign| self.text.contains(sign));
-        let whole =
-            match whole.bold && whole.accent.is_empty() && self.symbols.is_open() && crossed() {
-                true => Parts {
-                    accent: "vec",
-                    ..whole
-                },
-                false => whole,
-            };
+        let crossed = || (SIGNS_OF_VECTORS.iter()).any(|sign| self.text.contains(sign));
+        let whole = match both("vec", whole.accent).filter(|_| whole.bold && self.symbols.is_open())
+        {
+            Some(accent) if crossed() => Parts { accent, ..whole },
+            _ => whole,
+        };
         let key = whole.key();
         if let Some(vector) = unit_vector(&key).or_else(|| self.symbols.axis(&key)) {
             return Ok(Tok::Name(vector.into()));

@@ -408,7 +408,7 @@ pub fn latex_name(name: &str) -> String {
     };
     let mut out = match parts.accent {
         "" => base,
-        accent => format!("\\{accent}{{{base}}}"),
+        accent => (accent.split('_')).fold(base, |base, accent| format!("\\{accent}{{{base}}}")),
     };
     if !parts.index.is_empty() {
         let pieces: Vec<String> = parts.pieces.iter().map(|p| latex_index(p)).collect();
@@ -425,7 +425,7 @@ pub fn latex_name(name: &str) -> String {
 }
 
 /// `dv/dx` as v and x.
-fn derivative(name: &str) -> Option<(&str, &str)> {
+pub(super) fn derivative(name: &str) -> Option<(&str, &str)> {
     let (above, below) = name.split_once("/d")?;
     above.strip_prefix('d').map(|above| (above, below))
 }
@@ -497,15 +497,15 @@ pub fn unicode_name(name: &str) -> String {
             None => parts.base.clone(),
         },
     };
-    match parts.accent {
-        "" => {}
-        "hat" => out.push('\u{302}'),
-        "dot" => out.push('\u{307}'),
-        "ddot" => out.push('\u{308}'),
-        "bar" => out.push('\u{304}'),
-        "vec" => out.push('\u{20d7}'),
-        _ => out.push('\u{303}'),
-    }
+    out.extend(parts.accent.split('_').filter_map(|accent| match accent {
+        "" => None,
+        "hat" => Some('\u{302}'),
+        "dot" => Some('\u{307}'),
+        "ddot" => Some('\u{308}'),
+        "bar" => Some('\u{304}'),
+        "vec" => Some('\u{20d7}'),
+        _ => Some('\u{303}'),
+    }));
     let single = parts.base.chars().count() == 1 || greek_letter(&parts.base).is_some();
     if single && parts.index.bytes().all(|b| b.is_ascii_digit()) {
         let low = |c: char| char::from_u32(u32::from('₀') + c.to_digit(10).unwrap_or(0));

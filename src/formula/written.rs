@@ -4,7 +4,7 @@ use super::Fault;
 use super::token::Literal;
 use crate::dimension::Unit;
 use crate::expr::number::ten_to;
-use crate::expr::{Function, Symbol};
+use crate::expr::{Expr, Function, Symbol};
 
 /// A written piece and its place in the text.
 #[derive(Clone, PartialEq, Debug)]
@@ -151,7 +151,7 @@ impl Written {
     /// Whether it is a vector by the way it is written: an arrow, a unit vector, components, or a sum or multiple of such.
     pub(crate) fn is_vector(&self) -> bool {
         match &self.shape {
-            Shape::Symbol(name) => name.ends_with("_hat") || has_arrow(name),
+            Shape::Symbol(name) => is_axis(name) || has_components(name),
             Shape::List(_) => true,
             Shape::Bracket(inner) | Shape::Fraction(inner, _) | Shape::Measured(inner, _) => {
                 inner.is_vector()
@@ -191,7 +191,9 @@ impl Written {
                 let vectors = factors.iter().filter(|(_, f)| f.is_vector()).count();
                 vectors > 1 && factors.iter().any(|(_, f)| arrow(f))
             }
-            Shape::Abs(inner) | Shape::Power(inner, _) => arrow(inner),
+            Shape::Abs(inner) | Shape::Call(Function::Abs, inner) | Shape::Power(inner, _) => {
+                arrow(inner) && !inner.is_hat()
+            }
             // `\vec{v} + 2\hat{\imath}` adds components too.
             Shape::Sum(terms) => {
                 let plain = |w: &Written| w.is_vector() && !w.has_arrow();
@@ -202,9 +204,30 @@ impl Written {
         here || self.pieces().into_iter().any(Written::multiplies_vectors)
     }
 
-    fn has_arrow(&self) -> bool {
+    /// Whether a name in it has an arrow.
+    pub(super) fn names_vector(&self) -> bool {
         match &self.shape {
             Shape::Symbol(name) => has_arrow(name),
+            _ => self.pieces().into_iter().any(Written::names_vector),
+        }
+    }
+
+    /// Whether such a name in it has a hat.
+    pub(super) fn names_hat(&self, so: &dyn Fn(&str) -> bool) -> bool {
+        match &self.shape {
+            Shape::Symbol(name) => name.contains("_hat") && has_components(name) && so(name),
+            _ => self.pieces().into_iter().any(|piece| piece.names_hat(so)),
+        }
+    }
+
+    /// Whether it is one name with a hat, which may be a number: `\hat{p}^2`.
+    fn is_hat(&self) -> bool {
+        matches!(&self.shape, Shape::Symbol(name) if !has_arrow(name))
+    }
+
+    fn has_arrow(&self) -> bool {
+        match &self.shape {
+            Shape::Symbol(name) => has_components(name),
             Shape::Bracket(inner) | Shape::Fraction(inner, _) | Shape::Measured(inner, _) => {
                 inner.has_arrow()
             }
@@ -309,15 +332,28 @@ pub(crate) fn is_axis(name: &str) -> bool {
 
 /// Whether a name stands for a vector by its arrow.
 pub(crate) fn has_arrow(name: &str) -> bool {
-    name.contains("_vec") && super::symbols::parts_of(name).accent == "vec"
+    let name = super::write::derivative(name).map_or(name, |(above, _)| above);
+    name.contains("_vec") && super::symbols::parts_of(name).accent.starts_with("vec")
 }
 
-/// Whether a name is the component of a vector written with an arrow along x, y or z.
+/// Whether a name stands for a vector by its arrow or its hat, apart from those along the axes.
+pub(crate) fn has_components(name: &str) -> bool {
+    let hat = || name.contains("_hat") && super::symbols::parts_of(name).accent.starts_with("hat");
+    has_arrow(name) || !is_axis(name) && hat()
+}
+
+/// Whether components are those of a unit vector, by the hat over its name.
+pub(super) fn is_unit([x, ..]: &[Expr; 3]) -> bool {
+    let stem = x.as_symbol().and_then(|name| name.strip_suffix("_x"));
+    stem.is_some_and(|name| super::symbols::parts_of(name).accent == "hat")
+}
+
+/// Whether a name is the component of a vector written with an arrow or a hat along x, y or z.
 pub(crate) fn is_component(name: &str) -> bool {
     let stem = ["_x", "_y", "_z"]
         .iter()
         .find_map(|axis| name.strip_suffix(axis));
-    stem.is_some_and(has_arrow)
+    stem.is_some_and(has_components)
 }
 
 /// What a component is one of, and along which axis: `v_{Bx}` and `v_B_x` of v_B along x, `x` of nothing.

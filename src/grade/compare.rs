@@ -257,7 +257,7 @@ fn spread(sides: &[Content]) -> Vec<Content> {
     let components = |side: &Content| {
         let e = side.expr().filter(|_| vectors)?;
         let mut names = e.symbols();
-        names.retain(|name| formula::has_arrow(name) && !formula::is_component(name));
+        names.retain(|name| formula::has_components(name) && !formula::is_component(name));
         let part =
             |name: &Symbol, axis: &str| (name.clone(), Expr::symbol(&format!("{name}_{axis}")));
         let along = |axis: &str| e.substitute(&names.iter().map(|n| part(n, axis)).collect());

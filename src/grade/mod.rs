@@ -315,6 +315,12 @@ fn from_reading(mut reading: Reading, question: &Question) -> Key {
         Symbols::open()
     };
     declare(&mut readable, &question);
+    // Vectors whose components are known are named whole, in bold too.
+    for name in question.given().map(|given| &given.name) {
+        if formula::is_component(name) && readable.find(&name[..name.len() - 2]).is_none() {
+            readable.declare(&name[..name.len() - 2]);
+        }
+    }
     Key {
         reading,
         question,

@@ -15,7 +15,9 @@ use super::unit::misfit;
 use super::{Key, declare};
 use crate::dimension;
 use crate::expr::{Expr, Symbol};
-use crate::formula::{self, Content, Fault, Note, Reading, Relation, Remark, Shape, Symbols};
+use crate::formula::{
+    self, Content, Fault, Note, Reading, Relation, Remark, Shape, Symbols, Written,
+};
 use direction::direction;
 pub(super) use direction::{sense, with_sign};
 pub(super) use measured::{is_quantity, quantity};
@@ -65,6 +67,11 @@ pub(super) fn expected(text: &str, symbols: &Symbols) -> Result<Reading, Fault> 
     }
 }
 
+/// What tells that a letter is a vector.
+const ARROWS: [&str; 7] = [
+    "\\vec", "\\math", "\\b", "\\text", "\\hat", "\\over", "\u{20d7}",
+];
+
 /// Letters for two directions.
 const AXES: [[&str; 2]; 2] = [["i", "j"], ["e_x", "e_y"]];
 
@@ -88,6 +95,19 @@ fn english(text: &str, reading: &Reading) -> Option<Fault> {
     Some(*Fault::new(message, note.start, note.end).hint(hint))
 }
 
+/// Whether a text multiplies letters as vectors: with ×, or with a dot where the expected formula multiplies vectors, unless
+/// arrows tell vectors from sizes.
+fn multiplies_letters(key: &Key, text: &str, usual: Option<&Reading>) -> bool {
+    let has = |signs: &[&str]| signs.iter().any(|sign| text.contains(sign));
+    let crossed = match usual {
+        Some(reading) => reading.notes.iter().any(|n| n.remark == Remark::Cross),
+        None => has(&["×", "\\times"]),
+    };
+    let dotted = || has(&["·", "\\cdot", "⋅"]) && !has(&ARROWS);
+    let mut sides = key.reading.written.iter();
+    crossed || dotted() && sides.any(Written::multiplies_vectors)
+}
+
 /// A text with letters for the vectors that the expected formula writes with arrows over them.
 fn arrows_put(key: &Key, text: &str) -> Option<Reading> {
     let names = key.reading.symbols();
@@ -95,12 +115,14 @@ fn arrows_put(key: &Key, text: &str) -> Option<Reading> {
         true => &name[..name.len() - 2],
         false => name,
     });
-    let mut arrows: Vec<&str> = stems.filter(|name| formula::has_arrow(name)).collect();
+    let mut arrows: Vec<&str> = stems.filter(|name| formula::has_components(name)).collect();
     arrows.dedup();
     let mut symbols = key.readable.clone();
     for arrow in &arrows {
-        let plain = formula::latex_name(&arrow.replacen("_vec", "", 1));
-        symbols.declare_as(*arrow, Some(&plain), None);
+        let plain = arrow.replacen("_vec", "", 1).replacen("_hat", "", 1);
+        if !names.contains(&*plain) {
+            symbols.declare_as(*arrow, Some(&formula::latex_name(&plain)), None);
+        }
     }
     (!arrows.is_empty()).then(|| formula::read(text, &symbols).ok())?
 }
@@ -251,11 +273,9 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
         return worded(key, &spaced, reading);
     }
     // `r × p`, where the expected formula has arrows over these letters.
-    let crossed = match &usual {
-        Ok(reading) => reading.notes.iter().any(|n| n.remark == Remark::Cross),
-        Err(_) => ["×", "\\times"].iter().any(|sign| text.contains(sign)),
-    };
-    if crossed && let Some(reading) = arrows_put(key, text) {
+    if multiplies_letters(key, text, usual.as_ref().ok())
+        && let Some(reading) = arrows_put(key, text)
+    {
         return worded(key, text, reading);
     }
     if !usual.as_ref().is_ok_and(vector)

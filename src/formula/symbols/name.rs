@@ -290,7 +290,9 @@ fn put_prime(parts: &mut Parts, count: usize) {
 
 fn put_index(parts: &mut Parts, index: &str) {
     match super::ACCENTS.iter().find(|accent| **accent == index) {
-        Some(accent) if parts.accent.is_empty() => parts.accent = accent,
+        Some(accent) if super::both(parts.accent, accent).is_some() => {
+            parts.accent = super::both(parts.accent, accent).unwrap_or_default();
+        }
         _ => parts.index.push_str(index),
     }
 }
@@ -395,12 +397,19 @@ pub(crate) fn find<'s>(parts: &Parts, symbols: &'s Symbols) -> Option<&'s super:
             return Some(found);
         }
     }
-    if parts.bold && parts.accent.is_empty() {
-        let arrow = Parts {
-            accent: "vec",
+    // Bold for an arrow; and dots over an arrow where they are declared alone.
+    let other = match parts.accent {
+        "" | "dot" | "ddot" if parts.bold => super::both("vec", parts.accent),
+        "vec_dot" => Some("dot"),
+        "vec_ddot" => Some("ddot"),
+        _ => None,
+    };
+    if let Some(accent) = other {
+        let tried = Parts {
+            accent,
             ..parts.clone()
         };
-        if let Some(found) = symbols.find(&arrow.key()) {
+        if let Some(found) = symbols.find(&tried.key()) {
             return Some(found);
         }
     }
@@ -471,11 +480,9 @@ pub(crate) fn base(text: &str, at: usize, parts: &mut Parts, depth: u32) -> Opti
                     };
                     let accent = parts.accent;
                     let end = argument(text, behind, parts, depth)?;
-                    // `\ddot{\vec r}`: the dots count; any other double accent is another name.
+                    // `\ddot{\vec r}`
                     if parts.accent != accent {
-                        let dots = matches!(accent, "dot" | "ddot") && parts.accent == "vec";
-                        dots.then_some(())?;
-                        parts.accent = accent;
+                        parts.accent = super::both(parts.accent, accent)?;
                     }
                     end
                 }
@@ -545,7 +552,7 @@ pub(crate) fn combining(text: &str, at: usize, parts: &mut Parts) -> usize {
     let Some(c) = text[at..].chars().next() else {
         return at;
     };
-    parts.accent = match c {
+    let accent = match c {
         '\u{302}' => "hat",
         '\u{307}' => "dot",
         '\u{308}' => "ddot",
@@ -554,7 +561,11 @@ pub(crate) fn combining(text: &str, at: usize, parts: &mut Parts) -> usize {
         '\u{303}' => "tilde",
         _ => return at,
     };
-    at + c.len_utf8()
+    match super::both(parts.accent, accent) {
+        Some(accent) => parts.accent = accent,
+        None => return at,
+    }
+    combining(text, at + c.len_utf8(), parts)
 }
 
 /// The base in braces, or the next single one, behind an accent or a font.
