@@ -436,7 +436,7 @@ fn numbers_are_judged_where_the_answer_needs_no_other_values() {
         ("h", "45 m", "DIFF_TOLERANCE"),
         ("h", "43.75", "DIFF_UNIT_MISSING"),
         ("h", "43.75 kg", "DIFF_UNIT"),
-        ("u", "11.7 m/s", "DIFF_DIMENSION"),
+        ("u", "11.7 m/s", "DIFF_KIND"),
     ] {
         let entry = sheet.entry(quantity).expect("a question of the scene");
         let grade = sheet.judge(&entry, answer, &Options::default());

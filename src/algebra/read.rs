@@ -270,6 +270,12 @@ impl Field {
         let parts = self.integer(self.exponent_parts);
         let multiple = self.mul(&exponent, &parts)?;
         if !multiple.den.is_one() || self.sign_of(&base) != Some(Sign::Positive) {
+            // A negative exponent stands below, of whatever is a power.
+            if exponent.num.leading_is_negative() {
+                let turned = self.neg(&exponent);
+                let below = self.opaque_power(base, turned);
+                return self.div(&self.integer(1), &below);
+            }
             return Ok(self.opaque_power(base, exponent));
         }
         let constant = multiple.num.terms().find(|(mono, _)| mono_is_one(mono));

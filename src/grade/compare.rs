@@ -436,15 +436,13 @@ pub(super) fn values(ctx: &Context, expected: &Content, answer: &Content) -> Gra
             if a.is_zero() && e.iter().all(|e| equal(ctx, e, a)) {
                 return scalars(ctx, &e[0], a);
             }
-            let nonzero: Vec<&Expr> = e.iter().filter(|c| !c.is_zero()).collect();
-            let right = nonzero.len() == 1 && equal(ctx, nonzero[0], a);
-            let message = match right {
-                true => "the component is right; the direction is missing",
-                false => "a vector is expected, and the answer is a number",
-            };
-            let hint = "a vector is asked: give its direction or components";
-            Grade::told("DIFF_KIND", "kind", message, hint)
+            // `ω² \vec r` is a vector as well.
+            match &spread(&[expected.clone(), answer.clone()])[1] {
+                vector @ Content::Vector(_) => values(ctx, expected, vector),
+                _ => without_direction(ctx, e, a),
+            }
         }
+        (Content::Vector(e), Content::Quantity(q)) => without_direction(ctx, e, &q.value),
         (Content::Scalar(e), Content::Vector(a)) => {
             // `-(3v/2l) k` for a spin: only the sense of rotation is left of the vector.
             if a[0].is_zero() && a[1].is_zero() {
@@ -454,6 +452,29 @@ pub(super) fn values(ctx: &Context, expected: &Content, answer: &Content) -> Gra
         }
         _ => kind("the answer is of another kind than what is expected"),
     }
+}
+
+/// A number where a vector is expected, which may be its size.
+fn without_direction(ctx: &Context, expected: &[Expr; 3], answer: &Expr) -> Grade {
+    let tolerance = ctx.options.tolerance.as_ref();
+    let is_it = |e: &Expr| {
+        let near = tolerance.and_then(|t| number::within(answer, e, t));
+        near == Some(true) || equal(ctx, e, answer)
+    };
+    let nonzero: Vec<&Expr> = expected.iter().filter(|c| !c.is_zero()).collect();
+    let message = match nonzero[..] {
+        [only] if is_it(only) => "the component is right; the direction is missing",
+        _ if is_it(&size(expected)) => "the size is right; the direction is missing",
+        _ => "a vector is expected, and the answer is a number",
+    };
+    let hint = "a vector is asked: give its direction or components";
+    Grade::told("DIFF_KIND", "kind", message, hint)
+}
+
+/// The size of a vector.
+pub(super) fn size(vector: &[Expr; 3]) -> Expr {
+    let squares = vector.each_ref().map(|part| part.powi(2));
+    Expr::sum(squares.to_vec()).sqrt()
 }
 
 fn equal(ctx: &Context, expected: &Expr, answer: &Expr) -> bool {

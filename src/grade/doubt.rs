@@ -394,7 +394,7 @@ pub(super) fn remarks(reading: &Reading, answer: &str, verdict: Verdict) -> Vec<
     let worth = |note: &&Note| match note.remark {
         Remark::Letters => wrong && note.end > note.start + 3,
         Remark::Radians | Remark::NaturalLogarithm => wrong,
-        Remark::UnitOfSymbols | Remark::Words => true,
+        Remark::UnitOfSymbols | Remark::Words | Remark::Cross => true,
         Remark::Inverse | Remark::UnitNotSymbols => wrong,
         _ => false,
     };

@@ -35,7 +35,7 @@ pub(crate) fn note(code: &str) -> &'static str {
     NOTES.split(' ').find(own).unwrap_or("DIFF")
 }
 
-const NOTES: &str = "DIFF_DIMENSION DIFF_SIGN DIFF_FACTOR DIFF_FACTOR_SYMBOL DIFF_MAGNITUDE DIFF_RECIPROCAL \
+const NOTES: &str = "DIFF_DIMENSION DIFF_KIND DIFF_SIGN DIFF_FACTOR DIFF_FACTOR_SYMBOL DIFF_MAGNITUDE DIFF_RECIPROCAL \
     DIFF_SIN_COS DIFF_HALF DIFF_EXCHANGED DIFF_SYMBOL_SIGN DIFF_SPECIAL_CASE DIFF_SMALL_ANGLE DIFF_POWER \
     DIFF_SYMBOLS DIFF_ROUNDED DIFF_DEGREES DIFF_TEN DIFF_SIGN_COMPONENT DIFF_SWAPPED";
 
@@ -231,6 +231,10 @@ fn dimensions(ctx: &Context, expected: &Expr, answer: &Expr) -> Option<Diagnosis
         None => dimension::of(expected, &known).ok().flatten()?,
     };
     match dimension::of(answer, &known) {
+        Ok(Some(_)) if answer.is_constant() => {
+            let message = "a formula is asked for, and the answer is a number";
+            Some(Diagnosis::new("KIND", message, message))
+        }
         Ok(Some(found)) if found != asked => {
             let missing = asked.over(&found);
             let message = format!(

@@ -229,8 +229,12 @@ impl Sheet {
         declared.dimension = Some(first.dimension.clone());
         declared.domains = where_it_is(&chosen, declared.domains);
         let latex = component.map_or(question.latex.clone(), |_| Some(first.latex.clone()));
-        let asked = Given::new(name, latex, Some(first.dimension.clone()));
-        declared.asked.push(asked);
+        // Without the mark of the moment after, where nothing else is called so.
+        let bare = latex.as_deref().and_then(|l| l.strip_suffix("^{+}"));
+        let spelled = [latex.clone(), bare.map(String::from)];
+        let spelled = (spelled.into_iter().enumerate()).filter(|(i, l)| *i == 0 || l.is_some());
+        let asked = spelled.map(|(_, l)| Given::new(name, l, Some(first.dimension.clone())));
+        declared.asked.extend(asked);
         // `d = …` and `d ≤ …` answer a question about d.
         let bound = self.bounds().find(|b| b.name == first.name);
         let bound = bound.map(|b| Given::new(b.parameter, None, Some(first.dimension.clone())));

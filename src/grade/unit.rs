@@ -7,7 +7,7 @@ use super::scalar::scalars;
 use super::{Diagnosis, Grade, Key, Tolerance, Verdict, number};
 use crate::dimension::{self, Clash, Dimension, Unit};
 use crate::expr::{Expr, Rational, ratio};
-use crate::formula::{self, Content, Fault, Quantity, Reading, Remark, Symbols, write_plain};
+use crate::formula::{self, Content, Fault, Quantity, Reading, Remark, Symbols};
 
 /// The unit behind a vector, a pair, or a formula in symbols, which carry none in their content.
 ///
@@ -195,13 +195,16 @@ pub(super) fn misfit(key: &Key, text: &str, reading: &Reading) -> Option<Vec<usi
     let fits = asked(key)? == reading.unit.as_ref()?.dimension;
     let mut places = Vec::new();
     let mut at = note.start;
-    for word in text.get(note.start..note.end)?.trim_end().split(' ') {
+    let unit = text.get(note.start..note.end)?.trim_end();
+    for word in unit.split([' ', '/']) {
         let power = word
             .get(1..)
             .filter(|_| word.starts_with(|c: char| c.is_ascii_alphabetic()))?;
         let plain = |c: char| "^{}²³".contains(c) || c.is_ascii_digit();
         power.chars().all(plain).then_some(())?;
-        places.push(at);
+        if !text[..at].ends_with('/') {
+            places.push(at);
+        }
         at += word.len() + 1;
     }
     (!fits && !places.is_empty()).then_some(places)
@@ -279,12 +282,13 @@ pub(super) fn quantities(ctx: &Context, expected: &Quantity, answer: &Quantity) 
         return Grade::different("DIFF_UNIT", "dimension", words).with(found);
     }
     if finding.is_equivalent() && expected.unit.value() != answer.unit.value() {
-        let words = format!(
-            "{} {} is the same in {}",
-            write_plain(&answer.written),
-            answer.unit_text,
-            expected.unit_text
-        );
+        let own = number::shown(&answer.written);
+        let own = match own.len() > LONGEST_NUMBER {
+            true => "the number in",
+            false => &own,
+        };
+        let (given, unit) = (&answer.unit_text, &expected.unit_text);
+        let words = format!("{own} {given} is the same in {unit}");
         let found = Diagnosis::new("UNIT_CONVERTED", words.clone(), words);
         finding.diagnosis.push(found);
     } else if finding.verdict == Verdict::Different
@@ -301,6 +305,9 @@ pub(super) fn quantities(ctx: &Context, expected: &Quantity, answer: &Quantity) 
     }
     finding
 }
+
+/// Longest number that is told again, in bytes.
+const LONGEST_NUMBER: usize = 16;
 
 fn wrong(asked: &Dimension, given: &Dimension, unit: &str, number_right: bool) -> Grade {
     let words = format!("{unit} measures {given}, and {asked} is asked for");

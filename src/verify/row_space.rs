@@ -106,7 +106,9 @@ pub fn judge(
         let others = others.filter(|(_, row)| row.0.iter().any(|e| !e.is_zero()));
         let others: Vec<&PrintedRow> = others.map(|(_, row)| row).collect();
         let sound = |row: &PrintedRow| law(row) && (!square || adds(row, &others));
-        let mend = mend(row, rows, &sound);
+        // First of all what gives a law as it is written here: a row times a number is one as well.
+        let written = |row: &PrintedRow| places.iter().all(|p| is_written(p, row));
+        let mend = mend(row, rows, &|r| written(r) && sound(r)).or_else(|| mend(row, rows, &sound));
         match places.iter().all(|p| fulfilled(p, row)) {
             true => Row::Masked(mend),
             false => Row::Wrong(mend),
@@ -115,7 +117,7 @@ pub fn judge(
     Ok(judged.collect())
 }
 
-/// The change of one place that makes a row a law: its sign, a factor of two, sine for cosine, nothing, or what stands
+/// The change of one place that makes a row a law: its sign, a factor of two or four, sine for cosine, nothing, or what stands
 /// elsewhere in the matrix.
 fn mend(row: &PrintedRow, rows: &[PrintedRow], law: &dyn Fn(&PrintedRow) -> bool) -> Option<Mend> {
     let mut elsewhere: Vec<&Expr> = Vec::new();
@@ -136,11 +138,14 @@ fn mend(row: &PrintedRow, rows: &[PrintedRow], law: &dyn Fn(&PrintedRow) -> bool
         law(&new).then_some(Mend { column, value })
     };
     let near = |e: &Expr| {
-        let [twice, half] = [e * &Expr::from(2), e * &Expr::ratio(1, 2)];
-        [-e, Expr::zero(), twice, half, arcs_exchanged(e, &|_| true)]
+        let times = |above, below| e * &Expr::ratio(above, below);
+        let turned = arcs_exchanged(e, &|_| true);
+        let [twice, half, fourfold, quarter] =
+            [(2, 1), (1, 2), (4, 1), (1, 4)].map(|(a, b)| times(a, b));
+        [-e, Expr::zero(), twice, half, turned, fourfold, quarter]
     };
     // A turned sign in any place comes before a missing factor in another.
-    let simple = (0..5).find_map(|kind| {
+    let simple = (0..7).find_map(|kind| {
         let mut places = tries.iter().filter(|(_, e)| !e.is_zero());
         places.find_map(|(column, e)| changed(*column, near(e)[kind].clone()))
     });
@@ -200,6 +205,16 @@ fn is_law(place: &Place, stated: &[usize], row: &PrintedRow) -> bool {
     }
     let rest = (0..place.laws.laws.len()).filter(|i| !stated.contains(i));
     within(rest.map(|i| law_row(place, i)).collect(), row)
+}
+
+/// Whether a row is one of the laws as it is written, or with every sign turned.
+fn is_written(place: &Place, row: &PrintedRow) -> bool {
+    let same = |own: &[Rational]| {
+        let all = (0..place.laws.laws.len()).map(|i| law_row(place, i));
+        all.into_iter().any(|law| law == own)
+    };
+    let turned = |row: &[Rational]| row.iter().map(|x| -x.clone()).collect::<Vec<_>>();
+    spread(place, row).is_some_and(|row| same(&row) || same(&turned(&row)))
 }
 
 fn fulfilled(place: &Place, row: &PrintedRow) -> bool {

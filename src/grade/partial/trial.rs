@@ -56,6 +56,20 @@ const LARGEST: usize = 2_000;
 
 const SIDE: &str = "check from which side the angle is measured";
 
+/// To how many digits a coefficient of a formula is rounded that would be exact without a factor between these bounds.
+fn rounded_to(e: &Expr, [low, high]: [&Rational; 2]) -> Option<u32> {
+    match e.node() {
+        Node::Number(value) if !value.is_integer() => {
+            let digits = number::digits_shared(value, &[value / high, value / low]);
+            (digits > 0 && number::has_digits(value, digits)).then_some(digits)
+        }
+        Node::Sum(parts) | Node::Product(parts) => {
+            parts.iter().find_map(|part| rounded_to(part, [low, high]))
+        }
+        _ => None,
+    }
+}
+
 impl<'a> Trial<'a> {
     pub(super) fn new(ctx: &'a Context, expected: &'a Expr, answer: &'a Expr) -> Trial<'a> {
         let domains = ctx.domains();
@@ -171,11 +185,12 @@ impl<'a> Trial<'a> {
             if let Some([low, high]) = number::bounds(&k).filter(|_| !fraction) {
                 let one = ratio(1, 1);
                 let near = |k: &&Rational| (*k - &one).abs() < ratio(1, 50);
-                if [&low, &high].iter().all(near) {
-                    let off = to_f64(&(&low - &one).abs().max((&high - &one).abs()));
-                    let digits = (-off.log10()).clamp(1.0, 30.0) as u32;
+                if [&low, &high].iter().all(near)
+                    && let Some(digits) = rounded_to(self.answer, [&low, &high])
+                {
+                    let s = if digits == 1 { "" } else { "s" };
                     let message =
-                        format!("right to about {digits} digits: a coefficient was rounded");
+                        format!("right to about {digits} digit{s}: a coefficient was rounded");
                     let hint = "give exact coefficients rather than rounded ones";
                     return Some(Diagnosis::new("ROUNDED", message, hint));
                 }

@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::super::{Given, Key, key_of, read, show, unit};
 use super::{Entry, Sheet};
 use crate::answer::Form;
-use crate::expr::{Expr, Symbol};
-use crate::formula::{Content, Reading};
+use crate::expr::{Expr, Symbol, only};
+use crate::formula::{self, Content, Reading};
 
 /// Size beyond which a named part is not put in.
 const LONGEST: usize = 2_000;
@@ -52,7 +52,7 @@ impl Sheet {
         }
         let told = |(name, value): (&Symbol, &Expr)| {
             let value = crate::formula::write_plain(value);
-            used.contains(name).then(|| format!("{name} = {value}"))
+            (used.contains(name) && !name.ends_with("_hat_z")).then(|| format!("{name} = {value}"))
         };
         let told: Vec<String> = values.iter().filter_map(told).collect();
         let put_in = content.map(&|e| e.substitute(&values));
@@ -101,6 +101,13 @@ impl Sheet {
         let mut values: BTreeMap<Symbol, Expr> = parts.into_iter().chain(known).collect();
         let given = |name: &Symbol| self.scene.parameter(name).is_some();
         let asked = |name: &Symbol| of(&entry.question.name).any(|a| *a.name == **name);
+        // The unit vectors along the only normal and tangent.
+        let contacts = self.impact(entry).0.contacts.iter();
+        if let Some([x, y]) = only(contacts.filter_map(|c| c.normal.as_ref())) {
+            let [n, t] = ["n_hat", "t_hat"].map(formula::along_axes);
+            values.extend(n.into_iter().zip([x.clone(), y.clone(), Expr::zero()]));
+            values.extend(t.into_iter().zip([-y, x.clone(), Expr::zero()]));
+        }
         values.retain(|name, _| !given(name) && !asked(name));
         let mut question = entry.key.question.clone();
         question

@@ -4,7 +4,7 @@ use super::super::believed::{self, Written};
 use super::super::relation::of_which;
 use super::super::worked::worked;
 use super::super::{
-    Diagnosis, Grade, Key, Options, Proof, Strength, Tolerance, Verdict, cases, fraction,
+    Diagnosis, Grade, Key, Options, Proof, Strength, Tolerance, Verdict, cases, compare, fraction,
     judge_against, key_of, number, read,
 };
 use super::{Bound, Entry, Sheet, rows};
@@ -12,7 +12,7 @@ use crate::answer::Answer;
 use crate::dimension;
 use crate::expr::{Expr, Symbol, Vector, dot};
 use crate::formula::{self, Content, Quantity, Reading, Relation};
-use crate::scene::{Ask, EnergyWhen};
+use crate::scene::{Ask, EnergyWhen, Scene};
 use num_traits::{One, Signed};
 
 /// `ΔK = -…` as what is lost, where that is asked: a change is counted as a gain.
@@ -145,7 +145,7 @@ impl Sheet {
 
     /// The grade of a formula with its number behind it: that of the formula, and where it is right that of the number.
     fn judge_worked(&self, entry: &Entry, answer: &str, options: &Options) -> Option<Grade> {
-        let reading = read::answer(&entry.key, answer).ok()?;
+        let reading = with_unit_last(&entry.key, answer, read::answer(&entry.key, answer).ok()?);
         let parts = worked(&entry.key, answer, &reading)?;
         let mut grade = self.judge_in_given(entry, parts.formula, options);
         if parts.is_broken(&mut grade) {
@@ -203,7 +203,7 @@ impl Sheet {
         if grade.verdict != Verdict::Different || options.strength == Strength::Fast {
             return grade;
         }
-        if self.has_finite_force(&reading) {
+        if self.is_of_impact(entry) && self.has_finite_force(&reading) {
             grade.note = "DIFF_BELIEF";
             let message = "a finite force, or the time the collision takes, enters: in a collision neither has an impulse";
             let hint = "which forces are large enough to matter in so short a time?";
@@ -253,7 +253,8 @@ impl Sheet {
             grade.note = "DIFF_BELIEF";
         }
         if told && !others.iter().any(|d| d.code == "OTHER_QUANTITY") {
-            others.extend(self.another_answer(entry, answer));
+            let other = self.size_of_vector(entry, answer);
+            others.extend(other.or_else(|| self.another_answer(entry, answer)));
         }
         slip_first(&mut found, &mut grade.diagnosis);
         let mut all: Vec<Diagnosis> = sign.into_iter().chain(found).collect();
@@ -349,6 +350,12 @@ impl Sheet {
         })
     }
 
+    /// Whether a question is of an impact, and not of a motion before or after it.
+    fn is_of_impact(&self, entry: &Entry) -> bool {
+        let of = |impact: &Scene| impact.question(&entry.question.name).is_some();
+        self.story.is_none() || self.impacts.iter().any(of)
+    }
+
     /// Whether gravity or a time enters that neither the scene nor an answer names.
     fn has_finite_force(&self, reading: &Reading) -> bool {
         let given = |s: &Symbol| {
@@ -358,6 +365,21 @@ impl Sheet {
         let symbols = reading.symbols();
         let mut finite = (symbols.iter()).filter(|s| matches!(&***s, "g" | "t" | "dt"));
         finite.any(|s| !given(s))
+    }
+
+    /// The size of the vector whose component is asked for.
+    fn size_of_vector(&self, entry: &Entry, answer: &str) -> Option<Diagnosis> {
+        entry.component?;
+        let whole = self.entry(&entry.question.name).ok()?;
+        let Content::Vector(vector) = &whole.key.reading.content else {
+            return None;
+        };
+        let size = Content::Scalar(compare::size(vector));
+        let key = key_of(size, &whole.key.question);
+        let right = judge_against(&key, answer, &Options::default()).is_equivalent();
+        let message = format!("this is the size of {}, not its component", whole.name);
+        let hint = "along which direction is it asked for?";
+        right.then(|| Diagnosis::new("OTHER_QUANTITY", message, hint))
     }
 
     /// The answer to another question that this is, of any stage.
@@ -516,6 +538,20 @@ fn number_with_unit(key: &Key, reading: &Reading, answer: &str) -> Option<Readin
     (fits && number.literal.is_some()).then_some(number)
 }
 
+/// A chain whose last side is a number with its unit, where letters of that are quantities of the scene: `x = u t ≈ 1.08 m`.
+fn with_unit_last(key: &Key, answer: &str, mut reading: Reading) -> Reading {
+    let at = reading.written.last().map_or(0, |w| w.start);
+    if let Content::Relations(sides, _) = &mut reading.content
+        && sides.len() > 2
+        && let Some((last, text)) = sides.last_mut().zip(answer.get(at..))
+        && let Some(side) = read::answer(key, text).ok()
+        && let Some(number) = number_with_unit(key, &side, text)
+    {
+        *last = number.content;
+    }
+    reading
+}
+
 /// The grade of `6.54 m/s²`, where m and s are quantities of the scene and another dimension is asked: as a number with its unit,
 /// which is what people write.
 fn measured_otherwise(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
@@ -616,7 +652,14 @@ fn about_z(ask: &Ask, reading: &Reading) -> Option<String> {
             _ => None,
         };
     };
-    let flat = x.is_zero() && y.is_zero() && reading.unit.is_none();
+    let flat = x.is_zero() && y.is_zero();
     let value = if *clockwise { -z } else { z.clone() };
-    flat.then(|| formula::write_plain(&value))
+    let shown = || match &reading.unit {
+        Some(unit) => {
+            let value = &value * &unit.value();
+            format!("{} {}", number::shown(&value), unit.dimension.si())
+        }
+        None => number::shown(&value),
+    };
+    flat.then(shown)
 }

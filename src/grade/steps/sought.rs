@@ -283,7 +283,7 @@ impl Desk<'_> {
     }
 
     /// The value of the parameter that is sought.
-    fn value_of(&self, sought: &Sought) -> Option<Expr> {
+    pub(super) fn value_of(&self, sought: &Sought) -> Option<Expr> {
         let solved = || {
             let condition = self.truth(sought.condition.as_ref()?);
             solve_for(&condition, &sought.parameter, &self.sheet.scene.domains)

@@ -119,6 +119,18 @@ fn in_dollars(text: &str) -> Option<Vec<&str>> {
     Some(formulas.collect())
 }
 
+/// Whether a word is made of letters, with those that an apostrophe ties to it: `Newton's`, `d’Alembert's`, but no `v'`.
+fn is_letters(word: &str) -> bool {
+    let owner = ["'s", "’s"].iter().find_map(|end| word.strip_suffix(end));
+    let owner = owner
+        .filter(|name| name.chars().count() > 2)
+        .unwrap_or(word);
+    let name = ["d'", "d’"]
+        .iter()
+        .find_map(|start| owner.strip_prefix(start));
+    name.unwrap_or(owner).chars().all(char::is_alphabetic)
+}
+
 pub(super) fn is_word(text: &str) -> bool {
     let function = ["sin", "cos", "tan", "cot"].contains(&text);
     text.len() > 2 && !function && text.chars().all(|c| c.is_ascii_alphabetic())
@@ -142,7 +154,9 @@ pub(super) fn supposition(text: &str) -> Option<(&str, Vec<&str>)> {
     });
     let text = text[tries.map_or(0, str::len)..].trim_start_matches([':', ',', ' ']);
     let lead = text.split(' ').next()?;
-    let leads = ["for", "if", "when", "setting", "at", "with", "take", "let"];
+    let leads = [
+        "for", "if", "when", "setting", "at", "with", "take", "taking", "putting", "let",
+    ];
     let supposes = leads.contains(&&*lead.to_ascii_lowercase());
     if !supposes {
         let words = [" for ", " if ", " when "].into_iter();
@@ -344,8 +358,7 @@ fn says(words: &str, least: usize) -> bool {
         let start = words.trim().get(..lead.len());
         start.is_some_and(|start| start.eq_ignore_ascii_case(lead))
     });
-    let is_said =
-        |word: &str| word.chars().all(char::is_alphabetic) && (reason || !turns_sign(word));
+    let is_said = |word: &str| is_letters(word) && (reason || !turns_sign(word));
     all().count() + usize::from(all().any(number)) + usize::from(reason) >= least
         && all().all(|word| is_said(word) || number(word))
 }
@@ -365,8 +378,7 @@ fn without_reason(text: &str) -> &str {
         |&(at, length): &(usize, usize)| !relates(&text[at..]) && text[at + length..].contains(' ');
     let is_place = |&(at, length): &(usize, usize)| {
         let mut words = text[at + length..].split([' ', '-']);
-        relates(&text[..at])
-            && words.all(|word| word.chars().all(char::is_alphabetic) && !turns_sign(word))
+        relates(&text[..at]) && words.all(|word| is_letters(word) && !turns_sign(word))
     };
     let place = || first(PLACES).filter(is_place);
     match first(REASONS).filter(is_reason).or_else(place) {
@@ -396,7 +408,7 @@ fn describes_it(words: &str) -> bool {
     // `(phidot - ω)` is a factor.
     let subtracts = [" -", "- "].iter().any(|sign| words.contains(sign));
     let mut all = words.split([' ', ',', '-']).filter(|word| !word.is_empty());
-    let plain = |word: &str| word.chars().all(char::is_alphabetic) && !changes(word);
+    let plain = |word: &str| is_letters(word) && !changes(word);
     let name = |word: &str| formula::is_greek(word) || !is_word(word) || word.len() < 4;
     let says = all.clone().any(|word| !name(word)) && all.clone().count() > 1;
     says && !subtracts && all.all(|word| plain(word) && !turns_sign(word))

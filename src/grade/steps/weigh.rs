@@ -12,6 +12,7 @@ use super::impact::Stand;
 use super::link::{Link, Values, Weighed, equal, gaps, mentions_vectors};
 use super::names::named;
 use super::rounded::{is_near, pieces};
+use super::sought::Sought;
 use super::text::{beside, equations, supposition, with_direction};
 use super::{Desk, Status};
 use crate::algebra::{self, Sign};
@@ -246,12 +247,21 @@ impl Desk<'_> {
         let links: Option<Vec<Vec<Link>>> = then.iter().map(|then| self.links(then)).collect();
         let links: Vec<Link> = links?.into_iter().flatten().collect();
         let domains = &self.sheet.scene.domains;
+        // `For e = 1: H = h`, where the question is which H it is.
+        let is_side = |s: &Sought| {
+            let mut sides = links.iter().flat_map(|link| &link.sides);
+            !there.contains_key(&s.parameter) && sides.any(|side| side.name() == Some(&s.parameter))
+        };
+        let solved = self.sought.iter().filter(|s| is_side(s));
+        let solved: Values = solved
+            .filter_map(|s| Some((s.parameter.clone(), self.value_of(s)?)))
+            .collect();
         let at = |e: &Expr, instead: &Values| {
             let there = there.iter();
             let there = there.map(|(name, value)| (name.clone(), self.put_in(value, instead)));
             let there: Values = there.collect();
             let value = self.put_in(e, instead).substitute(&there);
-            self.at_sought(value).substitute(&there)
+            self.at_sought(value).substitute(&solved).substitute(&there)
         };
         let values = self.sheet.scene.values();
         let zero = |instead: &Values| {
