@@ -13,7 +13,7 @@ use crate::expr::{Expr, Symbol, dot, minus, only};
 use crate::formula::{
     self, Content, Reading, Relation, Sentence, Symbols, sentence, write_unicode,
 };
-use crate::scene::{Ask, FrictionEvent, Printed, Scene};
+use crate::scene::{Ask, Body, FrictionEvent, Printed, Scene};
 
 /// What formulas are read and evaluated with.
 pub(super) struct Desk<'a> {
@@ -58,7 +58,7 @@ fn geometry(
         }
     }
     // The moment of inertia of the one body that can move about each point.
-    if let Some(body) = only(scene.bodies.iter().filter(|b| !b.is_fixed())) {
+    if let Some(body) = only_body(scene) {
         for point in &scene.points {
             let [x, y] = minus(&point.at, &body.center).map(|d| d.powi(2));
             let name = Symbol::from(format!("I_{}", point.name));
@@ -175,7 +175,13 @@ impl<'a> Desk<'a> {
                     let value = [x.clone(), y.clone(), Expr::zero()];
                     arrows.extend(arrow.map(|arrow| (arrow, value)));
                 }
-                one => closed.extend(one.iter().map(|v| (format!("{name}^-").into(), v.clone()))),
+                one => {
+                    if let (true, [about]) = (name.starts_with("H_"), one) {
+                        let out = [Expr::zero(), Expr::zero(), about.clone()];
+                        arrows.extend(arrowed(&format!("{name}^-")).map(|arrow| (arrow, out)));
+                    }
+                    closed.extend(one.iter().map(|v| (format!("{name}^-").into(), v.clone())));
+                }
             }
         }
         Desk {
@@ -407,8 +413,39 @@ pub(super) fn for_the_coefficient(scene: &Scene, words: &Sentence) -> Sentence {
     }
 }
 
+/// The one body that can move.
+fn only_body(scene: &Scene) -> Option<&Body> {
+    only(scene.bodies.iter().filter(|b| !b.is_fixed()))
+}
+
+/// The motion of bodies just before, by their names, and for the one body that can move its kinetic energy and, as vectors
+/// out of the page, its angular momenta about points.
+fn motion_before(scene: &Scene) -> Vec<(String, Vec<Expr>)> {
+    let moving = scene.bodies.iter().filter(|b| !b.is_fixed());
+    let motion = moving.flat_map(|b| {
+        [
+            (format!("v_{}", b.name), b.velocity.to_vec()),
+            (format!("omega_{}", b.name), vec![b.spin.clone()]),
+        ]
+    });
+    let mut all: Vec<(String, Vec<Expr>)> = motion.collect();
+    if let Some(body) = only_body(scene) {
+        let twice =
+            &body.mass * &dot(&body.velocity, &body.velocity) + &body.inertia * &body.spin.powi(2);
+        let energy = twice * Expr::ratio(1, 2);
+        all.extend(["K", "E_k"].map(|name| (name.to_string(), vec![energy.clone()])));
+        for point in &scene.points {
+            let [x, y] = minus(&body.center, &point.at);
+            let [u, v] = &body.velocity;
+            let about = &body.mass * &(&x * v - &y * u) + &body.inertia * &body.spin;
+            all.push((format!("H_{}", point.name), vec![about]));
+        }
+    }
+    all
+}
+
 /// What is asked of velocities and spins, just before: one value, or two components.
-fn before(scene: &Scene) -> Vec<(&str, Vec<Expr>)> {
+fn before(scene: &Scene) -> Vec<(String, Vec<Expr>)> {
     let asked = scene.asked_of_impact().filter_map(|q| {
         let value = match &q.ask {
             Ask::Velocity { body, point, along } => {
@@ -428,7 +465,15 @@ fn before(scene: &Scene) -> Vec<(&str, Vec<Expr>)> {
             }
             _ => return None,
         };
-        Some((q.name.as_str(), value))
+        Some((q.name.clone(), value))
     });
-    asked.collect()
+    // Of several stages the bodies tell one beginning alone.
+    let is_one = scene.questions.iter().all(|q| q.stage.is_none());
+    let mut all = if is_one {
+        motion_before(scene)
+    } else {
+        Vec::new()
+    };
+    all.extend(asked);
+    all
 }
