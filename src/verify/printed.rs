@@ -439,7 +439,8 @@ impl Desk<'_> {
             let shown = values.iter().map(|parts| {
                 let parts: Vec<String> = parts.iter().map(|v| self.tidy(v)).collect();
                 match parts.as_slice() {
-                    [x, y, _] => format!("[{x}, {y}]"),
+                    [x, y, z] if z == "0" => format!("[{x}, {y}]"),
+                    [x, y, z] => format!("[{x}, {y}, {z}]"),
                     one => one.concat(),
                 }
             });

@@ -261,6 +261,8 @@ impl<'a> Desk<'a> {
         if used.is_empty() {
             return Some(vec![e.clone()]);
         }
+        let nothing = used.iter().map(|name| (name.clone(), Expr::zero()));
+        let nothing: BTreeMap<Symbol, Expr> = nothing.collect();
         let along = |axis: usize| -> BTreeMap<Symbol, Expr> {
             let part = |name: &Symbol| (name.clone(), self.arrows[name][axis].clone());
             used.iter().map(part).collect()
@@ -270,7 +272,7 @@ impl<'a> Desk<'a> {
             let slope = e.derivative(name).symbols();
             used.iter().all(|other| !slope.contains(other))
         });
-        let whole = e.substitute(&along(2)).is_zero() && linear;
+        let whole = e.substitute(&nothing).is_zero() && linear;
         whole.then(|| (0..3).map(|axis| e.substitute(&along(axis))).collect())
     }
 
