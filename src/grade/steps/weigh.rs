@@ -255,6 +255,7 @@ impl Desk<'_> {
         let solved = self.sought.iter().filter(|s| is_side(s));
         let solved: Values = solved
             .filter_map(|s| Some((s.parameter.clone(), self.value_of(s)?)))
+            .filter(|(_, value)| there.keys().any(|name| value.mentions(name)))
             .collect();
         let at = |e: &Expr, instead: &Values| {
             let there = there.iter();
