@@ -109,10 +109,11 @@ fn solved(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
         if rows[k][k].is_zero() {
             return None;
         }
-        for i in (0..n).filter(|i| *i != k) {
-            let share = rows[i][k] / rows[k][k];
-            for j in k..=n {
-                rows[i][j] -= share * rows[k][j];
+        let pivot = rows[k].clone();
+        for (_, row) in rows.iter_mut().enumerate().filter(|(i, _)| *i != k) {
+            let share = row[k] / pivot[k];
+            for (x, p) in row.iter_mut().zip(&pivot).skip(k) {
+                *x -= share * p;
             }
         }
     }

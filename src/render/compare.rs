@@ -93,7 +93,9 @@ pub fn text(scene: &Scene, c: &Comparison) -> String {
         .filter_map(|r| r.outcome.as_ref().ok())
         .any(|o| o.energy.jams)
     {
-        say(format!("\n{contact} {JAMS}"));
+        say(format!(
+            "\n{contact} {JAMS}: slip dies at once, whatever the speed of approach"
+        ));
     }
     out
 }

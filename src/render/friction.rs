@@ -256,7 +256,9 @@ fn verdict(scene: &Scene, table: &Table, judged: &Judged) -> Option<String> {
         });
         if values.jams {
             let contact = &scene.contacts[table.contact].name;
-            words.push(format!("{contact} {JAMS}"));
+            words.push(format!(
+                "{contact} {JAMS}: slip dies at once, whatever the speed of approach"
+            ));
         }
     }
     (!words.is_empty()).then(|| words.join("\n"))

@@ -360,8 +360,7 @@ pub fn strange(scene: &Scene) -> Vec<String> {
 }
 
 /// What a contact does that jams.
-pub const JAMS: &str =
-    "jams (Painlevé): the normal velocity does not grow while it slips, and slip dies at once";
+pub const JAMS: &str = "jams (Painlevé)";
 
 /// The impact at the values of the scene.
 fn at_values(scene: &Scene) -> Option<AtValues> {
