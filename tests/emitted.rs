@@ -320,7 +320,7 @@ fn calls<'a>(case: &'a Case, text: &'a str, language: Language, own: &'a str) ->
         };
         let given: Vec<String> = (0..points[0].len()).map(|i| format!("at_[{i}]")).collect();
         let (name, given, count) = (format!("{own}{name}"), given.join(", "), points.len());
-        let rows = |open: char, close: char| {
+        let rows = |open: &str, close: &str| {
             let each: Vec<String> = points
                 .iter()
                 .map(|x| format!("{open}{}{close}", list(x)))
@@ -340,15 +340,15 @@ fn calls<'a>(case: &'a Case, text: &'a str, language: Language, own: &'a str) ->
             Language::C => format!(
                 "{{ static const double points_[][{}] = {{{}}};\nfor (int i = 0; i < {count}; i++) {{ const double *at_ = points_[i]; printf(\"%.17g\\n\", {name}({given})); }} }}\n",
                 points[0].len(),
-                rows('{', '}')
+                rows("{", "}")
             ),
             Language::Rust | Language::NoStd => format!(
-                "for at_ in [{}] {{ println!(\"{{:?}}\", {name}({given})); }}\n",
-                rows('[', ']')
+                "show(&[{}], &|at_| {name}({given}));\n",
+                rows("&[", "]")
             ),
             Language::Python | Language::NumPy => format!(
                 "for at_ in [{}]: print(repr({name}({given})))\n",
-                rows('[', ']')
+                rows("[", "]")
             ),
         });
     }
@@ -455,8 +455,16 @@ fn in_rust(language: Language, own: &str) -> [String; 2] {
         ));
         whole.push_str(&format!("pub mod {} {{\n{text}}}\n", case.name));
     }
-    [whole, format!("{main}}}\n")]
+    [whole, format!("{SHOW}{main}}}\n")]
 }
+
+/// What shows the values of a function at some points, compiled once for all.
+const SHOW: &str = "fn show(points: &[&[f64]], f: &dyn Fn(&[f64]) -> f64) {
+    for x in points {
+        println!(\"{:?}\", f(x));
+    }
+}
+";
 
 fn rustc(folder: &Path, arguments: &[&str]) {
     let always = ["--edition", "2021", "-D", "warnings"];
