@@ -348,6 +348,18 @@ fn a_falsified_step_threshold_limit_or_motion_handed_on_is_refused() {
                     format!("{path}, impact {i}, {mode}")
                 });
             }
+            let moving = scene.bodies.iter().filter(|b| !b.is_fixed());
+            for name in moving.map(|b| &b.name).take(1) {
+                let mut tampered = json.clone();
+                let place = &mut tampered["impacts"][i]["before"][name]["center"][0];
+                let value = place.as_str().expect("a formula");
+                // Farther by one length of the scene.
+                let Some(length) = scene.parameters.iter().find(|p| p.unit == "m") else {
+                    continue;
+                };
+                *place = format!("{value} + {}", length.name).into();
+                tried.note(caught(&tampered), "place", || format!("{path}, {name}"));
+            }
             for (list, kind) in [("handed", "handed on"), ("earlier", "earlier answer")] {
                 let symbols = impact[list].as_object().into_iter().flatten();
                 for (symbol, value) in symbols {
@@ -363,7 +375,7 @@ fn a_falsified_step_threshold_limit_or_motion_handed_on_is_refused() {
     });
     assert!(passed.is_empty(), "accepted:\n{}", passed.join("\n"));
     assert!(refused.values().sum::<usize>() > 150, "{refused:?}");
-    for kind in ["handed on", "earlier answer", "mode of friction"] {
+    for kind in ["handed on", "earlier answer", "mode of friction", "place"] {
         assert!(refused.contains_key(kind), "{refused:?}");
     }
 }

@@ -117,6 +117,13 @@ fn impact(scene: &Scene, value: &Value) -> Result<Impact, Unusable> {
         let [x, y] = [0, 1].map(|k| read(&before["velocity"][k], &symbols));
         body.velocity = [x?, y?];
         body.spin = read(&before["spin"], &symbols)?;
+        // A place that is another one than the file leads to is held against the scene followed.
+        let [x, y] = [0, 1].map(|k| read(&before["center"][k], &symbols));
+        let told = [x?, y?].map(|e| e.substitute(&earlier));
+        let is_same = |(told, own): (&Expr, &Expr)| told == own || vanishes(scene, &(told - own));
+        if !told.iter().zip(&body.center).all(is_same) {
+            body.center = told;
+        }
     }
     let active = names(&value["active"]);
     let StageKind::Impact { one_sided: at, .. } = &placed.kind else {

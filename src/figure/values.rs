@@ -126,10 +126,10 @@ impl Values {
             .evaluate(&Point::default())
             .filter(|s: &f64| *s > 0.0)
             .unwrap_or(1.0);
-        let unit = if parameter.unit == "1" {
-            String::new()
-        } else {
-            format!(" {}", parameter.unit.replace("^2", "²").replace("^3", "³"))
+        let unit = parameter.unit.replace("^2", "²").replace("^3", "³");
+        let unit = match unit.as_str() {
+            "1" => String::new(),
+            _ => format!(" {}", unit.replace('*', " ")),
         };
         Some(format!("{}{unit}", short(value / scale)))
     }

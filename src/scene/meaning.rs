@@ -63,7 +63,7 @@ pub(super) fn infer(scene: &mut Scene) {
         let uses = uses(scene);
         let all = scene.parameters.iter().enumerate();
         // A statement says what its letters are.
-        let is_said = |name| is_in(&scene.statement, name) || is_told_before(scene, name);
+        let is_said = |name| is_introduced(scene, name) || is_told_before(scene, name);
         let unsaid = all.filter(|(_, p)| p.meaning.is_empty() && !is_said(&p.name));
         unsaid
             .filter_map(|(i, p)| Some((i, words(scene, &uses, &p.name)?)))
@@ -82,11 +82,32 @@ pub(super) fn infer(scene: &mut Scene) {
     }
 }
 
-/// Whether a text names a symbol, by its name or its Greek letter.
-fn is_in(text: &str, name: &Symbol) -> bool {
-    let mut words = text.split(|c: char| !c.is_alphanumeric() && c != '_');
+/// Whether a statement introduces a symbol, by its name or its Greek letter: `of length l`. Behind a sign or another symbol it
+/// is part of a formula, which says nothing of it: `−m g`.
+fn is_introduced(scene: &Scene, name: &Symbol) -> bool {
+    let is_symbol = |word: &str| {
+        let mut all = scene.parameters.iter().map(|p| &p.name);
+        all.any(|p| word == p.as_ref() || word == unicode_name(p))
+    };
     let letter = unicode_name(name);
-    words.any(|word| word == name.as_ref() || word == letter)
+    let text = scene.statement.as_str();
+    let is_inner = |c: char| c.is_alphanumeric() || c == '_';
+    let mut before = 0;
+    for word in text.split_inclusive(|c| !is_inner(c)) {
+        let (lead, at) = (
+            text[..before].trim_end(),
+            word.trim_end_matches(|c| !is_inner(c)),
+        );
+        before += word.len();
+        if at != name.as_ref() && at != letter {
+            continue;
+        }
+        let last = lead.rsplit(|c| !is_inner(c)).next().unwrap_or("");
+        if !lead.ends_with(['−', '-', '+', '=', '*', '/', '·', '√', '^']) && !is_symbol(last) {
+            return true;
+        }
+    }
+    false
 }
 
 /// Whether the page of a lone impact writes out the motion just before, of which a symbol is a component.

@@ -93,8 +93,8 @@ impl Solution {
     }
 }
 
-/// What counts as positive, and which symbols count the other way: answers asked for clockwise, and the ω of a spin −ω.
-pub(super) fn axes(scene: &Scene, unless: &str) -> Vec<Inline> {
+/// Symbols that count clockwise: answers asked for so, and the ω of a spin −ω.
+fn clockwise(scene: &Scene) -> Vec<Symbol> {
     let told = |name: &Symbol| {
         let mut all = scene.parameters.iter();
         all.any(|p| p.name == *name && p.meaning.contains("clockwise"))
@@ -107,6 +107,17 @@ pub(super) fn axes(scene: &Scene, unless: &str) -> Vec<Inline> {
     }
     let mut seen = BTreeSet::new();
     clockwise.retain(|name| seen.insert(name.clone()));
+    clockwise
+}
+
+/// What counts as positive, where some symbols count the other way: even a brief solution says so.
+pub(super) fn turned_axes(scene: &Scene) -> Option<Vec<Inline>> {
+    (!clockwise(scene).is_empty()).then(|| axes(scene, ""))
+}
+
+/// What counts as positive, and which symbols count the other way.
+pub(super) fn axes(scene: &Scene, unless: &str) -> Vec<Inline> {
+    let clockwise = clockwise(scene);
     if clockwise.is_empty() {
         return vec![say(format!("{AXES}{unless}."))];
     }
@@ -216,11 +227,14 @@ impl Writer<'_> {
             let statement = words::with_symbols(self.scene, &self.solution.statement);
             self.text(statement);
         }
-        if self.detail() == Detail::Brief {
-            return self.given_after();
-        }
         if let Some(text) = words::meant(self.scene, false) {
             self.text(text);
+        }
+        if self.detail() == Detail::Brief {
+            turned_axes(self.scene)
+                .into_iter()
+                .for_each(|axes| self.text(axes));
+            return self.given_after();
         }
         self.push(Part::Figure(Slot::Before));
         let mut text = String::new();

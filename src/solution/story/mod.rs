@@ -157,11 +157,13 @@ impl Page<'_> {
             let statement = words::with_symbols(self.scene, &self.solution.statement);
             self.solution.text(statement);
         }
-        if self.solution.detail == Detail::Brief {
-            return;
-        }
         if let Some(text) = words::meant(self.scene, false) {
             self.solution.text(text);
+        }
+        if self.solution.detail == Detail::Brief {
+            let turned = opening::turned_axes(self.scene);
+            turned.into_iter().for_each(|axes| self.solution.text(axes));
+            return;
         }
         if !self.told.readings.is_empty() {
             self.solution
