@@ -4,11 +4,10 @@
 //! value that all but vanishes has no digits of its own: it is measured by what a change of the data's last digits would
 //! make of it, as the independent solution shows.
 
-use super::{Check, Run, asked, evaluate, numeric_value, with_definitions};
+use super::{Check, Run, asked, evaluate, numeric_value};
 use crate::answer::Answer;
 use crate::derive::Derivation;
 use crate::expr::{Expr, Point};
-use crate::interval::rounding;
 use crate::numeric;
 use crate::scene::{Ask, Scene};
 
@@ -56,7 +55,7 @@ pub(super) fn check(
         let mut off = apart / (unit * f64::EPSILON);
         if off > CLOSE {
             let condition = condition(scene, ask, point, expected);
-            let weight = condition.max(terms(closed, derivation, point));
+            let weight = condition.max(size_before(ask, run));
             weighed |= weight > unit;
             off = apart / (weight.max(unit) * f64::EPSILON);
         }
@@ -99,11 +98,20 @@ fn value_of(ask: &Ask, siblings: &[Ask], run: &Run<f64>) -> Option<(f64, f64)> {
     Some((value, length))
 }
 
-/// The size of the terms that a formula is made of, as what rounding may make of their sum tells: what is zero everywhere has
-/// no other size.
-fn terms(closed: &Expr, derivation: &Derivation, at: &Point<f64>) -> f64 {
-    let point = with_definitions(derivation, at);
-    point.map_or(0.0, |point| rounding(closed, &point) / f64::EPSILON)
+/// The largest quantity of its kind just before, as the independent solution is given it: what is zero everywhere has no size of
+/// its own, and no change of the data shows one.
+fn size_before(ask: &Ask, run: &Run<f64>) -> f64 {
+    let bodies = run.given.bodies.iter();
+    let speed = |v: &[f64; 2]| v[0].abs().max(v[1].abs());
+    match ask {
+        Ask::Energy { .. } => numeric::energy_before(&run.given, None),
+        Ask::Velocity { .. } => bodies.map(|b| speed(&b.velocity)).fold(0.0, f64::max),
+        Ask::Impulse { .. } => {
+            let all = bodies.map(|b| b.mass * speed(&b.velocity));
+            all.fold(0.0, f64::max)
+        }
+        _ => 0.0,
+    }
 }
 
 /// Σ |xᵢ ∂f/∂xᵢ| over the data: what relative errors of the data do to the value.

@@ -152,20 +152,15 @@ pub fn prove(scene: &Scene, derivation: &Derivation) -> Proof {
 
 /// The value of an expression that may use the definitions of a derivation.
 pub fn evaluate<T: Scalar>(e: &Expr, derivation: &Derivation, at: &Point<T>) -> Option<T> {
-    match derivation.in_steps {
-        true => e.evaluate(&with_definitions(derivation, at)?),
-        false => e.evaluate(at),
+    if !derivation.in_steps {
+        return e.evaluate(at);
     }
-}
-
-/// A point with the values of the definitions of a derivation.
-fn with_definitions<T: Scalar>(derivation: &Derivation, at: &Point<T>) -> Option<Point<T>> {
     let mut point = at.clone();
     for definition in &derivation.definitions {
         let value = definition.value.evaluate(&point)?;
         point.values.insert(definition.name.clone(), value);
     }
-    Some(point)
+    e.evaluate(&point)
 }
 
 /// An expression with the definitions of a derivation put in.
