@@ -428,7 +428,9 @@ fn against_path(scene: &Scene, table: &Table, checks: &mut Vec<Check>) {
                 gains += usize::from(followed.path.gain() > large);
                 same(table, &exact, &rounded, impulse, 1e-9)
             }
-            Err(Some(NoPath::NeverEnds | NoPath::Singular)) => without_end(table, &exact),
+            Err(Some(why @ (NoPath::NeverEnds | NoPath::Singular))) => {
+                without_end(table, &exact, why)
+            }
             Err(_) => continue,
         };
         match outcome {
@@ -489,11 +491,17 @@ fn energy(law: &Friction, gains: usize, points: usize) -> Check {
     }
 }
 
-/// The one case that holds at a point where the path has no end, if it is one without.
-fn without_end<'a>(table: &'a Table, exact: &Point<Rational>) -> Result<Option<&'a Case>, String> {
+/// The one case that holds at a point where the path has no end, if it is one without. Of a path whose equations are
+/// singular, as where a corner neither rises nor falls, a case that ends says nothing.
+fn without_end<'a>(
+    table: &'a Table,
+    exact: &Point<Rational>,
+    why: NoPath,
+) -> Result<Option<&'a Case>, String> {
     let has_value = |case: &Case| case.impulse.iter().all(|p| p.evaluate(exact).is_some());
+    let says_nothing = |case: &Case| matches!(why, NoPath::Singular) || !has_value(case);
     match holding(table, exact)? {
-        Some(case) if case.ends && !has_value(case) => Ok(None),
+        Some(case) if case.ends && says_nothing(case) => Ok(None),
         Some(case) if case.ends => Err(format!(
             "`{}` holds at one point where the path has no end",
             table.called(case).words()
