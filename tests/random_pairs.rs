@@ -463,7 +463,12 @@ fn relations_in_one_symbol_are_judged_by_their_solutions() {
     for case in first_case()..first_case() + cases() {
         let mut rng = Rng::new(case.wrapping_mul(0x51ed) + 5);
         let ground = ground(&mut rng);
-        let domain = ground.domains.symbols["x"].clone();
+        // The only symbol of a relation has either sign where nobody says more.
+        let declared = rng.below(3) > 0;
+        let domain = match declared {
+            true => ground.domains.symbols["x"].clone(),
+            false => Domain::real(),
+        };
         let roots: Vec<i64> = (0..1 + rng.below(3))
             .map(|_| rng.below(9) as i64 - 4)
             .collect();
@@ -484,7 +489,9 @@ fn relations_in_one_symbol_are_judged_by_their_solutions() {
         let same = truth.iter().all(|[a, b]| a == b);
         let plain = truth.iter().any(|t| t[0]) && truth.iter().any(|t| !t[0]);
         let mut domains = Domains::default();
-        domains.symbols.insert("x".into(), domain);
+        if declared {
+            domains.symbols.insert("x".into(), domain);
+        }
         let question = question(&domains);
         let (a, b) = (
             format!("{} {sign} 0", write_plain(&e)),
@@ -509,6 +516,56 @@ fn relations_in_one_symbol_are_judged_by_their_solutions() {
         "{} undecided",
         counts.undecided
     );
+}
+
+/// A relation as students write it, in names of which nothing is declared.
+fn undeclared(rng: &mut Rng) -> String {
+    let [x, y] = [0, 1].map(|_| ["x", "y", "m", "M", "theta", "v_x"][rng.below(6)]);
+    let n = 1 + rng.below(3);
+    let sign = ["=", "=", "=", "<", "<=", ">"][rng.below(6)];
+    let side = match rng.below(16) {
+        0 => format!("({x}-{y})*x"),
+        1 => format!("{x}*({y}-{n})"),
+        2 => format!("tan({x})-1"),
+        3 => format!("sqrt({x})-{y}"),
+        4 => format!("ln({x})-{n}"),
+        5 => format!("{x}^2-{n}"),
+        6 => format!("abs({x})-{y}"),
+        7 => format!("{x}/{y}"),
+        8 => format!("{x}^2-{y}^2"),
+        9 => format!("{x}-pi/4"),
+        10 => format!("{x}*{y}"),
+        11 => format!("{x}+{y}"),
+        12 => format!("({x}-{n})*({y}+{n})"),
+        13 => format!("sin({x})-{y}"),
+        _ => x.to_string(),
+    };
+    let end = ["0", "0", "0", "1", "y"][rng.below(5)];
+    format!("{side} {sign} {end}")
+}
+
+#[test]
+fn undeclared_names_live_in_the_same_place_in_either_order() {
+    let (mut counts, options) = (Counts::default(), Options::default());
+    for case in first_case()..first_case() + cases() * 4 {
+        let mut rng = Rng::new(case.wrapping_mul(0x6b) + 29);
+        let a = undeclared(&mut rng);
+        let b = match rng.below(4) {
+            0 => a.replace(['m', 'y'], "x"),
+            1 => format!("m*({}", a.replacen(' ', ") ", 1)),
+            _ => undeclared(&mut rng),
+        };
+        let [one, other] = [(&a, &b), (&b, &a)]
+            .map(|(expected, answer)| judge(expected, answer, &Question::default(), &options));
+        // `x = x` is no answer, and as what is expected it says nothing.
+        let invalid = [&one, &other].iter().any(|g| g.verdict == Verdict::Invalid);
+        assert!(
+            invalid || one.verdict == other.verdict,
+            "case {case}: {a} | {b}: {one:?}\n{other:?}"
+        );
+        counts.add(one.verdict);
+    }
+    println!("relations in undeclared names: {}", counts.words());
 }
 
 #[test]

@@ -91,7 +91,7 @@ fn conditions(cases: &[Case], symbols: &Symbols) -> Result<Conditions, Fault> {
         };
         let fault = || *Fault::new("the condition of this case is not read", 0, 0);
         let read = formula::read(condition, symbols).map_err(|_| fault())?;
-        unsigned.extend(relation::unsigned(&read.content));
+        unsigned.extend(relation::unsigned(&[&read.content]));
         all.push(Some(links(&read.content).ok_or_else(fault)?));
     }
     Ok((all, unsigned))

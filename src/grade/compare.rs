@@ -21,11 +21,15 @@ use named::{is_size, named_values, of_two_names, only_unknown, solved};
 /// Compares a reading with the key.
 pub(crate) fn contents(key: &Key, answer: &Reading, options: &Options) -> Grade {
     let diagnose = options.strength == Strength::Identity;
+    let beside = key.beside(&answer.content);
+    let key = beside.as_ref().unwrap_or(key);
     tolerated(&Context::new(key, options, diagnose), answer)
 }
 
 /// The verdict alone, without looking for what is wrong.
 pub(crate) fn verdict_of(key: &Key, answer: &Reading, options: &Options) -> Verdict {
+    let beside = key.beside(&answer.content);
+    let key = beside.as_ref().unwrap_or(key);
     tolerated(&Context::new(key, options, false), answer).verdict
 }
 

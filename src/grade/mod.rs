@@ -25,6 +25,8 @@ mod unit;
 mod verdict;
 mod worked;
 
+use std::collections::BTreeSet;
+
 use crate::dimension::Dimension;
 use crate::domain::{Domain, Domains};
 use crate::expr::{Symbol, effort};
@@ -129,6 +131,8 @@ pub struct Key {
     pub reading: Reading,
     /// What is asked, with the symbols of the formula among those in play.
     pub question: Question,
+    /// Symbols of the formula that the question does not declare.
+    undeclared: BTreeSet<Symbol>,
     /// Names an answer may use.
     pub(crate) readable: Symbols,
     /// The key as a quantity, where its text is one as well as a product: `5 m`.
@@ -160,6 +164,29 @@ impl Key {
             reading: self.reading.with(content),
             ..self.clone()
         }
+    }
+
+    /// The key with what both relations together leave without a sign, whichever of them is the expected one; `None` where
+    /// that is nothing.
+    fn beside(&self, answer: &Content) -> Option<Key> {
+        let is_relation = |c: &Content| matches!(c, Content::Relations(..) | Content::Joined(..));
+        let expected = &self.reading.content;
+        if !is_relation(expected) {
+            return None;
+        }
+        let question = &self.question;
+        let free = |name: &Symbol| {
+            let known = || question.given().any(|given| given.name == *name);
+            !question.domains.symbols.contains_key(name)
+                && (self.undeclared.contains(name) || !(question.closed || known()))
+        };
+        let names = relation::unsigned(&[expected, answer]).into_iter();
+        let mut free = names.filter(free).peekable();
+        free.peek()?;
+        let mut key = self.clone();
+        let domains = &mut key.question.domains.symbols;
+        domains.extend(free.map(|name| (name, Domain::real())));
+        Some(key)
     }
 }
 
@@ -302,12 +329,7 @@ fn from_reading(mut reading: Reading, question: &Question) -> Key {
             domains.insert(name.clone(), Domain::real());
         }
     }
-    for name in relation::unsigned(&reading.content) {
-        if names.contains(&name) {
-            let domains = &mut question.domains.symbols;
-            domains.entry(name).or_insert_with(Domain::real);
-        }
-    }
+    let undeclared = names.clone();
     question.symbols.extend(names.into_iter().map(Given::named));
     let mut readable = if question.closed {
         Symbols::strict()
@@ -324,6 +346,7 @@ fn from_reading(mut reading: Reading, question: &Question) -> Key {
     Key {
         reading,
         question,
+        undeclared,
         readable,
         quantity: None,
         range: None,

@@ -66,7 +66,7 @@ pub(crate) fn compare(
         return Grade::different("DIFF_KIND", "kind", words);
     };
     let domains = ctx.domains();
-    if let Some(found) = listed::beyond(ctx, &expected, mine) {
+    if let Some(found) = listed::beyond(ctx, (sides, &expected), (mine, &answer)) {
         return found;
     }
     let one = system::in_one_symbol(ctx, from_ref(&expected), from_ref(&answer), domains);
@@ -133,21 +133,34 @@ fn where_defined(found: Grade, [expected, answer]: [&[Normal]; 2], domains: &Dom
     }
 }
 
-/// The symbols that a relation is about, which no habit makes positive: the only one of it, unless that is an angle or has a
-/// logarithm, or one that stands alone beside zero or something negative, as in `0 < x < b`, or alone between bars.
-pub(super) fn unsigned(content: &Content) -> Vec<Symbol> {
-    let (sides, signs) = match content {
-        Content::Relations(sides, signs) => (sides, signs),
-        Content::Joined(_, parts) => return parts.iter().flat_map(unsigned).collect(),
-        _ => return Vec::new(),
-    };
-    let uses = roles(&content.exprs()).symbols;
-    if let Some((name, role)) = only(&uses) {
+/// The symbols that some relations are about, which no habit makes positive: the only one of a relation, unless it is an angle
+/// or has a logarithm in any of them, or one that stands alone beside zero or something negative, as in `0 < x < b`, or alone
+/// between bars.
+pub(super) fn unsigned(contents: &[&Content]) -> BTreeSet<Symbol> {
+    let has_sign = |name: &Symbol| {
         let logarithm = |part: &Expr| matches!(part.node(), Node::Call(Function::Ln, x) if x.as_symbol() == Some(name));
-        let positive = content.parts().any(logarithm);
-        let either = !(role.turns || is_angle_name(name) || positive);
-        return Vec::from_iter(either.then(|| name.clone()));
+        contents.iter().any(|content| {
+            let uses = roles(&content.exprs()).symbols;
+            uses.get(name).is_some_and(|role| role.turns) || content.parts().any(logarithm)
+        }) || is_angle_name(name)
+    };
+    let mut parts: Vec<&Content> = contents.to_vec();
+    let mut out = BTreeSet::new();
+    while let Some(content) = parts.pop() {
+        match content {
+            Content::Joined(_, inner) => parts.extend(inner),
+            Content::Relations(sides, signs) => match only(&roles(&content.exprs()).symbols) {
+                Some((name, _)) => out.extend((!has_sign(name)).then(|| name.clone())),
+                None => out.extend(bounded(sides, signs)),
+            },
+            _ => {}
+        }
     }
+    out
+}
+
+/// The symbols that stand alone beside zero or something negative, or between bars.
+fn bounded(sides: &[Content], signs: &[Relation]) -> Vec<Symbol> {
     let low = |side: &Content| side.expr().is_some_and(|e| e.is_zero() || e.is_negative());
     let alone = |side: &Content| side.name().cloned();
     let bounds = sides

@@ -1,16 +1,18 @@
-//! The numbers by which the points of a pair are drawn: a strong hash of both formulas, in no order.
+//! The numbers by which the points of a pair are drawn: a strong hash of both formulas, in no order, and of what is declared of
+//! their symbols.
 //!
 //! Whoever writes a formula fixes the points by it, and cannot aim at them; every machine and either order reach the same.
 
 use sha2::{Digest, Sha256};
 
+use super::Place;
 use crate::expr::{Expr, Node};
 
-/// The hash of two formulas, in four numbers.
+/// The hash of two formulas and the places of their symbols, in four numbers.
 pub(super) struct Drawn([u64; 4]);
 
 impl Drawn {
-    pub fn of(a: &Expr, b: &Expr) -> Drawn {
+    pub fn of([a, b]: [&Expr; 2], places: &[Place]) -> Drawn {
         let [mut first, mut second] = [a, b].map(|e| {
             let mut bytes = Vec::with_capacity(512);
             spell(e, &mut bytes);
@@ -22,6 +24,11 @@ impl Drawn {
         let mut hash = Sha256::new();
         hash.update(&first);
         hash.update(&second);
+        let mut declared = Vec::with_capacity(32 * places.len());
+        places
+            .iter()
+            .for_each(|place| declare(place, &mut declared));
+        hash.update(&declared);
         let digest = hash.finalize();
         let mut words = [0; 4];
         for (word, bytes) in words.iter_mut().zip(digest.chunks_exact(8)) {
@@ -70,6 +77,19 @@ fn spell(e: &Expr, out: &mut Vec<u8>) {
     }
 }
 
+/// Where a symbol lives, in bytes.
+fn declare(place: &Place, out: &mut Vec<u8>) {
+    named(b's', place.name, out);
+    out.extend([place.sign as u8, u8::from(place.acute)]);
+    for end in place.range {
+        out.extend(end.to_bits().to_le_bytes());
+    }
+    count(u64::from(place.divisor), out);
+    if let Some((first, second)) = place.unit {
+        named(b'1' + u8::from(second), first, out);
+    }
+}
+
 fn named(kind: u8, name: &str, out: &mut Vec<u8>) {
     out.push(kind);
     count(name.len() as u64, out);
@@ -87,12 +107,15 @@ fn count(mut n: u64, out: &mut Vec<u8>) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Pair;
     use super::*;
+    use crate::domain::{Domain, Domains, roles};
+    use crate::expr::ratio;
 
     #[test]
-    fn points_hang_on_both_formulas_in_no_order() {
+    fn points_hang_on_both_formulas_in_no_order_and_on_what_is_declared() {
         let [x, y, z] = ["x", "y", "z"].map(Expr::symbol);
-        let drawn = |a: &Expr, b: &Expr| Drawn::of(a, b).rounds::<8>();
+        let drawn = |a: &Expr, b: &Expr| Drawn::of([a, b], &[]).rounds::<8>();
         assert_eq!(drawn(&x, &y), drawn(&y, &x));
         assert_ne!(drawn(&x, &y), drawn(&x, &(&y + &Expr::one())));
         assert_ne!(drawn(&(&x * &y), &z), drawn(&x, &(&y * &z)));
@@ -100,5 +123,17 @@ mod tests {
         lanes.sort_unstable();
         lanes.dedup();
         assert_eq!(lanes.len(), 8);
+
+        let on = |domain: Domain| {
+            let name = "x".into();
+            let mut domains = Domains::default();
+            domains.symbols.insert(name, domain);
+            let roles = roles(&[&x]);
+            let pair = Pair::of(&x, &x, &domains, &roles).expect("a symbol with its domain");
+            Drawn::of([&x, &x], &pair.places).rounds::<1>()
+        };
+        assert_ne!(on(Domain::real()), on(Domain::positive()));
+        let unit = |to: i64| on(Domain::between(ratio(0, 1), ratio(to, 1)));
+        assert_ne!(unit(1), unit(2));
     }
 }

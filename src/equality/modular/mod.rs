@@ -4,7 +4,7 @@
 //! In: expressions and the domains of their symbols; out: equal or not, with the bound. A difference is certain: an
 //! identity over ℚ holds modulo every prime that divides no denominator. An equality is wrong with at most the probability
 //! stated (Schwartz and Zippel: degree over p for each point), where coefficients are shown to be smaller than the prime.
-//! Points are drawn by a strong hash of the two formulas: nobody can write one that meets them.
+//! Points are drawn by a strong hash of the two formulas and what is declared: nobody can write one that meets them.
 //! Roots follow the rules told in [`lanes`]. Whatever fits none of this is declined.
 //!
 //! What agrees at points can mostly be proved as quickly, by [`exact`]: that is no matter of chance.
@@ -85,7 +85,7 @@ impl<'a> Pair<'a> {
     /// Compares the two at random points. `None` where they are not of the kind this is for, or nothing follows.
     pub fn at_points(&self) -> Option<AtPoints> {
         let [a, b] = self.formulas;
-        let drawn = drawn::Drawn::of(a, b);
+        let drawn = drawn::Drawn::of([a, b], &self.places);
         let mut plain = Lanes::<PLAIN, FEW, 0>::new(&self.places, drawn.rounds());
         let compared = plain.both(a, b);
         if !plain.rooted {

@@ -104,7 +104,7 @@ pub(super) fn solved(
     (name, expected): Named,
     (mine, signs): (&[Content], &[Relation]),
 ) -> Grade {
-    if let Some(finding) = nameless(ctx, expected, mine, signs) {
+    if let Some(finding) = nameless(ctx, (name, expected), mine, signs) {
         return finding;
     }
     let solved = |name: &Symbol| {
@@ -134,7 +134,7 @@ pub(super) fn solved(
 /// one will do.
 fn nameless(
     ctx: &Context,
-    expected: &Content,
+    (name, expected): Named,
     sides: &[Content],
     signs: &[Relation],
 ) -> Option<Grade> {
@@ -151,11 +151,15 @@ fn nameless(
     };
     let (first, others) = sides.split_first()?;
     let mut finding = values(&plain, expected, first);
-    // `KE = mv²/2`: letters that stand nowhere else are a name of the value.
-    if let [name, value] = &sides[..]
-        && name
-            .expr()
-            .is_some_and(|e| is_word(ctx, e, expected) || is_size_of(ctx, e, expected))
+    // `KE = mv²/2`: letters that stand nowhere else are a name of the value; a difference or a quotient of names is no other
+    // word for the name that is asked for.
+    let free = |name: &Symbol| !declared_symbol(ctx, name);
+    if let [side, value] = &sides[..]
+        && side.expr().is_some_and(|e| {
+            name.is_none() && of_two_names(e, &free, expected.expr())
+                || is_word(ctx, e, (name, expected))
+                || is_size_of(ctx, e, expected)
+        })
         && strangers(ctx, std::slice::from_ref(value)).is_empty()
     {
         finding = values(&plain, expected, value);
@@ -239,13 +243,10 @@ pub(super) fn is_close(ctx: &Context, exact: &Expr, rounded: &Expr) -> Option<bo
 }
 
 /// Whether letters side by side, none of them of the question, are a name such as `KE`, `pe` or `Fnet`, or a product that
-/// measures what is asked, as `Iω` does for `m v l/2`; so are the letters of a velocity with an index, `vf` and `vx`, and what
-/// is made of two names.
-fn is_word(ctx: &Context, e: &Expr, expected: &Content) -> bool {
+/// measures what is asked, as `Iω` does for `m v l/2`; so are the letters of a velocity with an index, `vf` and `vx`.
+/// Beside a number they are no other word for the name that is asked for.
+fn is_word(ctx: &Context, e: &Expr, (name, expected): Named) -> bool {
     let free = |name: &Symbol| !declared_symbol(ctx, name);
-    if of_two_names(e, &free, expected.expr()) {
-        return true;
-    }
     let Node::Product(parts) = e.node() else {
         return false;
     };
@@ -261,7 +262,7 @@ fn is_word(ctx: &Context, e: &Expr, expected: &Content) -> bool {
         let fits = match asked.map(|asked| [e, asked].map(measured)) {
             Some([Some(mine), Some(asked)]) => mine == asked,
             Some(_) => word(),
-            None => true,
+            None => name.is_none(),
         };
         fits && letters.iter().all(|name| free(name))
             || matches!(letters.as_slice(), [a, b] if velocity(a) && index(b) || velocity(b) && index(a))
@@ -307,7 +308,7 @@ pub(super) fn of_two_names(e: &Expr, free: &dyn Fn(&Symbol) -> bool, value: Opti
     };
     let number = matches!(e.node(), Node::Product(_)) && value.is_some_and(Expr::is_constant);
     let alike = |a: &Expr, b: &Expr| match (name(a), name(b)) {
-        (Some(a), Some(b)) => number || letter(&a) == letter(&b),
+        (Some(a), Some(b)) => a != b && (number || letter(&a) == letter(&b)),
         _ => false,
     };
     let pair = |parts: &[Expr], turned: &dyn Fn(&Expr) -> Expr| matches!(parts, [a, b] if alike(a, &turned(b)) || alike(&turned(a), b));

@@ -127,9 +127,18 @@ fn solutions(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {
 /// Two equations of which one holds nowhere on the domain, or both everywhere.
 fn vacuous(ctx: &Context, f: &Expr, g: &Expr, sought: Sought) -> Grade {
     let reals = over_reals(ctx.domains(), &[f, g]);
-    let Some(compared) = locus::compare(f, g, &reals) else {
+    let Some(mut compared) = locus::compare(f, g, &reals) else {
         return undecided("neither equation has a solution on the domain");
     };
+    // A factor without the sought quantity is nowhere zero by what is known of it, not by what is supposed.
+    let names = sought(compared.shared.clone());
+    let factor = |e: &Expr| !names.is_empty() && e.symbols().is_disjoint(&names);
+    for parts in [&mut compared.lost, &mut compared.gained] {
+        parts.retain(|part| {
+            let sign = sign_of(&part.expr, ctx.domains());
+            !(factor(&part.expr) && sign.is_some_and(Sign::is_strict))
+        });
+    }
     match compared.extents {
         [Extent::All, Extent::All] => return says_nothing("holds everywhere"),
         [Extent::None, Extent::None] => return says_nothing("has no solution"),

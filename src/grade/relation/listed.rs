@@ -12,10 +12,26 @@ use crate::expr::{Expr, Symbol};
 use crate::formula::{Content, Relation, write_plain};
 use crate::interval::{Big, Enclosure, Outcome, evaluate};
 
-/// The finding on a value that the answer lists although it fulfils no expected equation, which the domain would hide: −4 of
+/// The finding on a value that one side lists although it fulfils no equation of the other, which the domain would hide: −4 of
 /// `x = ±4` for `√x = 2` with x positive.
-pub(super) fn beyond(ctx: &Context, expected: &[Normal], mine: &[Content]) -> Option<Grade> {
-    let [name, Content::Either(values)] = mine else {
+pub(super) fn beyond(
+    ctx: &Context,
+    (sides, expected): (&[Content], &[Normal]),
+    (mine, answer): (&[Content], &[Normal]),
+) -> Option<Grade> {
+    if let Some(value) = missed(ctx, mine, expected) {
+        return Some(gained(format!(
+            "{value} does not fulfil the expected equation"
+        )));
+    }
+    let value = missed(ctx, sides, answer)?;
+    let words = format!("the expected {value} does not fulfil the equation of the answer");
+    Some(Grade::told(LOST[0], "solutions", words, LOST[2]))
+}
+
+/// A value beyond the domain that the sides of an equation list and that does not fulfil the equations.
+fn missed(ctx: &Context, sides: &[Content], equations: &[Normal]) -> Option<String> {
+    let [name, Content::Either(values)] = sides else {
         return None;
     };
     let name = name.name()?;
@@ -24,7 +40,7 @@ pub(super) fn beyond(ctx: &Context, expected: &[Normal], mine: &[Content]) -> Op
         |value: &&Expr| number(value, domains).is_some_and(|v| !lies_in(&v, name, domains));
     let value = values.iter().find(outside)?;
     let (mut missed, zero) = (false, Expr::zero());
-    for n in expected {
+    for n in equations {
         let left = n.difference.put(name, value);
         missed |= match equality::decide(&left, &zero, domains).equality {
             Equality::Same { .. } => false,
@@ -32,13 +48,8 @@ pub(super) fn beyond(ctx: &Context, expected: &[Normal], mine: &[Content]) -> Op
             Equality::Undecided { .. } => return None,
         };
     }
-    let equations = expected.iter().all(|n| n.relation == Relation::Equal);
-    (missed && equations).then(|| {
-        let value = ctx.say(value);
-        gained(format!(
-            "{name} = {value} does not fulfil the expected equation"
-        ))
-    })
+    let equal = equations.iter().all(|n| n.relation == Relation::Equal);
+    (missed && equal).then(|| format!("{name} = {}", ctx.say(value)))
 }
 
 /// The value of a formula, in symbols at some point of the domain.
