@@ -10,6 +10,7 @@ mod constants;
 mod critical;
 mod exact;
 mod gap;
+mod lattice;
 mod line;
 mod measure;
 mod modular;
@@ -275,8 +276,12 @@ impl Search<'_> {
             open => open,
         };
         let settled = matches!(open, Proof::Unequal { settled: true, .. });
-        let arcs = (!settled).then(|| arcs::prove(a, b, domains)).flatten();
-        arcs.or_else(|| constants::prove(a, b, domains))
+        let beyond = match settled {
+            true => None,
+            false => lattice::prove(a, b).or_else(|| arcs::prove(a, b, domains)),
+        };
+        beyond
+            .or_else(|| constants::prove(a, b, domains))
             .or_else(|| self.other_proofs().next())
             .or_else(|| self.on_halves(&open))
             .unwrap_or(open)

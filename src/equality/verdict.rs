@@ -117,6 +117,8 @@ pub enum Ground {
     Logarithms,
     /// Its coefficients are algebraic numbers smaller than any of their kind that is not zero.
     Bound,
+    /// It is at as many points as its degree asks for.
+    Lattice,
 }
 
 impl Ground {
@@ -128,6 +130,9 @@ impl Ground {
             Ground::Logarithms => "the difference is the logarithm of one",
             Ground::Bound => {
                 "the numbers in the difference are closer to zero than any of their kind that is not zero"
+            }
+            Ground::Lattice => {
+                "the difference is a polynomial that is zero at as many points as its degree asks for"
             }
         }
     }
