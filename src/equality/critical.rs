@@ -11,7 +11,7 @@ use num_traits::{One, Zero};
 use super::Assumption;
 use super::line::{lowest, rough_zeros};
 use super::refute::sign_at;
-use super::valley::{SYMBOLS, along, downhill, free_symbols};
+use super::valley::{SYMBOLS, along, downhill, free_symbols, meetings};
 use crate::algebra::{Field, Sign};
 use crate::domain::{Coordinate, Domain, Domains, Limit, Roles, Sample, far};
 use crate::expr::number::from_f64;
@@ -259,9 +259,11 @@ fn nowhere(arguments: &[Expr], domains: &Domains) -> bool {
 }
 
 /// Puts signs that were only seen to the test: each symbol is led to both sides of every place where one changes, and far
-/// out. Points at which one does not hold, or the assumptions that are left after those that enclosures prove.
+/// out; so are the squares of the given sums to where all of them vanish. Points at which one sign does not hold, or the
+/// assumptions that are left after those that enclosures prove.
 pub(super) fn tested(
     assumptions: &[Assumption],
+    sums: &[Expr],
     near: &[Sample],
     domains: &Domains,
     roles: &Roles,
@@ -277,7 +279,7 @@ pub(super) fn tested(
         }
         let starts = |count| near.iter().take(count);
         // What takes fewer steps first.
-        let ways: [&dyn Fn() -> Vec<Sample>; 8] = [
+        let ways: [&dyn Fn() -> Vec<Sample>; 9] = [
             &|| {
                 starts(1)
                     .flat_map(|start| corners(e, start, domains))
@@ -300,6 +302,10 @@ pub(super) fn tested(
             &|| {
                 let down = |start| downhill(e, start, domains);
                 starts(DESCENTS).filter_map(down).collect()
+            },
+            &|| {
+                let of = |sum| starts(DESCENTS).flat_map(move |at| meetings(sum, at, domains));
+                sums.iter().chain([e]).flat_map(of).collect()
             },
             &|| {
                 starts(2)

@@ -56,7 +56,7 @@ pub(crate) fn falls_below_zero(e: &Expr, domains: &Domains) -> bool {
     let (domains, _) = domains.completed(&roles);
     let near = samples(&roles, &domains, LOOKED_FROM);
     let supposed = [Assumption::NotNegative(e.clone())];
-    critical::tested(&supposed, &near, &domains, &roles).is_err()
+    critical::tested(&supposed, &[], &near, &domains, &roles).is_err()
 }
 
 /// Decides whether two formulas have the same value everywhere on the domain.
@@ -391,10 +391,18 @@ impl Search<'_> {
         self.undecided(Reason::NoPointApart)
     }
 
+    /// Puts signs that a proof took for granted to the test.
+    fn put_to_the_test(&self, assumed: &[Assumption]) -> Result<Vec<Assumption>, Vec<Sample>> {
+        let near = samples(self.roles, self.domains, FIRST + 2);
+        // What signs are taken of may have been written out on the way; here its squares are left.
+        let factors = self.unsure.iter().flat_map(|(e, _)| e.factors());
+        let sums: Vec<Expr> = factors.cloned().collect();
+        critical::tested(assumed, &sums, &near, self.domains, self.roles)
+    }
+
     /// The verdict of a proof, unless a sign that it took for granted fails.
     fn tested(&mut self, assumptions: Vec<Assumption>, ground: Ground) -> Option<Equality> {
-        let near = samples(self.roles, self.domains, FIRST + 2);
-        let tested = critical::tested(&assumptions, &near, self.domains, self.roles);
+        let tested = self.put_to_the_test(&assumptions);
         // A sign that was not put to the test is not to be taken for granted.
         if tested.as_ref().is_ok_and(|left| !left.is_empty()) && effort::spent() {
             let limit = Stop::TooLarge("steps").to_string();
@@ -427,7 +435,7 @@ impl Search<'_> {
                 critical::points(folded, &near, self.domains, self.roles)
             }
             Proof::Equal(assumptions, _) if self.apart => {
-                let tested = critical::tested(assumptions, &near, self.domains, self.roles);
+                let tested = self.put_to_the_test(assumptions);
                 tested.err().unwrap_or_default()
             }
             _ => Vec::new(),

@@ -1,12 +1,12 @@
-//! Where an expression of several symbols is least: downhill by damped Newton steps, which follow a valley across all of them.
+//! Where an expression of several symbols is least: downhill by damped steps, which follow a valley across all of them.
 
 use std::collections::BTreeSet;
 
-use num_traits::Zero;
+use num_traits::{Signed, Zero};
 
 use crate::domain::{Coordinate, Domain, Domains, Limit, Sample};
 use crate::expr::number::from_f64;
-use crate::expr::{Expr, Point, Symbol};
+use crate::expr::{Expr, Node, Point, Symbol};
 
 /// Most symbols walked along, from each point.
 pub(super) const SYMBOLS: usize = 6;
@@ -28,41 +28,104 @@ pub(super) fn along<'d>(name: &Symbol, at: &Sample, domains: &'d Domains) -> Opt
     domains.symbols.get(name).filter(|_| number)
 }
 
-/// The point to which damped Newton steps lead down from another (Levenberg and Marquardt: the diagonal grows where a step
-/// does not lead down).
-pub(super) fn downhill(e: &Expr, start: &Sample, domains: &Domains) -> Option<Sample> {
-    if e.size() > LONGEST {
-        return None;
-    }
+/// The symbols of an expression that have a number at a point, with their domains.
+fn moving<'d>(e: &Expr, start: &Sample, domains: &'d Domains) -> Vec<(Symbol, &'d Domain)> {
     let names = free_symbols(std::slice::from_ref(e), domains, start).into_iter();
-    let inside: Vec<(Symbol, &Domain)> = names
+    names
         .filter_map(|name| along(&name, start, domains).map(|domain| (name, domain)))
-        .collect();
-    if inside.len() < 2 {
+        .collect()
+}
+
+/// The point to which damped Newton steps lead down from another.
+pub(super) fn downhill(e: &Expr, start: &Sample, domains: &Domains) -> Option<Sample> {
+    let inside = moving(e, start, domains);
+    if e.size() > LONGEST || inside.len() < 2 {
         return None;
     }
-    let slopes: Vec<Expr> = inside.iter().map(|(name, _)| e.derivative(name)).collect();
-    let bends = slopes.iter().map(|slope| {
-        let names = inside.iter().map(|(name, _)| name);
-        names.map(|name| slope.derivative(name)).collect::<Vec<_>>()
-    });
-    let bends: Vec<Vec<Expr>> = bends.collect();
-    let mut here = start.doubles();
-    let mut height = e.evaluate(&here)?;
-    let mut damping = 1e-3;
-    for _ in 0..STEPS {
-        let value = |e: &Expr| e.evaluate(&here).filter(|v| v.is_finite());
-        let slope = slopes.iter().map(value).collect::<Option<Vec<f64>>>()?;
-        let rows = bends.iter().zip(&slope).enumerate().map(|(i, (row, s))| {
-            let mut row = row.iter().map(value).collect::<Option<Vec<f64>>>()?;
-            row[i] += damping * row[i].abs().max(f64::MIN_POSITIVE);
-            row.push(-s);
+    let slopes = gradient(e, &inside);
+    let bends: Vec<Vec<Expr>> = slopes.iter().map(|s| gradient(s, &inside)).collect();
+    let steps = |here: &Point<f64>| {
+        let rows = bends.iter().zip(&slopes).map(|(row, slope)| {
+            let mut row = values(row, here)?;
+            row.push(-value(slope, here)?);
             Some(row)
         });
-        let step = solved(rows.collect::<Option<Vec<_>>>()?);
-        let lower = step.and_then(|step| {
-            let next = stepped(&here, &inside, &step);
-            let below = e.evaluate(&next).filter(|h| *h < height)?;
+        rows.collect()
+    };
+    led_down(&|at| e.evaluate(at), &steps, start, &inside)
+}
+
+/// The points to which steps lead that make each square of a sum vanish (Gauss and Newton), full ones and damped ones: a valley
+/// of several squares may bend too much for the curvature of the sum to tell where it goes.
+pub(super) fn meetings(sum: &Expr, start: &Sample, domains: &Domains) -> Vec<Sample> {
+    let squared: Vec<Expr> = sum.terms().iter().filter_map(square).collect();
+    let inside = moving(sum, start, domains);
+    if sum.size() > LONGEST || squared.len() < 2 || inside.is_empty() {
+        return Vec::new();
+    }
+    let slopes: Vec<Vec<Expr>> = squared.iter().map(|e| gradient(e, &inside)).collect();
+    let height = |at: &Point<f64>| Some(values(&squared, at)?.iter().map(|r| r * r).sum());
+    let steps = |here: &Point<f64>| {
+        let left = values(&squared, here)?;
+        let slopes = slopes.iter().map(|row| values(row, here));
+        let slopes = slopes.collect::<Option<Vec<Vec<f64>>>>()?;
+        let product = |i: usize, other: &dyn Fn(usize) -> f64| -> f64 {
+            let each = slopes.iter().enumerate();
+            each.map(|(k, row)| row[i] * other(k)).sum()
+        };
+        let rows = (0..inside.len()).map(|i| {
+            let row = (0..inside.len()).map(|j| product(i, &|k| slopes[k][j]));
+            row.chain([-product(i, &|k| left[k])]).collect()
+        });
+        Some(rows.collect())
+    };
+    let full = led_on(&steps, start, &inside);
+    let damped = led_down(&height, &steps, start, &inside);
+    full.into_iter().chain(damped).collect()
+}
+
+/// What a positive term is the square of.
+fn square(term: &Expr) -> Option<Expr> {
+    let (factor, rest) = term.split_number();
+    let Node::Power(base, k) = rest.node() else {
+        return None;
+    };
+    let k = k.as_number().filter(|k| k.is_integer())?.numer().as_i64()?;
+    let even = k > 0 && k % 2 == 0;
+    (even && factor.is_positive()).then(|| base.powi(k / 2))
+}
+
+fn gradient(e: &Expr, inside: &[(Symbol, &Domain)]) -> Vec<Expr> {
+    inside.iter().map(|(name, _)| e.derivative(name)).collect()
+}
+
+fn value(e: &Expr, at: &Point<f64>) -> Option<f64> {
+    e.evaluate(at).filter(|v| v.is_finite())
+}
+
+fn values(all: &[Expr], at: &Point<f64>) -> Option<Vec<f64>> {
+    all.iter().map(|e| value(e, at)).collect()
+}
+
+/// The height of a point.
+type Height<'a> = &'a dyn Fn(&Point<f64>) -> Option<f64>;
+/// The linear equations of a step from a point, each with its right side last.
+type Steps<'a> = &'a dyn Fn(&Point<f64>) -> Option<Vec<Vec<f64>>>;
+
+/// The point to which damped steps lead (Levenberg and Marquardt: the diagonal grows where a step does not lead down).
+fn led_down(
+    height_at: Height,
+    steps: Steps,
+    start: &Sample,
+    inside: &[(Symbol, &Domain)],
+) -> Option<Sample> {
+    let mut here = start.doubles();
+    let mut height = height_at(&here)?;
+    let mut damping = 1e-3;
+    for _ in 0..STEPS {
+        let lower = damped(steps(&here)?, damping).and_then(|step| {
+            let next = stepped(&here, inside, &step);
+            let below = height_at(&next).filter(|h| *h < height)?;
             Some((next, below))
         });
         match lower {
@@ -74,8 +137,30 @@ pub(super) fn downhill(e: &Expr, start: &Sample, domains: &Domains) -> Option<Sa
             None => damping *= 10.0,
         }
     }
+    moved(start, &here, inside)
+}
+
+/// The point to which full steps lead, up or down.
+fn led_on(steps: Steps, start: &Sample, inside: &[(Symbol, &Domain)]) -> Option<Sample> {
+    let mut here = start.doubles();
+    for _ in 0..STEPS / 4 {
+        here = stepped(&here, inside, &damped(steps(&here)?, f64::EPSILON)?);
+    }
+    moved(start, &here, inside)
+}
+
+/// A step by its equations, with a share of the diagonal added.
+fn damped(mut rows: Vec<Vec<f64>>, damping: f64) -> Option<Vec<f64>> {
+    for (i, row) in rows.iter_mut().enumerate() {
+        row[i] += damping * row[i].abs().max(f64::MIN_POSITIVE);
+    }
+    solved(rows)
+}
+
+/// A point with the numbers found for some symbols.
+fn moved(start: &Sample, here: &Point<f64>, inside: &[(Symbol, &Domain)]) -> Option<Sample> {
     let mut at = start.clone();
-    for (name, _) in &inside {
+    for (name, _) in inside {
         let value = from_f64(*here.values.get(name)?)?;
         at = at.moved(name, Coordinate::Number(value));
     }
