@@ -267,6 +267,9 @@ impl Field {
     /// A power with symbols above. Of something positive, what is a number in the exponent comes apart: b b^(n − 1) is bⁿ,
     /// b^(2 n) the square of bⁿ and, where b^(n/2) occurs too, bⁿ the square of that.
     fn power_of_symbols(&mut self, base: Element, exponent: Element) -> Result<Element, Stop> {
+        if base.num.is_zero() && self.sign_of(&exponent) == Some(Sign::Positive) {
+            return Ok(base);
+        }
         let parts = self.integer(self.exponent_parts);
         let multiple = self.mul(&exponent, &parts)?;
         if !multiple.den.is_one() || self.sign_of(&base) != Some(Sign::Positive) {

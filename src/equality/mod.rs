@@ -22,6 +22,8 @@ mod verdict;
 
 use std::collections::BTreeSet;
 
+use num_traits::Zero;
+
 use crate::algebra::{self, Stop};
 use crate::domain::{Domain, Domains, Roles, Sample, at_ends, roles, samples};
 use crate::expr::{Expr, Node, Symbol, effort};
@@ -284,6 +286,7 @@ impl Search<'_> {
             .or_else(|| constants::prove(a, b, domains))
             .or_else(|| self.other_proofs().next())
             .or_else(|| self.on_halves(&open))
+            .or_else(|| if settled { None } else { self.above_ends() })
             .unwrap_or(open)
     }
 
@@ -339,6 +342,46 @@ impl Search<'_> {
         }
         used.dedup();
         Proof::Equal(Vec::new(), ground?).with_roots(used)
+    }
+
+    /// A proof above the closed ends at zero and one at each of them: powers with symbols above follow their laws for positive
+    /// bases, and 0ⁿ is 0.
+    fn above_ends(&self) -> Option<Proof> {
+        let zero = |d: &Domain| {
+            let low = d.low.as_ref();
+            low.is_some_and(|l| !l.open && l.value.is_zero()) && d.bounds()[1] != Some(0.0)
+        };
+        let own = |name: &Symbol| self.roles.symbols.contains_key(name);
+        let mut open = self.domains.clone();
+        let mut names = Vec::new();
+        for (name, domain) in open
+            .symbols
+            .iter_mut()
+            .filter(|(name, d)| own(name) && zero(d))
+        {
+            domain.low.as_mut()?.open = true;
+            names.push(name.clone());
+        }
+        if names.is_empty() || names.len() > 2 || !open.relations.is_empty() {
+            return None;
+        }
+        let mut whole = None;
+        for ends in 0..1 << names.len() {
+            let at_end = names.iter().enumerate().filter(|(i, _)| ends >> i & 1 == 1);
+            let put = |e: &Expr| {
+                at_end
+                    .clone()
+                    .fold(e.clone(), |e, (_, n)| e.put(n, &Expr::zero()))
+            };
+            let [a, b] = [put(self.a), put(self.b)];
+            let proof = match proof::compare(&a, &b, &open) {
+                known @ Proof::Equal(..) => known,
+                _ => arcs::prove(&a, &b, &open)?,
+            };
+            let is_proved = matches!(&proof, Proof::Equal(assumed, _) if assumed.is_empty());
+            whole.get_or_insert(is_proved.then_some(proof)?);
+        }
+        whole
     }
 
     /// Whether one of the two has no value where a symbol is zero.
