@@ -199,6 +199,9 @@ fn what_strangers_send_is_refused_in_an_instant() {
             clock::spent(|| judge("a", &text, &Question::default(), &Options::default()));
         let head: String = text.chars().take(20).collect();
         assert_ne!(grade.verdict, Verdict::Equivalent, "{head}");
+        // No line of what is said about it is longer than people read.
+        let told = carom::render::grade::text(&grade, &text);
+        assert!(told.lines().all(|l| l.chars().count() < 1_000), "{head}");
         // Ten milliseconds in a release build; tests are built without optimization.
         assert!(spent.as_millis() < 3_000, "{head}: {spent:?}");
     }
@@ -278,6 +281,10 @@ fn worked_solutions_are_judged_line_by_line() {
             .map(|rest| rest.split_once('\t').unwrap_or((rest, "")))
             .unzip();
         let worked = check(sheet, &lines.join("\n"), &Options::default());
+        let shown = carom::render::grade::steps_text(&worked);
+        if shown.lines().any(|line| line.chars().count() >= 1_000) {
+            let _ = writeln!(wrong, "{}: a line nobody reads to its end", file.display());
+        }
         for row in finals {
             let (name, told) = row[7..].split_once('\t').expect("a name and a verdict");
             let last = worked.finals.iter().find(|(asked, _)| asked == name);

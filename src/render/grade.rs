@@ -3,6 +3,7 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use super::cut;
 use crate::formula::Fault;
 use crate::grade::steps::{Line, Status, Worked};
 use crate::grade::{Apart, Diagnosis, Grade, Proof, Verdict};
@@ -87,13 +88,15 @@ pub fn error(fault: &Fault, text: &str) -> Value {
 pub fn text(grade: &Grade, answer: &str) -> String {
     let mut out = format!("{} · {}\n", grade.verdict.word(), grade.note);
     let mut line = |label: &str, words: &str| {
+        let words: Vec<String> = words.lines().map(cut).collect();
+        let words = words.join("\n          ");
         out.push_str(&format!("{label:<10}{words}\n"));
     };
     if let Some(read) = &grade.read_as() {
         line("read as", read);
     }
     if let Some(fault) = &grade.error {
-        line("error", &fault.show(answer).replace('\n', "\n          "));
+        line("error", &fault.show(answer));
     }
     let bound = grade
         .proof
@@ -145,12 +148,14 @@ pub fn steps_text(worked: &Worked) -> String {
     let mut out = String::new();
     for line in lines {
         let (word, more) = step_words(line);
-        out.push_str(&format!("{:>3}  {word:<8} {}\n", line.number, line.text));
+        let said = cut(&line.text);
+        out.push_str(&format!("{:>3}  {word:<8} {said}\n", line.number));
         if !more.is_empty() {
-            out.push_str(&format!("              {more}\n"));
+            out.push_str(&format!("              {}\n", cut(&more)));
         }
         for d in &line.diagnosis {
-            out.push_str(&format!("              {} [{}]\n", d.message, d.code));
+            let message = cut(&d.message);
+            out.push_str(&format!("              {message} [{}]\n", d.code));
         }
     }
     out.push_str(&summary(lines));

@@ -118,6 +118,21 @@ pub fn shortened(text: &str, most: usize) -> String {
     }
 }
 
+/// A line as it is, or beginning and end of one that nobody reads to its end.
+pub(crate) fn cut(line: &str) -> String {
+    const LONGEST: usize = 900;
+    const BEGINNING: usize = 240;
+    const END: usize = 120;
+    let all: Vec<char> = line.chars().collect();
+    if all.len() <= LONGEST {
+        return line.to_string();
+    }
+    let part = |some: &[char]| some.iter().collect::<String>();
+    let (begins, ends) = (part(&all[..BEGINNING]), part(&all[all.len() - END..]));
+    let left = all.len() - BEGINNING - END;
+    format!("{begins} … {left} characters, which `--format json` has … {ends}")
+}
+
 /// The names a formula about a scene may hold. Answers may name what a derivation defines, so names that are not declared are
 /// read as they stand.
 pub fn symbols_of(scene: &Scene) -> Symbols {

@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use super::unicode;
+use super::{cut, unicode};
 use crate::answer::{Answer, Check, Form, Matrix, given_alike};
 use crate::derive::Derivation;
 use crate::dimension::System;
@@ -186,21 +186,6 @@ pub fn answers(scene: &Scene, of: Option<&Told>, answers: &[Answer]) -> String {
         checks.for_each(|c| check(&mut out, "      ", c));
     }
     out
-}
-
-/// A line as it is, or beginning and end of one that nobody reads to its end.
-fn cut(line: &str) -> String {
-    const LONGEST: usize = 900;
-    const BEGINNING: usize = 240;
-    const END: usize = 120;
-    let all: Vec<char> = line.chars().collect();
-    if all.len() <= LONGEST {
-        return line.to_string();
-    }
-    let part = |some: &[char]| some.iter().collect::<String>();
-    let (begins, ends) = (part(&all[..BEGINNING]), part(&all[all.len() - END..]));
-    let left = all.len() - BEGINNING - END;
-    format!("{begins} … {left} characters, which `--format json` has … {ends}")
 }
 
 /// What every one of several answers rests on, which is told once.
