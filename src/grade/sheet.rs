@@ -15,7 +15,7 @@ use crate::domain::Domains;
 use crate::equality;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Content, Relation, Sentence, Symbols};
-use crate::scene::{self, Ask, Print, Scene};
+use crate::scene::{self, Ask, Print, Scene, without_case};
 use crate::verify::printed::{Finding, explains};
 
 /// A scene with its answers.
@@ -94,6 +94,11 @@ pub struct Entry {
     pub words: String,
     /// The key.
     pub key: Key,
+}
+
+/// Whether a name is that of an answer in one of several cases: `omega_landing_case2`.
+fn is_case(name: &str) -> bool {
+    without_case(name) != name
 }
 
 /// Where an answer is asked for: a motion that does not get to its end has no speed there.
@@ -217,9 +222,11 @@ impl Sheet {
             if let Some(entry) = self.in_relations(name) {
                 return Ok(entry);
             }
-            let answer = answers.iter().find(|a| a.name == name);
+            let cases = self.all.iter().filter(|a| is_case(&a.name));
+            let answer = answers.iter().chain(cases).find(|a| a.name == name);
             let answer = answer.ok_or_else(|| self.without_value(name))?;
-            component = Some(usize::from(answer.name.ends_with("_y")));
+            let plain = without_case(name);
+            component = (plain != answer.question).then(|| usize::from(plain.ends_with("_y")));
             chosen.push(answer);
         }
         let first = chosen[0];

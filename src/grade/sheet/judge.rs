@@ -7,12 +7,12 @@ use super::super::{
     Diagnosis, Grade, Key, Options, Proof, Strength, Tolerance, Verdict, cases, compare, fraction,
     judge_against, key_of, number, read,
 };
-use super::{Bound, Entry, Sheet, rows};
+use super::{Bound, Entry, Sheet, is_case, rows};
 use crate::answer::Answer;
 use crate::dimension;
 use crate::expr::{Expr, Symbol, Vector, dot};
 use crate::formula::{self, Content, Quantity, Reading, Relation};
-use crate::scene::{Ask, EnergyWhen, Scene};
+use crate::scene::{Ask, EnergyWhen, Scene, without_case};
 use num_traits::{One, Signed};
 
 /// `ΔK = -…` as what is lost, where that is asked: a change is counted as a gain.
@@ -34,7 +34,23 @@ impl Sheet {
     /// Judges an answer for a quantity of the scene; a wrong one is held against the beliefs students have. Names of earlier
     /// answers stand for the right ones, which is told.
     /// Where the scene can go several ways an answer that is right in one of them is right given that it goes this way.
+    /// An answer by the name of one of several cases is judged in that case.
     pub fn judge(&self, entry: &Entry, answer: &str, options: &Options) -> Grade {
+        let named = answer.split_once('=').map(|(name, _)| name.trim());
+        let case = named.filter(|name| is_case(name) && without_case(name) == entry.name);
+        if let Some(case) = case.and_then(|name| self.entry(name).ok()) {
+            return self.judge(&case, answer, options);
+        }
+        if let Some((way, other)) = self.way_of(entry) {
+            let value = answer.split_once('=');
+            let value = value.filter(|(name, _)| name.trim() == entry.name);
+            let value = value.map_or(answer, |(_, value)| value);
+            let mut grade = way.judge_one_way(&other, value, options);
+            if grade.is_equivalent() {
+                grade.assume(way.given.clone());
+            }
+            return grade;
+        }
         if let Some(grade) = cases::of_scene(&entry.key, answer, options) {
             return grade;
         }
@@ -77,6 +93,14 @@ impl Sheet {
             Verdict::Invalid => {}
         }
         grade
+    }
+
+    /// The way in which a scene goes in one of several cases, and what is asked for there.
+    fn way_of(&self, case: &Entry) -> Option<(&Sheet, Entry)> {
+        let plain = Some(without_case(&case.name)).filter(|_| is_case(&case.name))?;
+        let ways = std::iter::once(self).chain(&self.otherwise);
+        let mut entries = ways.filter_map(|way| Some((way, way.entry(plain).ok()?)));
+        entries.find(|(_, other)| other.key.reading.content == case.key.reading.content)
     }
 
     fn judge_one_way(&self, entry: &Entry, answer: &str, options: &Options) -> Grade {
