@@ -71,7 +71,8 @@ pub use visible::{is_hidden, visible};
 pub use write::{latex_name, latex_words, unicode_name, write_latex, write_plain, write_unicode};
 pub use written::{Link, Shape, Sign, Written};
 pub(crate) use written::{
-    along_axes, along_axis, has_arrow, has_components, is_component, vector_name, with_arrow,
+    along_axes, along_axis, has_arrow, has_components, is_component, unit_of, vector_name,
+    with_arrow,
 };
 
 /// Longest text, in bytes, in which a formula is looked for among words.

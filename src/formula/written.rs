@@ -344,16 +344,24 @@ pub(crate) fn has_components(name: &str) -> bool {
 
 /// Whether components are those of a unit vector, by the hat over its name.
 pub(super) fn is_unit([x, ..]: &[Expr; 3]) -> bool {
-    let stem = x.as_symbol().and_then(|name| name.strip_suffix("_x"));
-    stem.is_some_and(|name| super::symbols::parts_of(name).accent == "hat")
+    x.as_symbol().is_some_and(|name| unit_of(name).is_some())
+}
+
+/// The name with a hat that a component is one of.
+pub(crate) fn unit_of(component: &str) -> Option<&str> {
+    let stem = stem_of(component)?;
+    (super::symbols::parts_of(stem).accent == "hat").then_some(stem)
+}
+
+/// The name that a component has before its axis.
+fn stem_of(component: &str) -> Option<&str> {
+    let mut axes = ["_x", "_y", "_z"].iter();
+    axes.find_map(|axis| component.strip_suffix(axis))
 }
 
 /// Whether a name is the component of a vector written with an arrow or a hat along x, y or z.
 pub(crate) fn is_component(name: &str) -> bool {
-    let stem = ["_x", "_y", "_z"]
-        .iter()
-        .find_map(|axis| name.strip_suffix(axis));
-    stem.is_some_and(has_components)
+    stem_of(name).is_some_and(has_components)
 }
 
 /// What a component is one of, and along which axis: `v_{Bx}` and `v_B_x` of v_B along x, `x` of nothing.

@@ -3,7 +3,7 @@
 mod named;
 pub(super) mod several;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::context::Context;
 use super::scalar::scalars;
@@ -23,7 +23,43 @@ pub(crate) fn contents(key: &Key, answer: &Reading, options: &Options) -> Grade 
     let diagnose = options.strength == Strength::Identity;
     let beside = key.beside(&answer.content);
     let key = beside.as_ref().unwrap_or(key);
-    tolerated(&Context::new(key, options, diagnose), answer)
+    let found = tolerated(&Context::new(key, options, diagnose), answer);
+    if found.verdict == Verdict::Different
+        && let Some(([expected, mine], sizes)) =
+            of_length_one([&key.reading.content, &answer.content])
+    {
+        let mut key = key.with(expected);
+        let domains = std::mem::take(&mut key.question.domains);
+        key.question.domains = (sizes.iter()).fold(domains, |d, size| d.given(size, false));
+        let same = tolerated(&Context::new(&key, options, false), &answer.with(mine));
+        if same.is_equivalent() {
+            return same;
+        }
+    }
+    found
+}
+
+/// Contents with the components of each `\hat n` as those of some vector over its size, and the squares of these; nothing where
+/// none is written.
+fn of_length_one(contents: [&Content; 2]) -> Option<([Content; 2], Vec<Expr>)> {
+    let names = contents.map(Content::symbols);
+    let mut units: Vec<&str> = (names.iter().flatten())
+        .filter_map(|name| formula::unit_of(name))
+        .collect();
+    units.dedup();
+    if units.is_empty() {
+        return None;
+    }
+    let (mut parts, mut squares) = (BTreeMap::new(), Vec::new());
+    for unit in units {
+        let names = ["x", "y", "z"].map(|axis| Symbol::from(format!("{unit}_{axis}")));
+        let components = names.each_ref().map(|name| Expr::symbol(name));
+        let size = size(&components);
+        squares.push(size.powi(2));
+        parts.extend(names.into_iter().zip(components.map(|c| c / &size)));
+    }
+    let put = contents.map(|content| content.map(&|e: &Expr| e.substitute(&parts)));
+    Some((put, squares))
 }
 
 /// The verdict alone, without looking for what is wrong.

@@ -388,14 +388,26 @@ fn behind_fraction(other: &Reading, answer: &str) -> bool {
     other.notes.iter().any(|n| n.remark == long && fraction(n))
 }
 
+/// Tells that × was taken for a product of numbers, where nobody declares that the letters beside it are none of vectors.
+pub(super) fn crossed(key: &Key, answer: &str, reading: &Reading, finding: &mut Grade) {
+    let undeclared = |name: &Symbol| key.undeclared.contains(name);
+    if finding.is_equivalent()
+        && let Some(note) = read::cross(reading, answer, &key.readable, &undeclared)
+        && let Some(product) = answer.get(note.start..note.end)
+    {
+        let words = format!("{} is a product of numbers", product.trim());
+        finding.assumed.push(words);
+    }
+}
+
 /// What the reader decided that a student should know about.
 pub(super) fn remarks(reading: &Reading, answer: &str, verdict: Verdict) -> Vec<Diagnosis> {
     let wrong = verdict != Verdict::Equivalent;
     let worth = |note: &&Note| match note.remark {
         Remark::Letters => wrong && note.end > note.start + 3,
         Remark::Radians | Remark::NaturalLogarithm => wrong,
-        Remark::UnitOfSymbols | Remark::Words | Remark::Cross => true,
-        Remark::Inverse | Remark::UnitNotSymbols => wrong,
+        Remark::UnitOfSymbols | Remark::Words => true,
+        Remark::Cross | Remark::Inverse | Remark::UnitNotSymbols => wrong,
         _ => false,
     };
     let said = reading.notes.iter().filter(worth).map(|note| {

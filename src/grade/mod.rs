@@ -516,6 +516,7 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
     if finding.is_equivalent() && key.direction.is_some() && read::sense(answer).is_none() {
         finding.assumed.push("the direction is not judged".into());
     }
+    doubt::crossed(key, answer, &reading, &mut finding);
     let settled = finding.note == "EQUIV_READING";
     // A wrong answer is never told so where another reading is right, however fast.
     let open_to_doubt = (options.strength == Strength::Identity

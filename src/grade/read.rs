@@ -56,8 +56,8 @@ pub(super) fn expected(text: &str, symbols: &Symbols) -> Result<Reading, Fault> 
     if let Some(fault) = english(text, &reading) {
         return Err(fault);
     }
-    // Authors say which product they mean.
-    match reading.notes.iter().find(|n| n.remark == Remark::Cross) {
+    // Authors say which product they mean, or what the letters are.
+    match cross(&reading, text, symbols, &|_| false) {
         None => Ok(reading),
         Some(note) => {
             let words = "× between symbols could be a cross product";
@@ -65,6 +65,24 @@ pub(super) fn expected(text: &str, symbols: &Symbols) -> Result<Reading, Fault> 
             Err(*Fault::new(words, note.start, note.end).hint(hint))
         }
     }
+}
+
+/// A × between names of which one may be a vector: nobody declares it, or those who do give it an arrow.
+pub(super) fn cross<'r>(
+    reading: &'r Reading,
+    text: &str,
+    symbols: &Symbols,
+    undeclared: &dyn Fn(&Symbol) -> bool,
+) -> Option<&'r Note> {
+    let number = |name: &Symbol| {
+        symbols.find(name).is_some() && !undeclared(name) && !formula::has_components(name)
+    };
+    let numbers = |note: &Note| {
+        let product = formula::read(text.get(note.start..note.end)?, symbols).ok()?;
+        Some(product.symbols().iter().all(number))
+    };
+    let mut crosses = reading.notes.iter().filter(|n| n.remark == Remark::Cross);
+    crosses.find(|note| numbers(note) != Some(true))
 }
 
 /// What tells that a letter is a vector.

@@ -29,7 +29,7 @@ const TABLES: [(&str, &str, &str); 16] = [
     (
         "names.tsv",
         "What is no product",
-        "A Δ or d before a name makes another name of it, `dx/dt` is \\dot x, and names with arrows follow the algebra of vectors. × between symbols without arrows is a product in an answer and refused in an expected formula.",
+        "A Δ or d before a name makes another name of it, `dx/dt` is \\dot x, and names with arrows follow the algebra of vectors. × between symbols that are declared is a product of numbers; between others without arrows it is taken for one in an answer, which is told, and refused in an expected formula.",
     ),
     (
         "sentences.tsv",

@@ -1,13 +1,33 @@
 //! Answers that cannot be read as they stand: numbers with two meanings, and words beside a box.
 
-use super::super::{Grade, Key, Options, Verdict, judge_against, judge_here, read};
-use super::LONGEST;
-use crate::formula::Content;
+use super::super::{
+    Grade, Key, Options, Verdict, compare, judge_against, judge_here, read, unreadable,
+};
+use super::{LONGEST, ambiguous, with_commas};
+use crate::formula::{Content, Fault};
 use crate::grade::read::mixed::{digits, mixed};
 
 /// The grade of an answer that cannot be read as it stands, where there is another way.
 pub(in crate::grade) fn unread(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
-    number(key, answer, options).or_else(|| aside(key, answer, options))
+    number(key, answer, options)
+        .or_else(|| aside(key, answer, options))
+        .or_else(|| without_commas(key, answer, options))
+}
+
+/// `v_1 = 3 m/s v_2 = 4 m/s`, which can be read with a comma: right with it is not decided.
+fn without_commas(key: &Key, answer: &str, options: &Options) -> Option<Grade> {
+    let text = with_commas(answer).filter(|_| answer.len() <= LONGEST)?;
+    let reading = read::answer(key, &text).ok()?;
+    let hint = "write a comma between two equations";
+    let mut finding = compare::contents(key, &reading, options);
+    if finding.is_equivalent() {
+        let words = format!("it would be right as {text}");
+        ambiguous(&mut finding, &words, hint);
+        return Some(finding);
+    }
+    let at = answer.rfind('=').unwrap_or_default();
+    let fault = Fault::new("two equations side by side", at, at + 1);
+    Some(unreadable(*fault.hint(hint)))
 }
 
 /// `\boxed{2 m v} (to the right)`: what is boxed is right, and the words beside the box say the direction that nearly always
