@@ -108,17 +108,23 @@ pub(crate) fn numbers(expected: &Expr, answer: &Expr) -> Vec<Diagnosis> {
         return vec![sign("right up to the sign")];
     }
     let degree = &Expr::pi() * &Expr::ratio(1, 180);
-    if same_number(expected, &(answer * &degree)) {
+    let near = |turned: &Expr, share: i64| {
+        let [Some([low, high]), Some([least, most])] = [expected, turned].map(number::bounds)
+        else {
+            return false;
+        };
+        let room = (&high / &ratio(share, 1)).abs();
+        least <= &high + &room && &low - &room <= most
+    };
+    // Only an angle is rounded in degrees.
+    let share = if expected.is_arc() {
+        1_000
+    } else {
+        1_000_000_000
+    };
+    let turned = turned_in_degrees(answer);
+    if near(&(answer * &degree), share) || turned.is_some_and(|turned| near(&turned, 200)) {
         return vec![in_degrees()];
-    }
-    if let Some(turned) = turned_in_degrees(answer) {
-        let values = [expected, &turned].map(number::bounds);
-        if let [Some([low, high]), Some([least, most])] = values {
-            let room = (&high / &ratio(200, 1)).abs();
-            if least <= &high + &room && &low - &room <= most {
-                return vec![in_degrees()];
-            }
-        }
     }
     // An angle that is a fraction in degrees was rounded in degrees.
     let in_degrees = answer.is_arc().then(|| {

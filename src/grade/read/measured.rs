@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 
 use super::super::{Key, Question, declare};
 use super::{along_axes, answer, quantitative, vector};
-use crate::dimension;
+use crate::dimension::{self, Dimension};
 use crate::expr::{Expr, Symbol, only};
+
 use crate::formula::{self, Content, Reading, Symbols};
 
 /// An answer whose unit a sign ties to its number, or brackets enclose: `9.81*m/s^2`, `5 (m/s)`; and `2.4 s-1`.
@@ -65,7 +66,21 @@ pub(in crate::grade) fn quantity(
     let plain = direct().or_else(list).filter(|reading| {
         quantitative(reading) || reading.unit.is_some() && reading.symbols().is_empty()
     });
-    plain.or_else(|| bounds(text, open, question))
+    let found = plain.or_else(|| bounds(text, open, question));
+    found.filter(|reading| !is_weight(text, reading))
+}
+
+/// Whether what would measure a mass times a length is a weight, or its work, in symbols: `3 m g/4`, and `2 m g h`.
+fn is_weight(text: &str, reading: &Reading) -> bool {
+    let unit = match reading.content.answer() {
+        Content::Quantity(q) => &q.unit.dimension,
+        _ => return false,
+    };
+    let grams = text.contains('g') && !text.contains("kg");
+    grams
+        && [0, 1]
+            .iter()
+            .any(|time| *unit == Dimension::new(1, 1, *time))
 }
 
 /// A text that says of names alone which quantities they are, or lie between: `2 m < x < 3 m`, `v = 2 m/s; s = 4 m`.

@@ -161,11 +161,19 @@ fn said_behind(key: &Key, text: &str) -> Option<Reading> {
     let mut reading = formula::read(formula, &symbols).ok()?;
     let mut names = values.keys().chain(&told);
     let used = names.any(|name| reading.symbols().contains(name));
-    // `x = 2, x = 3` are two values of x, and `m v = 2 m u, u = v/2` solves an equation.
+    // `x = 2, x = 3` are two values of x, and `m v = 2 m u, u = v/2` solves an equation, unless that is about what is asked for:
+    // `I ω = L, I = m l²/3`.
+    let sought = key.reading.content.relations();
+    let sought = sought.and_then(|(sides, _)| sides[0].name());
+    let asked = key.question.asked.iter().map(|given| &given.name);
+    let sought = sought
+        .into_iter()
+        .chain(asked)
+        .any(|name| reading.symbols().contains(name));
     let defined = match &reading.content {
         Content::Relations(sides, _) => match sides[0].name() {
             Some(name) => values.contains_key(name),
-            None => said_so.is_none(),
+            None => said_so.is_none() && !sought,
         },
         _ => false,
     };
