@@ -4,7 +4,7 @@
 //! value that all but vanishes has no digits of its own: it is measured by what a change of the data's last digits would
 //! make of it, as the independent solution shows.
 
-use super::{Check, Run, asked, evaluate, numeric_value};
+use super::{Check, Run, asked, numeric_value};
 use crate::answer::Answer;
 use crate::derive::Derivation;
 use crate::expr::{Expr, Point};
@@ -39,7 +39,7 @@ pub(super) fn check(
     let mut weighed = false;
     for run in runs {
         let point = &run.point;
-        let Some(value) = evaluate(closed, derivation, point) else {
+        let Some(value) = closed.evaluate(&run.named) else {
             continue;
         };
         let Some(ask) = &ask else {

@@ -123,11 +123,17 @@ pub fn prove(scene: &Scene, derivation: &Derivation) -> Proof {
     let rounded = points.iter().map(numeric::rounded);
     let rounded: Vec<Point<f64>> = rounded.map(|point| with_angles(&point)).collect();
     proof.scene.extend(inertia::check(scene, &rounded));
-    let runs = runs(scene, &needed, points);
+    let mut runs = runs(scene, &needed, points);
+    for run in &mut runs {
+        run.named = with_definitions(derivation, &run.point);
+    }
     let in_doubles = rounded.into_iter();
-    let in_doubles: Vec<Run<f64>> = in_doubles
+    let mut in_doubles: Vec<Run<f64>> = in_doubles
         .filter_map(|point| doubles::run(scene, point))
         .collect();
+    for run in &mut in_doubles {
+        run.named = with_definitions(derivation, &run.point);
+    }
     invariants(&runs, &mut proof);
     admissible(scene, derivation, &runs, &mut proof);
     for answer in &derivation.answers {
@@ -136,7 +142,7 @@ pub fn prove(scene: &Scene, derivation: &Derivation) -> Proof {
             if short != closed && !derivation.in_steps {
                 checks.push(identities.of_answer(answer, closed, short));
             }
-            checks.push(exact_points(scene, derivation, answer, closed, &runs));
+            checks.push(exact_points(scene, answer, closed, &runs));
             checks.push(doubles::check(
                 scene,
                 derivation,
@@ -152,15 +158,19 @@ pub fn prove(scene: &Scene, derivation: &Derivation) -> Proof {
 
 /// The value of an expression that may use the definitions of a derivation.
 pub fn evaluate<T: Scalar>(e: &Expr, derivation: &Derivation, at: &Point<T>) -> Option<T> {
-    if !derivation.in_steps {
-        return e.evaluate(at);
-    }
+    e.evaluate(&with_definitions(derivation, at))
+}
+
+/// A point with the values of what a derivation in steps defines, each found from those before it.
+fn with_definitions<T: Scalar>(derivation: &Derivation, at: &Point<T>) -> Point<T> {
     let mut point = at.clone();
-    for definition in &derivation.definitions {
-        let value = definition.value.evaluate(&point)?;
-        point.values.insert(definition.name.clone(), value);
+    let definitions = derivation.definitions.iter();
+    for definition in definitions.filter(|_| derivation.in_steps) {
+        if let Some(value) = definition.value.evaluate(&point) {
+            point.values.insert(definition.name.clone(), value);
+        }
     }
-    e.evaluate(&point)
+    point
 }
 
 /// An expression with the definitions of a derivation put in.
@@ -180,7 +190,10 @@ fn meanings(derivation: &Derivation) -> BTreeMap<Symbol, Expr> {
 
 /// The independent solution at one point.
 struct Run<T> {
+    /// The values of the parameters.
     point: Point<T>,
+    /// The same with those of what the derivation defines: all answers are valued there.
+    named: Point<T>,
     given: numeric::Given<T>,
     motion: numeric::Motion<T>,
 }
@@ -211,6 +224,7 @@ fn run<T: numeric::Number + PartialOrd>(
 ) -> Option<Run<T>> {
     let numeric::Solved { given, motion, .. } = numeric::solved(scene, &point, solve).ok()?;
     Some(Run {
+        named: point.clone(),
         point,
         given,
         motion,
@@ -303,20 +317,14 @@ fn numeric_value<T: numeric::Number>(ask: &Ask, run: &Run<T>) -> Option<T> {
     found.ok()?.component(None)
 }
 
-fn exact_points(
-    scene: &Scene,
-    derivation: &Derivation,
-    answer: &Answer,
-    closed: &Expr,
-    runs: &[Run<Rational>],
-) -> Check {
+fn exact_points(scene: &Scene, answer: &Answer, closed: &Expr, runs: &[Run<Rational>]) -> Check {
     let mut equal = 0;
     let ask = asked(scene, answer);
     for run in runs {
         let Some(expected) = ask.as_ref().and_then(|ask| numeric_value(ask, run)) else {
             continue;
         };
-        match evaluate(closed, derivation, &run.point) {
+        match closed.evaluate(&run.named) {
             Some(value) if value == expected => equal += 1,
             Some(value) => {
                 return Check::new(
