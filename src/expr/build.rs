@@ -10,7 +10,11 @@ use super::{Expr, Function, Node, Rational, Symbol, number, ratio};
 impl Expr {
     /// Sum of the terms; nested sums are opened, numbers added up at the place of the first, zeros dropped.
     pub fn sum(terms: impl IntoIterator<Item = Expr>) -> Expr {
-        let mut out: Vec<Expr> = terms.into_iter().collect();
+        Expr::sum_of(terms.into_iter().collect())
+    }
+
+    // Apart from `sum`, so that it is compiled once and not for each kind of iterator.
+    fn sum_of(mut out: Vec<Expr>) -> Expr {
         let nested = |term: &Expr| matches!(term.node(), Node::Sum(_));
         if out.iter().any(nested) {
             out = opened(out, nested);
@@ -43,7 +47,10 @@ impl Expr {
     /// Product of the factors; nested products are opened, numbers gathered in front, ones dropped.
     /// A factor 0 makes the product 0 only where every other factor has a value everywhere.
     pub fn product(factors: impl IntoIterator<Item = Expr>) -> Expr {
-        let mut out: Vec<Expr> = factors.into_iter().collect();
+        Expr::product_of(factors.into_iter().collect())
+    }
+
+    fn product_of(mut out: Vec<Expr>) -> Expr {
         let nested = |factor: &Expr| matches!(factor.node(), Node::Product(_));
         if out.iter().any(nested) {
             out = opened(out, nested);

@@ -3,7 +3,7 @@
 //! that do not speak of it keep it there and take it along; of larger bodies, which stick at a point, the file has to tell, but
 //! where they slide.
 
-use super::{Contact, ContactLaw, Scene, Stage, StageKind};
+use super::{Ask, Contact, ContactLaw, ImpulseAt, Scene, Stage, StageKind};
 use crate::expr::Vector;
 
 /// What holds a hinge.
@@ -126,10 +126,10 @@ pub(super) fn keep(scene: &mut Scene) {
                     let reading =
                         format!("`{b}`, which turns with `{a}`, stays fixed to it at `{at}`");
                     told(scene, reading);
-                    scene.stages[i].scene.contacts.push(contact);
+                    hold(&mut scene.stages[i], contact);
                     continue;
                 }
-                Keep::Holding(contact) => scene.stages[i].scene.contacts.push(contact),
+                Keep::Holding(contact) => hold(&mut scene.stages[i], contact),
                 Keep::Moving { of, too } => match scene.stages[i].kind.company_of(of) {
                     Some(company) => company.push(too),
                     None => break,
@@ -138,6 +138,22 @@ pub(super) fn keep(scene: &mut Scene) {
             stays(scene, &names);
         }
     }
+}
+
+/// Gives an impact one more contact. Its supports and strings count after its contacts where an impulse is asked for, so that
+/// what asks for theirs counts one further.
+fn hold(stage: &mut Stage, contact: Contact) {
+    let behind = stage.scene.contacts.len();
+    for question in &mut stage.scene.questions {
+        if let Ask::Impulse {
+            from: ImpulseAt::Contact(i),
+            ..
+        } = &mut question.ask
+        {
+            *i += usize::from(*i >= behind);
+        }
+    }
+    stage.scene.contacts.push(contact);
 }
 
 /// The scene tells that what has stuck stays stuck.
