@@ -24,6 +24,10 @@ pub trait Scalar: Clone {
     fn recip(&self) -> Option<Self>;
     /// Non-negative square root.
     fn sqrt(&self) -> Option<Self>;
+    /// √n, in a type that holds it exactly as a root.
+    fn exact_root(_n: u32) -> Option<Self> {
+        None
+    }
     /// Power with a whole exponent, by repeated squaring.
     fn to_the(&self, exponent: u64) -> Self {
         let mut result = None;
@@ -58,6 +62,21 @@ pub struct Point<T> {
     /// For an angle φ known by a direction: a divisor N and (cos(φ/N), sin(φ/N)). With rational entries this makes sin and
     /// cos of every multiple of φ/N exact.
     pub directions: Table<(u32, [T; 2])>,
+}
+
+impl<T> Point<T> {
+    /// The same point in another number type.
+    pub fn map<U>(&self, put: impl Fn(&T) -> U) -> Point<U> {
+        let values = self.values.iter();
+        let directions = self.directions.iter();
+        let turned = |[c, s]: &[T; 2]| [put(c), put(s)];
+        Point {
+            values: values.map(|(name, v)| (name.clone(), put(v))).collect(),
+            directions: directions
+                .map(|(name, (n, unit))| (name.clone(), (*n, turned(unit))))
+                .collect(),
+        }
+    }
 }
 
 impl<T> Default for Point<T> {
@@ -169,15 +188,24 @@ fn direction<T: Scalar>(angle: &Angle, at: &Point<T>) -> Option<[T; 2]> {
     total.or_else(|| quarter_turns(&angle.pi))
 }
 
-/// (cos, sin) of a multiple of π, for multiples of π/2.
+/// (cos, sin) of a multiple of π, for multiples of π/2, and of π/4 and π/6 where the type holds their roots.
 fn quarter_turns<T: Scalar>(pi: &Rational) -> Option<[T; 2]> {
-    let quarters = number::product(pi, &number::ratio(2, 1));
-    if !quarters.is_integer() {
+    let steps = number::product(pi, &number::ratio(12, 1));
+    if !steps.is_integer() {
         return None;
     }
-    let k = quarters.numer().mod_floor(&Int::from(4)).as_i64()? as usize;
-    let unit = [[1, 0], [0, 1], [-1, 0], [0, -1]][k];
-    Some(unit.map(|x| T::from_rational(&number::ratio(x, 1))))
+    let k = steps.numer().mod_floor(&Int::from(24)).as_i64()?;
+    let half = |n| Some(T::exact_root(n)?.times(&T::from_rational(&number::ratio(1, 2))));
+    let whole = |n| Some(T::from_rational(&number::ratio(n, 1)));
+    let unit = match k % 6 {
+        0 => [whole(1)?, whole(0)?],
+        2 => [half(3)?, half(1)?],
+        3 => [half(2)?, half(2)?],
+        4 => [half(1)?, half(3)?],
+        _ => return None,
+    };
+    let quarter = [whole(0)?, whole(1)?];
+    Some((0..k / 6).fold(unit, |turned, _| turn(&turned, &quarter)))
 }
 
 fn turn<T: Scalar>(a: &[T; 2], b: &[T; 2]) -> [T; 2] {

@@ -13,6 +13,7 @@ pub mod eval;
 mod function;
 pub mod number;
 pub mod rows;
+pub mod surd;
 mod table;
 mod vector;
 

@@ -182,17 +182,7 @@ pub fn quarter_turns(turns: &Rational) -> Option<[Rational; 2]> {
 
 /// The same point in doubles: plain values rounded, angles by their directions.
 pub fn rounded(point: &Point<Rational>) -> Point<f64> {
-    let values = point
-        .values
-        .iter()
-        .map(|(name, v)| (name.clone(), to_f64(v)))
-        .collect();
-    let directions = point
-        .directions
-        .iter()
-        .map(|(name, (n, [c, s]))| (name.clone(), (*n, [to_f64(c), to_f64(s)])))
-        .collect();
-    Point { values, directions }
+    point.map(to_f64)
 }
 
 /// The same point, in which angles that are known by their direction only have their value between −π and π, times the

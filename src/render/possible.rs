@@ -30,9 +30,6 @@ pub fn check(scene: &Scene, possible: &Possible) -> Option<Check> {
         None => "",
     };
     let words = match possible.verdict {
-        _ if possible.conditions.is_empty() && possible.not_judged.is_empty() => {
-            String::from("whether it is possible: no normal and no outline to judge by")
-        }
         Verdict::Everywhere if scene.contacts.iter().any(|c| c.law.may_gain()) => {
             String::from("what touches pushes and parts, for all admitted parameters")
         }
@@ -49,7 +46,7 @@ pub fn check(scene: &Scene, possible: &Possible) -> Option<Check> {
     };
     let holds = match (possible.verdict, possible.at_values) {
         (Verdict::Nowhere, _) | (_, Some(false)) => Some(false),
-        (Verdict::Everywhere, _) if !possible.conditions.is_empty() => Some(true),
+        (Verdict::Everywhere, _) => Some(true),
         (_, Some(true)) => Some(true),
         _ => None,
     };

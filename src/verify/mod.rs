@@ -21,10 +21,9 @@ pub use sticks::needed_friction;
 
 use std::collections::BTreeMap;
 
-use num_traits::Zero;
-
 use crate::answer::{Answer, Check, Form};
 use crate::derive::Derivation;
+use crate::expr::surd::Surd;
 use crate::expr::{Expr, Point, Rational, Scalar, Symbol};
 use crate::formula::{Sentence, write_plain};
 use crate::numeric::{self, points::with_angles};
@@ -123,10 +122,18 @@ pub fn prove(scene: &Scene, derivation: &Derivation) -> Proof {
     let rounded = points.iter().map(numeric::rounded);
     let rounded: Vec<Point<f64>> = rounded.map(|point| with_angles(&point)).collect();
     proof.scene.extend(inertia::check(scene, &rounded));
-    let mut runs = runs(scene, &needed, points);
-    for run in &mut runs {
-        run.named = with_definitions(derivation, &run.point);
-    }
+    let with_roots: Vec<Point<Surd>> = (points.iter())
+        .map(|point| point.map(Surd::from_rational))
+        .collect();
+    let runs = runs(scene, &needed, points);
+    let exact = match runs.is_empty() {
+        false => exactly(scene, derivation, runs, &mut proof),
+        true => {
+            let exact = |point| run(scene, point, numeric::solve_exact);
+            let runs: Vec<Run<Surd>> = with_roots.into_iter().filter_map(exact).collect();
+            exactly(scene, derivation, runs, &mut proof)
+        }
+    };
     let in_doubles = rounded.into_iter();
     let mut in_doubles: Vec<Run<f64>> = in_doubles
         .filter_map(|point| doubles::run(scene, point))
@@ -134,15 +141,13 @@ pub fn prove(scene: &Scene, derivation: &Derivation) -> Proof {
     for run in &mut in_doubles {
         run.named = with_definitions(derivation, &run.point);
     }
-    invariants(&runs, &mut proof);
-    admissible(scene, derivation, &runs, &mut proof);
-    for answer in &derivation.answers {
+    for (answer, exact) in derivation.answers.iter().zip(exact) {
         let mut checks = Vec::new();
         if let Form::Value { closed, short } = &answer.form {
             if short != closed && !derivation.in_steps {
                 checks.push(identities.of_answer(answer, closed, short));
             }
-            checks.push(exact_points(scene, answer, closed, &runs));
+            checks.extend(exact);
             checks.push(doubles::check(
                 scene,
                 derivation,
@@ -154,6 +159,26 @@ pub fn prove(scene: &Scene, derivation: &Derivation) -> Proof {
         proof.answers.push(checks);
     }
     proof
+}
+
+/// What exact solutions say of the motion, and of each answer that has a closed form.
+fn exactly<T: Exact>(
+    scene: &Scene,
+    derivation: &Derivation,
+    mut runs: Vec<Run<T>>,
+    proof: &mut Proof,
+) -> Vec<Option<Check>> {
+    for run in &mut runs {
+        run.named = with_definitions(derivation, &run.point);
+    }
+    invariants(&runs, proof);
+    admissible(scene, derivation, &runs, proof);
+    let answers = derivation.answers.iter();
+    let of = |answer: &Answer| match &answer.form {
+        Form::Value { closed, .. } => Some(exact_points(scene, answer, closed, &runs)),
+        _ => None,
+    };
+    answers.map(of).collect()
 }
 
 /// The value of an expression that may use the definitions of a derivation.
@@ -198,6 +223,12 @@ struct Run<T> {
     motion: numeric::Motion<T>,
 }
 
+/// Exact numbers that the two ways are held against each other in.
+trait Exact: numeric::Number + PartialOrd + std::fmt::Display {}
+
+impl Exact for Rational {}
+impl Exact for Surd {}
+
 /// Solutions at a few exact points. Where roots make most points irrational, the scene's own values may still do, and
 /// more points are tried.
 fn runs(
@@ -231,7 +262,7 @@ fn run<T: numeric::Number + PartialOrd>(
     })
 }
 
-fn invariants(runs: &[Run<Rational>], proof: &mut Proof) {
+fn invariants<T: Exact>(runs: &[Run<T>], proof: &mut Proof) {
     let mut count = 0;
     let mut failed: Vec<String> = Vec::new();
     for run in runs {
@@ -255,9 +286,14 @@ fn invariants(runs: &[Run<Rational>], proof: &mut Proof) {
 }
 
 /// push and friction as the exact points show them; the friction that sticking needs is held against its formula.
-fn admissible(scene: &Scene, derivation: &Derivation, runs: &[Run<Rational>], proof: &mut Proof) {
+fn admissible<T: Exact>(
+    scene: &Scene,
+    derivation: &Derivation,
+    runs: &[Run<T>],
+    proof: &mut Proof,
+) {
     let mut separating = 0;
-    let mut most: Option<Rational> = None;
+    let mut most: Option<T> = None;
     let mut ratios: Vec<Option<Expr>> = Vec::new();
     let mut differs = false;
     for run in runs.iter().filter(|r| r.motion.loose.is_empty()) {
@@ -278,7 +314,10 @@ fn admissible(scene: &Scene, derivation: &Derivation, runs: &[Run<Rational>], pr
             }
             let told = ratios[c].as_ref().and_then(|r| r.evaluate(&run.point));
             differs |= told.is_some_and(|told| told != needed);
-            most = most.max(Some(needed));
+            most = Some(match most {
+                Some(most) if most > needed => most,
+                _ => needed,
+            });
         }
     }
     if separating > 0 {
@@ -290,7 +329,7 @@ fn admissible(scene: &Scene, derivation: &Derivation, runs: &[Run<Rational>], pr
             [only] => format!("|P_t|/P_n = {only}"),
             _ => String::from("|P_t|/P_n"),
         };
-        let most = crate::expr::number::to_f64(&most);
+        let most = most.size();
         let words = format!("sticking needs friction {ratio}, at the points tried up to {most:.3}");
         let holds = differs.then_some(false);
         proof.scene.push(Check::new("friction", words, holds));
@@ -317,7 +356,7 @@ fn numeric_value<T: numeric::Number>(ask: &Ask, run: &Run<T>) -> Option<T> {
     found.ok()?.component(None)
 }
 
-fn exact_points(scene: &Scene, answer: &Answer, closed: &Expr, runs: &[Run<Rational>]) -> Check {
+fn exact_points<T: Exact>(scene: &Scene, answer: &Answer, closed: &Expr, runs: &[Run<T>]) -> Check {
     let mut equal = 0;
     let ask = asked(scene, answer);
     for run in runs {
@@ -341,7 +380,7 @@ fn exact_points(scene: &Scene, answer: &Answer, closed: &Expr, runs: &[Run<Ratio
             let ask = ask.as_ref();
             let is_found = |run| ask.is_some_and(|ask| numeric_value(ask, run).is_some());
             let words = match runs.is_empty() || runs.iter().any(is_found) {
-                true => "at none of the points tried are all values rational",
+                true => "at none of the points tried do all values have exact numbers",
                 false => "the independent exact solution does not determine it",
             };
             Check::new("exact points", words, None)

@@ -39,7 +39,7 @@ use crate::expr::{Expr, Symbol, Vector, dot, minus};
 use crate::formula::{Sentence, sentence, write_plain};
 use crate::laws::{self, Unknown};
 use crate::scene::outline::Need;
-use crate::scene::{Body, Contact, ContactLaw, Scene, touch};
+use crate::scene::{Body, Contact, ContactLaw, Scene, Shape, touch};
 
 use decide::{Decided, Values, decide};
 use sides::{Sense, Side};
@@ -303,6 +303,7 @@ pub fn judge(scene: &Scene, derivation: &Derivation) -> Possible {
             judge.contact(i);
         }
         judge.energy();
+        judge.without_outline();
     }
     let mut possible = judge.outcome();
     for (c, decided) in scene.decided() {
@@ -413,6 +414,23 @@ impl Judge<'_> {
         }
         if !contact.passes {
             self.along_sides(contact, &before, &sides);
+        }
+    }
+
+    /// What sticks, and asks nothing of its parameters, is possible where its place on its bodies is known: that of a particle is,
+    /// and outlines have been looked at.
+    fn without_outline(&mut self) {
+        if !self.conditions.is_empty() || !self.not_judged.is_empty() {
+            return;
+        }
+        for contact in &self.scene.contacts {
+            let bodies = contact.bodies.map(|b| &self.scene.bodies[b]);
+            let shapeless = bodies.into_iter().find(|b| matches!(b.shape, Shape::Other));
+            if let Some(body) = shapeless {
+                let (at, body) = (&contact.name, &body.name);
+                let words = format!("where `{at}` lies on `{body}`, which has no outline");
+                self.not_judged.push(words);
+            }
         }
     }
 
