@@ -62,11 +62,11 @@ record! {
         /// just after the impact, for a velocity, a speed, a direction or a spin. Missing: the end, or just after.
         when: Option<EndName>,
         /// Speed just after of this body (its center of mass), or of this point of the body named in `of`; in a scene with stages
-        /// its velocity is answered too, under the same name with `_velocity`.
+        /// its velocity is answered too, under the same name with `_velocity`, unless it is asked before.
         speed: Option<Text>,
         /// Direction just after in which this body moves (its center of mass), or this point of the body named in `of`: the angle of
         /// its velocity from the x axis, counterclockwise unless `clockwise`; in a scene with stages that velocity is answered too,
-        /// under the same name with `_velocity`. The direction of a component is given `along`.
+        /// under the same name with `_velocity`, unless it is asked before. The direction of a component is given `along`.
         direction: Option<Text>,
         /// Moment of inertia of this body about the point `about`.
         inertia: Option<Text>,

@@ -232,7 +232,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     if let Some(value) = number(scene, answer).filter(|_| !stands) {
         let radians =
             |p: &crate::scene::Parameter| Some(&p.name) == of.as_symbol() && p.unit == "rad";
-        let in_degrees = answer.formula().filter(|_| ask.is_angle());
+        let in_degrees = answer.formula().filter(|e| ask.is_angle() || e.is_arc());
         let in_degrees = in_degrees.and_then(|e| {
             e.substitute(&scene.values())
                 .evaluate(&Point::<f64>::default())
@@ -252,16 +252,7 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     if brief && holds(answer) {
         return;
     }
-    // Complex roots are worth a word only where every line of algebra is.
-    let full = solution.detail == Detail::Full;
-    let complex =
-        |s: &&Sentence| matches!(s.0.last(), Some(Piece::Words(w)) if w.ends_with("not real"));
-    let discarded: Vec<Sentence> = answer
-        .discarded
-        .iter()
-        .filter(|s| full || !complex(s))
-        .cloned()
-        .collect();
+    let discarded = worth_discarding(solution, answer);
     if !discarded.is_empty() {
         let mut text = vec![say("Discarded: ")];
         text.extend(sentence(scene, &Sentence::join(discarded, "; ")));
@@ -271,6 +262,24 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
     if let Some(words) = worth_telling(&answer.checks, solution.detail).filter(|_| !told) {
         solution.text(vec![say(called(scene, &words))]);
     }
+}
+
+/// Solutions that were discarded, as far as they are worth a word: complex ones only where every line of algebra is, and so the
+/// negative of what is taken with its positive sign.
+fn worth_discarding(solution: &Solution, answer: &Answer) -> Vec<Sentence> {
+    let full = solution.detail == Detail::Full;
+    let complex =
+        |s: &Sentence| matches!(s.0.last(), Some(Piece::Words(w)) if w.ends_with("not real"));
+    let solved = answer.range.iter().map(|(_, _, value)| value);
+    let values: Vec<&Expr> = answer.formula().into_iter().chain(solved).collect();
+    let negative = |s: &Sentence| {
+        let mut formulas = s.0.iter();
+        formulas.any(|p| matches!(p, Piece::Formula(e) if values.iter().any(|v| *e == -*v)))
+    };
+    let all = answer.discarded.iter();
+    all.filter(|s| full || !complex(s) && !negative(s))
+        .cloned()
+        .collect()
 }
 
 /// H = r × m v + I ω of a body about a point with a name.

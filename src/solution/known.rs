@@ -12,9 +12,10 @@ pub(super) fn number(scene: &Scene, answer: &Answer) -> Option<String> {
     let formula = answer
         .formula()
         .filter(|_| answer.broken(scene).is_none())?;
-    // What is plain already needs a number only for its unit.
+    // What is plain already needs a number only for its unit, and an arc one in degrees.
     let is_plain = formula.symbols().iter().all(|s| s.as_ref() == "pi");
-    if is_plain && (formula.is_zero() || answer.dimension.is_none()) {
+    let is_bare = answer.dimension.is_none() && !formula.is_arc();
+    if is_plain && (formula.is_zero() || is_bare) {
         return None;
     }
     let value = formula

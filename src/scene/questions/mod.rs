@@ -336,7 +336,9 @@ pub(super) fn with_parts(file: &SceneFile) -> Option<SceneFile> {
     for (name, entry) in file.questions.iter().flat_map(|m| &m.0) {
         match entry.as_ref().filter(|q| parted(q)) {
             Some(q) if q.instantaneous_center.is_none() => {
-                all.push(velocity_of(name, q));
+                if velocity_asked(all.iter(), q).is_none() {
+                    all.push(velocity_of(name, q));
+                }
                 all.push((name.clone(), entry.clone()));
             }
             Some(q) => {
@@ -359,16 +361,38 @@ fn own_name(name: &Text, suffix: &str) -> Text {
     }
 }
 
-/// The velocity of a speed or a direction.
+/// Name of the question, among these, that asks for the whole velocity of which a speed or a direction is made.
+fn velocity_asked<'a>(
+    mut asked: impl Iterator<Item = &'a Entry>,
+    q: &QuestionFile,
+) -> Option<&'a Text> {
+    let body = q.speed.as_ref().or(q.direction.as_ref())?;
+    let text = |t: &Option<Text>| t.as_ref().map(|t| t.text.clone());
+    let is_same = |e: &QuestionFile| {
+        let is_whole =
+            e.along.is_none() && e.velocity.as_ref().is_some_and(|b| b.text == body.text);
+        is_whole
+            && e.when == q.when
+            && [(&e.at, &q.at), (&e.of, &q.of)].map(|(a, b)| text(a) == text(b)) == [true; 2]
+    };
+    let found = asked.find(|(_, entry)| entry.as_ref().is_some_and(is_same));
+    found.map(|(name, _)| name)
+}
+
+/// The velocity of a speed, whose letter it bears, or of a direction.
 fn velocity_of(name: &Text, q: &QuestionFile) -> Entry {
     let latex = match &q.latex {
         Some(latex) => latex.text.clone(),
         None => latex_name(&name.text),
     };
+    let text = match &q.speed {
+        Some(_) => format!("\\vec{{{latex}}}"),
+        None => format!("\\vec{{v}}_{{{latex}}}"),
+    };
     let velocity = QuestionFile {
         latex: Some(Text {
             span: name.span,
-            text: format!("\\vec{{{latex}}}"),
+            text,
         }),
         velocity: q.speed.clone().or_else(|| q.direction.clone()),
         speed: None,

@@ -1,6 +1,6 @@
 //! Questions about stages: forces, times, ways, places, and what happens in words.
 
-use super::{answers, impact, told, turn};
+use super::{answers, impact, told, turn, velocity_asked};
 use crate::scene::fault::Fault;
 use crate::scene::formulas::{Quantity, Symbols};
 use crate::scene::meanwhile::home;
@@ -20,7 +20,10 @@ pub(super) fn ask(
     name: &Text,
     q: &QuestionFile,
 ) -> Option<(Option<usize>, Ask)> {
-    let velocity = || told::parts_of(&format!("{}_velocity", name.text));
+    let asked = base.file.questions.iter().flat_map(|m| &m.0);
+    let before = asked.take_while(|(other, _)| other.text != name.text);
+    let whole = velocity_asked(before, q).map_or("", |found| &found.text);
+    let velocity = || told::parts_of(whole);
     let told = match (&q.speed, &q.direction, &q.inertia) {
         (Some(_), ..) => Some(("speed", told::size(&velocity()), None)),
         (_, Some(_), _) => {

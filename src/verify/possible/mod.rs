@@ -417,8 +417,8 @@ impl Judge<'_> {
         }
     }
 
-    /// What sticks, and asks nothing of its parameters, is possible where its place on its bodies is known: that of a particle is,
-    /// and outlines have been looked at.
+    /// That a body without outline says nothing of where its contacts lie, where nothing else was to be judged: what sticks needs
+    /// no normal.
     fn without_outline(&mut self) {
         if !self.conditions.is_empty() || !self.not_judged.is_empty() {
             return;
@@ -426,11 +426,10 @@ impl Judge<'_> {
         for contact in &self.scene.contacts {
             let bodies = contact.bodies.map(|b| &self.scene.bodies[b]);
             let shapeless = bodies.into_iter().find(|b| matches!(b.shape, Shape::Other));
-            if let Some(body) = shapeless {
+            self.notes.extend(shapeless.map(|body| {
                 let (at, body) = (&contact.name, &body.name);
-                let words = format!("where `{at}` lies on `{body}`, which has no outline");
-                self.not_judged.push(words);
-            }
+                format!("`{body}` has no outline that `{at}` would have to lie on")
+            }));
         }
     }
 
