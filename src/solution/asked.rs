@@ -237,14 +237,16 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
             e.substitute(&scene.values())
                 .evaluate(&Point::<f64>::default())
         });
-        let unit = match in_degrees {
-            Some(angle) => format!(
-                " rad, or {}°",
-                crate::formula::trimmed(&format!("{:.1}", angle.to_degrees()))
-            ),
-            None if scene.parameters.iter().any(radians) => String::from(" rad"),
-            None => String::new(),
+        let is_angle = in_degrees.is_some() || scene.parameters.iter().any(radians);
+        let unit = match is_angle && !value.ends_with(" rad") {
+            true => " rad",
+            false => "",
         };
+        let in_degrees = in_degrees.map(|angle| {
+            let degrees = format!("{:.1}", angle.to_degrees());
+            format!(", or {}°", crate::formula::trimmed(&degrees))
+        });
+        let unit = format!("{unit}{}", in_degrees.unwrap_or_default());
         let value = say(format!("{value}{unit}."));
         solution.text(vec![say(NUMBERS), words::formula(&of), value]);
     }

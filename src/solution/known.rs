@@ -3,7 +3,7 @@
 use super::words;
 use super::{Claim, Detail, Meaning, Solution};
 use crate::answer::{Answer, Check, NOT_FOUND};
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Node, Symbol};
 use crate::formula::Sentence;
 use crate::scene::{Scene, without_case};
 
@@ -14,7 +14,10 @@ pub(super) fn number(scene: &Scene, answer: &Answer) -> Option<String> {
         .filter(|_| answer.broken(scene).is_none())?;
     // What is plain already needs a number only for its unit, and an arc one in degrees.
     let is_plain = formula.symbols().iter().all(|s| s.as_ref() == "pi");
-    let is_bare = answer.dimension.is_none() && !formula.is_arc();
+    let is_turn = formula
+        .parts()
+        .all(|part| !matches!(part.node(), Node::Call(..)));
+    let is_bare = answer.dimension.is_none() && (is_turn || !formula.is_arc());
     if is_plain && (formula.is_zero() || is_bare) {
         return None;
     }

@@ -97,16 +97,45 @@ impl Page<'_> {
             self.solution.text(text);
         }
         let mut lines = self.turning(told, fall, time);
+        lines.extend(self.falling(told, fall, time, defines_time));
+        self.solution.display(lines);
+        !self.asks_energy(told)
+    }
+
+    /// How fast bodies fall at the end, and the time that takes, where it has a letter: what is told by it comes after it.
+    fn falling(
+        &mut self,
+        told: &StageTold,
+        fall: &Fall,
+        time: &Expr,
+        defines_time: bool,
+    ) -> Vec<Line> {
+        let (bodies, letter) = (fall.bodies(), Symbol::from(TIME));
+        let to_top = matches!(fall.until, FallEnd::Top);
+        let mut lines = Vec::new();
         let by_height = matches!(fall.until, FallEnd::Drop(_));
+        let shown = match defines_time {
+            true => Expr::symbol(&letter),
+            false => time.clone(),
+        };
+        let mut clock = defines_time.then(|| {
+            let raw = self.takes(told, fall, time);
+            let head = Math::Expr(Expr::symbol(&letter));
+            self.defined(head, [&raw, &raw], time, "the time of the flight")
+        });
         for b in bodies.iter().filter(|_| fall.gravity.is_some()) {
             let asks = |ask: &Ask| matches!(ask, Ask::Velocity { body, .. } if body == b);
             // The velocity at a height decides when it is reached, and what comes next begins with it.
-            let said = to_top && *b == fall.body;
+            let rises = |b: usize| &told.before.velocity[b][1];
+            let said = to_top && rises(*b) == rises(fall.body);
             let needed = self.goes_on(told) || by_height && *b == fall.body;
             if said || !needed || self.asked(told, asks) {
                 continue;
             }
-            let raw = self.falls_with(told, fall, *b, time);
+            if !(by_height && *b == fall.body) {
+                lines.extend(clock.take());
+            }
+            let raw = [&shown, time].map(|time| self.falls_with(told, fall, *b, time));
             let meanwhile = self.scene.moved_meanwhile(&told.placed.name);
             let index = match bodies.len() + meanwhile.len() {
                 1 => String::from("y"),
@@ -114,15 +143,10 @@ impl Page<'_> {
             };
             let value = &told.after.velocity[*b][1];
             let why = "velocity at the end: v² = v₀² + 2 g h, or v = v₀ + g t";
-            lines.push(self.defined(name("v", &index, "+", false), &raw, value, why));
+            lines.push(self.defined(name("v", &index, "+", false), raw.each_ref(), value, why));
         }
-        if defines_time {
-            let raw = self.takes(told, fall, time);
-            let head = Math::Expr(Expr::symbol(&letter));
-            lines.push(self.defined(head, &raw, time, "the time of the flight"));
-        }
-        self.solution.display(lines);
-        !self.asks_energy(told)
+        lines.extend(clock);
+        lines
     }
 
     /// The common center of mass of what turns as one, and the arms from it to what is asked about.
@@ -157,7 +181,7 @@ impl Page<'_> {
                     let mark = if is_rate { "" } else { "-" };
                     let why = "common center of mass: the sum of m r over the sum of m";
                     let head = name(letters[k], &index, mark, false);
-                    lines.push(self.defined(head, &raw, &values[k], why));
+                    lines.push(self.defined(head, [&raw, &raw], &values[k], why));
                 }
             }
             for b in &cluster.bodies {
@@ -186,13 +210,14 @@ impl Page<'_> {
         lines
     }
 
-    /// `name = raw = value`, a claim.
-    fn defined(&mut self, head: Math, raw: &Expr, value: &Expr, why: &str) -> Line {
-        let claim = Claim::new(raw.clone(), value.clone());
+    /// `name = raw = value`, where raw is what is shown, and what is claimed to be the value.
+    fn defined(&mut self, head: Math, raw: [&Expr; 2], value: &Expr, why: &str) -> Line {
+        let [shown, claimed] = raw;
+        let claim = Claim::new(claimed.clone(), value.clone());
         let step = Some(self.solution.step(Vec::new(), vec![claim], why));
         let mut math = vec![head, Math::Op("=")];
-        if !alike(raw, value) {
-            math.extend([Math::Expr(raw.clone()), Math::Op("=")]);
+        if !alike(shown, value) {
+            math.extend([Math::Expr(shown.clone()), Math::Op("=")]);
         }
         math.push(Math::Expr(value.clone()));
         Line { math, step }
@@ -229,7 +254,7 @@ impl Page<'_> {
         match &fall.until {
             FallEnd::Drop(h) if alike && h.is_zero() && !fall.rising => -v,
             FallEnd::Drop(h) if alike && !g.is_zero() => {
-                let size = (v.powi(2) + Expr::from(2) * &g * h).sqrt();
+                let size = (v.powi(2) + Expr::from(2) * &g * self.named(h)).sqrt();
                 if fall.rising { size } else { -size }
             }
             FallEnd::Top if body == fall.body => Expr::zero(),
