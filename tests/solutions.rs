@@ -990,9 +990,13 @@ fn no_abbreviation_is_used_before_it_is_told() {
                 let mut used = Vec::new();
                 formulas(&line.math, &mut used);
                 for pair in line.math.windows(2) {
-                    // A letter for a root is told by its square, and an angle by its tangent.
+                    // A letter for a root is told by its square, an angle by its tangent, an effective mass by its inverse.
                     let letter = |e: &carom::expr::Expr| match e.node() {
-                        carom::expr::Node::Power(base, _) if *e == base.powi(2) => base.clone(),
+                        carom::expr::Node::Power(base, _)
+                            if *e == base.powi(2) || *e == base.powi(-1) =>
+                        {
+                            base.clone()
+                        }
                         carom::expr::Node::Call(_, angle) if *e == angle.tan() => angle.clone(),
                         _ => e.clone(),
                     };

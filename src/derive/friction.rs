@@ -410,6 +410,8 @@ impl Forms {
                 mode: mode.mode,
                 when: when.clone(),
                 conditions,
+                space: table.space.clone(),
+                slip: direction.sign(),
             }));
             Ok(settled)
         };

@@ -233,6 +233,10 @@ pub struct Decided {
     pub when: Vec<(Expr, Relation, Expr)>,
     /// What it says of the impulse and of the velocity just after.
     pub conditions: [Condition; 2],
+    /// What the contact feels of its bodies.
+    pub space: ContactSpace,
+    /// Whether it slips along its tangent, 1, or against it, −1, or is driven to; `None` where it does the same either way.
+    pub slip: Option<i64>,
 }
 
 impl Decided {

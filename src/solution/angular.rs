@@ -12,12 +12,12 @@ impl Writer<'_> {
     pub(super) fn angular_reason(&mut self, system: &[usize], about: Place) {
         let at = words::about(self.scene, system, about);
         let whom = words::bodies(self.scene, system);
-        let mut text = if system.len() > 1 {
-            format!("Take {whom} together and balance angular momentum about {at}.")
+        let balance = if system.len() > 1 {
+            format!("Take {whom} together and balance angular momentum about {at}")
         } else {
-            format!("Balance angular momentum of {whom} about {at}.")
+            format!("Balance angular momentum of {whom} about {at}")
         };
-        text.push_str(&self.internal_words(system));
+        let internal = self.internal_words(system);
         let outside = self.outside(system, Some(about));
         let mut silent = Vec::new();
         let mut through = Vec::new();
@@ -30,6 +30,13 @@ impl Writer<'_> {
                 through.push(place);
             }
         }
+        let mut text = match internal.is_empty() && silent == [at] {
+            true => {
+                silent.clear();
+                format!("{balance}: the impulse there has no moment.")
+            }
+            false => format!("{balance}.{internal}"),
+        };
         for (places, one, several) in [
             (
                 silent,
@@ -140,18 +147,9 @@ impl Writer<'_> {
                 sum.push(set("{} × {} {}", [arm, mass, vector("v", &c, "")]));
             }
             if spins {
-                let inertia = self.inertia_name(b);
-                sum.push(vec![inertia.clone(), words::spin(self.scene, b, "")]);
-                // Its value stands with its first use, that of a body of parts where these are told.
-                let body = &self.scene.bodies[b];
-                let by_parts = matches!(body.shape, Shape::Composite { .. }) && !body.inertia_given;
-                let is_new = matches!(inertia, Math::Name(_))
-                    && !by_parts
-                    && self.told.insert(Symbol::from(format!("I of {c}")));
-                if is_new {
-                    let value = self.g.inertia(b).clone();
-                    inertias.push((inertia, self.tidy(&value)));
-                }
+                let (inertia, value) = self.inertia_told(b);
+                sum.push(vec![inertia, words::spin(self.scene, b, "")]);
+                inertias.extend(value);
             }
         }
         if !sum.is_empty() {
@@ -159,12 +157,27 @@ impl Writer<'_> {
             math.extend(sum.join(&Math::Op("+")));
             self.show(math, None);
         }
-        for (inertia, value) in inertias {
-            let math = set("{} = {}", [inertia, value.into()]);
-            if !self.solution.stood(&math) {
-                self.show(math, None);
-            }
+        for math in inertias {
+            self.show(math, None);
         }
+    }
+
+    /// How the moment of inertia of a body is written, and its value where that does not stand on the page: with its first use,
+    /// or that of a body of parts where these are told.
+    pub(super) fn inertia_told(&mut self, b: usize) -> (Math, Option<Vec<Math>>) {
+        let inertia = self.inertia_name(b);
+        let body = &self.scene.bodies[b];
+        let by_parts = matches!(body.shape, Shape::Composite { .. }) && !body.inertia_given;
+        let c = words::center(self.scene, b);
+        let is_new = matches!(inertia, Math::Name(_))
+            && !by_parts
+            && self.told.insert(Symbol::from(format!("I of {c}")));
+        let value = is_new.then(|| {
+            let value = self.g.inertia(b).clone();
+            set("{} = {}", [inertia.clone(), self.tidy(&value).into()])
+        });
+        let value = value.filter(|math| !self.solution.stood(math));
+        (inertia, value)
     }
 
     /// The moment of an impulse from outside, evaluated.

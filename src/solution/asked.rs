@@ -84,10 +84,10 @@ pub(super) fn beyond_motion(solution: &mut Solution, scene: &Scene, answers: &[A
             Ask::Friction { .. } => &first.words,
             _ => "",
         };
-        if let Some(reason) = because(meaning)
+        if let Some(reason) = because(solution, meaning)
             && solution.detail != Detail::Brief
         {
-            solution.say(reason);
+            solution.text(reason);
         }
         if let Ask::Extremum { which, of, over } = ask
             && slope(solution, scene, answers, (*which, of, over), &mine)

@@ -128,8 +128,7 @@ impl Writer<'_> {
             self.name_impulses(block);
             let unknowns: Vec<Inline> = self.symbols(&block.unknowns);
             let count = words::count(n);
-            let [many, same] = [say(words::capital(&count)), say(count)];
-            let lead = fill("{} equations determine the {} unknowns ", [many, same]);
+            let lead = fill("{} equations determine ", [say(words::capital(&count))]);
             self.text([lead, unknowns, vec![say(".")]].concat());
             for equation in &block.equations {
                 self.balance(equation, n <= WRITTEN_OUT);

@@ -42,7 +42,7 @@ impl Writer<'_> {
         let mut math = Vec::new();
         let of = match point {
             Some((name, _)) => {
-                math.push(self.rigid(known.body, name));
+                math.push(self.rigid(known.body, name, "+"));
                 format!(
                     "the velocity of {} on {body}",
                     words::place(name, "contact")
@@ -216,7 +216,7 @@ impl Writer<'_> {
         let turns = |index: &String| index.starts_with(at.as_str());
         // Of a single point the relation of rigid bodies stands in the same line.
         if !both && turns(&indices[1]) {
-            math.extend(set("{} · {} =", [self.rigid(to, &at), n()]));
+            math.extend(set("{} · {} =", [self.rigid(to, &at, "+"), n()]));
         }
         if restitution.is_zero() {
             math.push(Expr::zero().into());
@@ -245,16 +245,17 @@ impl Writer<'_> {
         !self.spin_after(b).is_zero() && self.vanishes(&moment)
     }
 
-    /// `(v + ω × r)` just after for the touching point of a body, from its center of mass or from the joint it turns about.
-    pub(super) fn rigid(&self, b: usize, point: &str) -> Math {
+    /// `(v + ω × r)` for the touching point of a body, from its center of mass or from the joint it turns about; `when` is the
+    /// mark of the instant.
+    pub(super) fn rigid(&self, b: usize, point: &str, when: &'static str) -> Math {
         let link = self.reduction.tree.iter().find(|l| l.body == b).copied();
         let carrier = link.map_or(Place::Center(b), |l| l.at);
         let base = words::point(self.scene, carrier);
         let [carried, arm] = [
-            vector("v", &base, "+"),
+            vector("v", &base, when),
             vector("r", &format!("{point}/{base}"), ""),
         ];
-        let spin = words::spin(self.scene, b, "+");
+        let spin = words::spin(self.scene, b, when);
         let mut whole = match link.is_some_and(|l| self.stands(l.to, l.at)) {
             true => set("({} × {})", [spin, arm]),
             false => set("({} + {} × {})", [carried, spin, arm]),
@@ -276,7 +277,7 @@ impl Writer<'_> {
         let along = self.tidy(&(&v[0] * &n[0] + &v[1] * &n[1]));
         let n = || vector(letter, "", "");
         let mut math = set("{} · {} =", [vector("v", index, "+"), n()]);
-        let rigid = self.rigid(b, &self.scene.contacts[c].name);
+        let rigid = self.rigid(b, &self.scene.contacts[c].name, "+");
         math.extend(set("{} · {}", [rigid, n()]));
         if along.size() <= READABLE {
             math.extend(set("= {}", [along.into()]));

@@ -4,24 +4,31 @@ use super::sentence::called;
 use super::words::{self, fill, say};
 use super::{Inline, Math, Solution};
 use crate::answer::Answer;
-use crate::expr::Expr;
+use crate::expr::{Expr, Symbol};
 use crate::formula::Relation;
 use crate::scene::{Ask, Extremum, INSTANTANEOUS_CENTER, Scene};
 
 /// Why a coefficient of friction is the least or the largest with which something happens.
-pub(super) fn because(meaning: &str) -> Option<&'static str> {
+pub(super) fn because(solution: &Solution, meaning: &str) -> Option<Vec<Inline>> {
     let (_, event) = meaning.split_once("coefficient of friction with which it ")?;
-    Some(match event {
-        "sticks" => {
-            "It sticks as long as the tangential impulse this takes is at most the coefficient times the normal one:"
+    let ends: Vec<Symbol> = solution.ends_of_sliding().collect();
+    let text = match event {
+        "jams" if ends.len() == 1 => {
+            let end = [words::formula(&Expr::symbol(&ends[0]))];
+            return Some(fill(
+                "It jams where {} is infinite:",
+                end,
+            ));
         }
+        "sticks" => "It sticks as long as friction can give the tangential impulse this takes:",
         "slides" => {
             "It slides to the end as long as friction cannot end its slip before the normal impulse has done its work:"
         }
         _ => {
             "It jams where the friction of its slip turns it so fast into the surface that a normal impulse no longer slows its approach:"
         }
-    })
+    };
+    Some(vec![say(text)])
 }
 
 /// Whether a question needs no heading of its own after the one before: values one after the other, and one formula to

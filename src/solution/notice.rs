@@ -53,7 +53,7 @@ impl Writer<'_> {
             .collect()
     }
 
-    fn sign(&mut self, e: &Expr) -> Option<Sign> {
+    pub(super) fn sign(&mut self, e: &Expr) -> Option<Sign> {
         let element = self.field.element(e).ok()?;
         self.field.sign(&element)
     }
@@ -150,9 +150,7 @@ impl Writer<'_> {
         };
         let Some(fraction) = fraction.flatten() else {
             let words = match sign == Sign::Positive {
-                true => format!(
-                    "Kinetic energy is lost{at}{joints}: the loss is positive for all admitted values."
-                ),
+                true => format!("Kinetic energy is lost{at}{joints}."),
                 false => format!("Kinetic energy is never gained; any loss is{at}{joints}."),
             };
             return Some(vec![say(words)]);

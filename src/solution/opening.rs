@@ -242,7 +242,7 @@ impl Writer<'_> {
         if !forces.is_empty() {
             let one = forces.len() == 1 && !forces[0].starts_with("the weights ");
             text.push_str(&format!(
-                " {} {} finite and {} no impulse during the short collision.",
+                " {} {} finite and {} no impulse.",
                 words::capital(&words::listed(&forces)),
                 if one { "is" } else { "are" },
                 if one { "has" } else { "have" },
@@ -255,6 +255,10 @@ impl Writer<'_> {
         self.before();
         if let Some(law) = rough::law(self.scene) {
             self.text(law);
+        }
+        let decided: Vec<_> = self.scene.decided().collect();
+        if let [(at, decided)] = decided.as_slice() {
+            self.yields(*at, &[*decided], !decided.when.is_empty());
         }
         self.case();
         self.given_after();

@@ -227,7 +227,7 @@ impl Writer<'_> {
                 " in which nothing stays open"
             };
             text.push(say(format!(
-                "Check: the results satisfy every equation of momentum, joints and contacts{which}"
+                "Check: the results satisfy every equation{which}"
             )));
             if points > 0 {
                 text.push(say(", and an independent numerical solution agrees"));

@@ -3,7 +3,7 @@
 use super::isolate::is_square_root;
 use super::words::{self, fill};
 use super::{Claim, Line, Meaning, Part, Writer};
-use crate::expr::{Expr, Node, Symbol};
+use crate::expr::{Expr, Node};
 
 /// Least size, in nodes, of a root that gets a letter.
 const LONG: usize = 25;
@@ -23,7 +23,7 @@ impl Writer<'_> {
         }
         found.retain(|(root, count)| *count >= least && self.roots.iter().all(|(r, _)| r != root));
         for (root, _) in found {
-            let name = self.free_letter();
+            let [name] = self.free(&["s", "q", "z"], |letter| [letter.to_owned()]);
             let symbol = Expr::symbol(&name);
             let claim = Claim::new(symbol.clone(), root.clone());
             self.step(Vec::new(), vec![claim], "a letter for a long root");
@@ -51,16 +51,6 @@ impl Writer<'_> {
             Some((_, name)) => Expr::symbol(name),
             None => e.map_parts(|part| self.with_roots(part)),
         }
-    }
-
-    fn free_letter(&self) -> Symbol {
-        let taken = |name: &str| {
-            let mut parameters = self.scene.parameters.iter();
-            parameters.any(|p| &*p.name == name) || self.solution.meanings.contains_key(name)
-        };
-        let letters = ["s", "q", "z"].map(String::from).into_iter();
-        let mut all = letters.chain((1..).map(|i| format!("s_{i}")));
-        Symbol::from(all.find(|name| !taken(name)).unwrap_or_default())
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::words::{self, fill, say, vector};
 use super::{Inline, Math, Writer};
-use crate::expr::{Expr, Symbol, Vector, dot};
+use crate::expr::{Expr, Function, Symbol, Vector, dot};
 use crate::laws::Place;
 use crate::scene::{Contact, ContactLaw, Decided, Hypothesis, Mode, Scene};
 
@@ -21,11 +21,20 @@ pub(super) fn law(scene: &Scene) -> Option<Vec<Inline>> {
     let (at, decided) = decided(scene)?;
     let law = &decided.law;
     let at = say(words::place(&at.name, "contact"));
-    let [mu, e] = [&law.mu, &law.restitution].map(words::formula);
-    let mut text = fill(
-        "The contact at {} is rough, with coefficient of friction {} and coefficient of restitution {}",
-        [at, mu, e],
-    );
+    // What symbols mean is told with the others.
+    let explained = |e: &Expr, meaning: &str| {
+        let parameter = e.as_symbol().and_then(|name| scene.parameter(name));
+        parameter.is_some_and(|p| p.meaning.starts_with(meaning))
+    };
+    let mu = explained(&law.mu, "coefficient of friction");
+    let parts = [&law.mu, &law.restitution].map(words::formula);
+    let form = match mu && explained(&law.restitution, "coefficient of restitution") {
+        true => "The contact at {} is rough, with {} and {}",
+        false => {
+            "The contact at {} is rough, with coefficient of friction {} and coefficient of restitution {}"
+        }
+    };
+    let mut text = fill(form, [vec![at], parts.to_vec()].concat());
     if let Hypothesis::ChatterjeeRuina { tangential } = &law.hypothesis {
         let both = [words::formula(tangential)];
         text.extend(fill(" along the normal and {} along the surface", both));
@@ -48,7 +57,7 @@ impl Writer<'_> {
             Mode::Slides => "it slides to the end",
             Mode::Sticks => "it sticks",
             Mode::SticksInCompression if !self.slips_before(contact) => {
-                "nothing slides at the contact at any time"
+                "nothing slides at any time"
             }
             Mode::SticksInCompression => "it stops sliding during compression, and sticks",
             Mode::SticksInRestitution => "it stops sliding during restitution, and sticks",
@@ -58,7 +67,23 @@ impl Writer<'_> {
             Mode::ReversesInCompression => "its slip is reversed during compression",
             Mode::ReversesInRestitution => "its slip is reversed during restitution",
         };
-        let mut text = vec![say(format!("In the case worked out here {does}"))];
+        let sliding = self.rough.as_ref().and_then(|rough| rough.of(decided));
+        let e = &decided.law.restitution;
+        let rest = sliding.and_then(|s| s.condition(decided.mode, e, true));
+        let mut text = match (sliding, rest) {
+            (Some(sliding), Some(math)) => {
+                let ending = sliding.ending(&[decided.mode], e);
+                let lead = fill("Here {}: {}", [Inline::Math(math), say(does)]);
+                [ending, lead].concat()
+            }
+            _ => vec![say(format!("Here {does}"))],
+        };
+        if let (Mode::InsideCone, Some(rough)) = (decided.mode, &self.rough) {
+            let [t, n] = &rough.motion.impulse;
+            let most = Expr::from(rough.motion.sense[1]) * &decided.law.mu * n;
+            let within = words::related(&Expr::call(Function::Abs, t.clone()), "≤", &most);
+            text.extend([say(", "), Inline::Math(within)]);
+        }
         let is_short = |(left, _, right): &&(Expr, _, Expr)| left.size() + right.size() <= LONG;
         if !decided.when.is_empty() && decided.when.iter().all(|c| is_short(&c)) {
             text.push(say(", for "));
@@ -86,7 +111,7 @@ impl Writer<'_> {
         let ContactLaw::Decided(decided) = &c.law else {
             return;
         };
-        let (e, mode) = (&decided.law.restitution, decided.mode);
+        let e = &decided.law.restitution;
         let [here, begins] = [say(&at), say(words::capital(&at))];
         let text = match decided.conditions[index].words {
             "no slip after" => fill("{} does not slip just after:", [begins]),
@@ -99,26 +124,33 @@ impl Writer<'_> {
                 fill("{} slides against friction all the while:", [begins])
             }
             "friction before and after the reversal of slip" if self.slips_before(c) => {
-                vec![say(
-                    "Friction acts against the slip, first one way and then the other:",
-                )]
+                let sliding = self.rough.as_ref().and_then(|rough| rough.of(decided));
+                match sliding.and_then(|s| s.slip_ends.as_ref()) {
+                    Some(end) => fill(
+                        "Friction acts against the slip, up to the normal impulse {} one way and for the rest of it the other way:",
+                        [words::formula(end)],
+                    ),
+                    None => vec![say(
+                        "Friction acts against the slip, first one way and then the other:",
+                    )],
+                }
             }
             "friction before and after the reversal of slip" => {
                 fill("{} slides from the start, against friction:", [begins])
             }
             "normal impulse, 1 + e times that of compression" => {
-                let slips = self.slips_before(c);
-                let slides = matches!(
-                    mode,
-                    Mode::SticksInRestitution | Mode::ReversesInRestitution
-                );
-                let rate = (slides || !slips).then(|| self.stopping(c, e, right));
-                return self.compression(&at, e, (mode, slips), rate.flatten());
+                return self.compression(contact, decided, right);
             }
-            "restitution by energy" => fill(
-                "Restitution gives back {} times the work that the normal impulse took in compression, which leaves {} the normal velocity",
-                [words::formula(&e.powi(2)), here],
-            ),
+            "restitution by energy" => match self.work(decided) {
+                Some(remains) => {
+                    let parts = [here, words::formula(&remains)];
+                    fill("That leaves {} the normal velocity {}:", parts)
+                }
+                None => fill(
+                    "Restitution gives back {} times the work that the normal impulse took in compression, which leaves {} the normal velocity",
+                    [words::formula(&e.powi(2)), here],
+                ),
+            },
             "impulse ratio" => {
                 vec![say(
                     "The friction impulse bears a fixed ratio to the normal one:",
@@ -128,6 +160,9 @@ impl Writer<'_> {
                 "Along the surface the impulse is one plus the tangential coefficient times the one that brings {} to rest:",
                 [here],
             ),
+            "normal impulse (Chatterjee and Ruina)" if decided.space.b.is_zero() => vec![say(
+                "Along the normal it is one plus the coefficient of restitution times the impulse that ends the approach:",
+            )],
             "normal impulse (Chatterjee and Ruina)" => vec![say(
                 "Along the normal it is one plus the coefficient of restitution times the impulse that would end the approach without friction, plus what the tangential impulse adds:",
             )],
@@ -141,7 +176,7 @@ impl Writer<'_> {
     }
 
     /// Names the normal and the tangent of a rough contact, where they do not lie along the axes.
-    fn directions(&mut self, c: usize) {
+    pub(super) fn directions(&mut self, c: usize) {
         let Some(([_, to], [n, t])) = self.inclined(c) else {
             return;
         };
@@ -202,51 +237,40 @@ impl Writer<'_> {
         along_no_axis.then_some(([touching.from, touching.to], [n, t]))
     }
 
-    /// The speed of approach at a contact and by how much a unit of the normal impulse lessens it in compression: this is what
-    /// the impulse of compression is the quotient of. `impulse` is the whole one, 1 + e times as large.
-    fn stopping(&mut self, contact: &Contact, e: &Expr, impulse: &Expr) -> Option<[Expr; 2]> {
-        let normal = contact.normal.as_ref()?;
-        let approach = -dot(&contact.relative_velocity(self.scene), normal);
-        let approach = self.tidy(&approach);
-        let rate = self.tidy(&(&approach * (Expr::one() + e) / impulse));
-        (rate.size() <= LONG).then_some([approach, rate])
-    }
-
     /// Poisson: compression ends when the contact has no normal velocity left, and restitution adds e times its impulse.
-    fn compression(
-        &mut self,
-        at: &str,
-        e: &Expr,
-        (mode, slips): (Mode, bool),
-        rate: Option<[Expr; 2]>,
-    ) {
-        let state = match mode {
-            Mode::SticksInCompression if !slips => {
-                "nothing slides, so the impulse until then is the one that brings it to rest"
+    fn compression(&mut self, contact: usize, decided: &Decided, whole: &Expr) {
+        let c = &self.scene.contacts[contact];
+        let at = words::place(&c.name, "contact");
+        let e = &decided.law.restitution;
+        let slips = self.slips_before(c);
+        let slides = matches!(
+            decided.mode,
+            Mode::SticksInRestitution | Mode::ReversesInRestitution
+        );
+        let sliding = self.rough.as_ref().and_then(|rough| rough.of(decided));
+        let mut text = match (decided.mode, sliding) {
+            (_, Some(sliding)) if slides => {
+                let parts = [say(&at), words::formula(&sliding.compressed)];
+                fill("Since {} slides until then, compression ends at {}", parts)
             }
-            Mode::SticksInCompression => {
-                "it has stopped sliding by then, so the impulse until then is the one that brings it to rest"
+            _ => {
+                let end = match decided.mode {
+                    Mode::SticksInCompression => format!("Compression ends with {at} at rest"),
+                    _ if slides || !slips => format!("{at} slides until compression ends"),
+                    _ => format!("By the end of compression {at} slides the other way"),
+                };
+                let whole = whole / (Expr::one() + e);
+                let impulse = words::formula(&self.tidy(&whole));
+                match e.is_zero() {
+                    true => vec![say(end)],
+                    false => fill("{}, at the normal impulse {}", [say(end), impulse]),
+                }
             }
-            Mode::SticksInRestitution | Mode::ReversesInRestitution => {
-                "it slides until then, so friction is the coefficient times the normal impulse"
-            }
-            _ if !slips => {
-                "it slides from the beginning, so friction is the coefficient times the normal impulse"
-            }
-            _ => "by then it slides the other way, so friction has changed its sign on the way",
         };
-        let mut text = vec![say(format!(
-            "Compression ends when {at} has no normal velocity left; {state}."
-        ))];
-        if let Some([approach, rate]) = rate {
-            let slows = " Each unit of normal impulse takes {} off the speed of approach, {}.";
-            text.extend(fill(slows, [&rate, &approach].map(words::formula)));
-        }
-        let rest = match e.is_zero() {
-            true => " Without rebound that is all:",
-            false => " Restitution adds {} times as much:",
-        };
-        text.extend(fill(rest, [words::formula(e)]));
+        text.extend(match e.is_zero() {
+            true => vec![say("; there is no rebound:")],
+            false => fill("; restitution adds {} times that:", [words::formula(e)]),
+        });
         self.text(text);
     }
 }

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::slip::Rough;
 use super::words;
 use super::{Claim, Detail, Inline, Line, Math, Meaning, Part, Solution, Step};
 use crate::algebra::Field;
@@ -32,6 +33,8 @@ pub(super) struct Writer<'a> {
     pub(super) zero: BTreeSet<Unknown>,
     /// Long roots with the letters they got.
     pub(super) roots: Vec<(Expr, Symbol)>,
+    /// How the rough contact moves under its impulse, where that is told.
+    pub(super) rough: Option<Rough>,
 }
 
 impl<'a> Writer<'a> {
@@ -124,6 +127,7 @@ impl<'a> Writer<'a> {
             told: BTreeSet::new(),
             zero: given_zero,
             roots: Vec::new(),
+            rough: None,
         }
     }
 

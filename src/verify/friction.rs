@@ -251,6 +251,7 @@ fn joined(one: &Scene, other: &Scene) -> Option<Scene> {
     };
     let mut both = b.clone();
     both.mode = Mode::Sticks;
+    both.slip = both.slip.filter(|_| a.slip == b.slip);
     both.when.retain(|w| !a.when.iter().any(|v| meet(v, w)));
     let mut scene = other.clone();
     scene.contacts[at].law = ContactLaw::Decided(Box::new(both));

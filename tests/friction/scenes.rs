@@ -8,11 +8,13 @@ use carom::derive::friction::{Table, table};
 use carom::equality::{Equality, decide};
 use carom::expr::{Expr, Symbol};
 use carom::formula::{Symbols, read_expr};
+use carom::numeric::path::{Event, Path};
 use carom::scene::{Mode, Scene};
+use carom::solution::Detail;
 use carom::verify::compare::compare;
 use carom::verify::friction::{Judged, Pick, judge};
 use carom::verify::{possible, prove};
-use carom::{numeric, scene, story};
+use carom::{numeric, scene, story, worked};
 
 fn read(name: &str, set: &str) -> Scene {
     let path = format!("derivations/friction/{name}.json");
@@ -444,4 +446,107 @@ fn the_commands_tell_what_the_table_says() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+/// What a solution names of the path, at the corners of the path that knows no formulas: a claim is read by the name it gives.
+fn seen_at_corners(path: &Path<f64>, name: &str) -> Option<f64> {
+    let at = |event| path.corners.iter().position(|c| c.event == event);
+    let (slip, compressed) = (at(Event::SlipEnds), at(Event::Compressed));
+    let corner = |i: usize| &path.corners[i];
+    let first = |i: usize, other: Option<usize>| other.is_none_or(|other| i <= other);
+    match name {
+        "P_slip" | "Q_slip" => slip.map(|i| corner(i).impulse[1]),
+        // Where the slip ends first, compression ends elsewhere.
+        "P_comp" | "Q_comp" => {
+            let own = compressed.filter(|i| first(*i, slip));
+            own.map(|i| corner(i).impulse[1])
+        }
+        "v_slip" => slip.map(|i| corner(i).velocity[1]),
+        "k" => slip.map(|i| {
+            let [one, two] = [corner(i), corner(i + 1)];
+            (two.velocity[1] - one.velocity[1]) / (two.impulse[1] - one.impulse[1])
+        }),
+        "W" => compressed.map(|end| {
+            let pairs = path.corners[..=end].windows(2);
+            let works = pairs.map(|pair| {
+                let speed = pair[0].velocity[1] + pair[1].velocity[1];
+                -speed / 2.0 * (pair[1].impulse[1] - pair[0].impulse[1])
+            });
+            works.sum()
+        }),
+        _ => None,
+    }
+}
+
+#[test]
+fn the_impulses_that_a_solution_names_are_corners_of_the_path() {
+    let of_tests = crate::shared::files("tests/friction", "json");
+    let shipped = names().into_iter();
+    let shipped = shipped.map(|name| format!("derivations/friction/{name}.json").into());
+    let mut compared: BTreeMap<String, usize> = BTreeMap::new();
+    for path in shipped.chain(of_tests) {
+        let scene = scene::read(&std::fs::read_to_string(&path).expect("a scene"));
+        let scene = scene.expect("a valid scene");
+        if scene.has_stages() {
+            continue;
+        }
+        let worked = worked::out(&scene).or_else(|_| worked::in_cases(&scene));
+        let worked = worked.unwrap_or_else(|why| panic!("{}: {why}", path.display()));
+        let solution = worked.solution(Detail::Normal);
+        let named = solution.steps.iter().filter_map(|step| {
+            let name = step.defines.clone()?;
+            Some((name, step.after.first()?.right.clone(), solution.mode))
+        });
+        let named: Vec<_> = named.collect();
+        let values: BTreeMap<Symbol, Expr> = named
+            .iter()
+            .map(|(n, e, _)| (n.clone(), e.clone()))
+            .collect();
+        let put_in = |e: &Expr| (0..3).fold(e.clone(), |e, _| e.substitute(&values));
+        let formulas: Vec<Expr> = named.iter().map(|(_, e, _)| put_in(e)).collect();
+        let known = |e: &Expr| e.symbols().iter().all(|s| scene.parameter(s).is_some());
+        let parameters = scene.parameters.iter().map(|p| Expr::symbol(&p.name));
+        let parameters: Vec<Expr> = parameters.collect();
+        let given = formulas.iter().filter(|e| known(e)).chain(&parameters);
+        let given: Vec<&Expr> = given.collect();
+        for sample in scene.domains.points(&given, 400) {
+            let point = sample.doubles();
+            let Ok(numbers) = numeric::given(&scene, &point) else {
+                continue;
+            };
+            let Ok(Some((_, followed))) = numeric::settle(&numbers, numeric::solve_f64) else {
+                continue;
+            };
+            let mode = numeric::friction::happened(&numbers, &followed);
+            for ((name, _, of), formula) in named.iter().zip(&formulas) {
+                let seen = seen_at_corners(&followed.path, name).filter(|_| known(formula));
+                // Of a case alone these hold: how the contact goes on after its slip.
+                let of_case = matches!(&**name, "k" | "W");
+                let (Some(seen), false) = (seen, of_case && *of != Some(mode)) else {
+                    continue;
+                };
+                let value = formula.evaluate(&point).expect("a value");
+                // Names of the other direction have other values.
+                let turned = match name.split_once('_') {
+                    Some(("P", end)) => format!("Q_{end}"),
+                    Some(("Q", end)) => format!("P_{end}"),
+                    _ => String::new(),
+                };
+                let other = values
+                    .get(turned.as_str())
+                    .and_then(|e| put_in(e).evaluate(&point));
+                let close = |x: f64| (x - seen).abs() <= 1e-9 * (x.abs() + seen.abs());
+                assert!(
+                    close(value) || other.is_some_and(close),
+                    "{}: {name} is {value}, not {seen}",
+                    path.display()
+                );
+                *compared.entry(name.to_string()).or_default() += 1;
+            }
+        }
+    }
+    for name in ["P_slip", "P_comp", "v_slip", "k", "W"] {
+        let times = compared.get(name).copied().unwrap_or(0);
+        assert!(times > 2, "{name}: {compared:?}");
+    }
 }

@@ -88,6 +88,7 @@ impl Forms {
         let told = told.map(|b| (b.left.clone(), b.relation, b.right.clone()));
         if let ContactLaw::Decided(decided) = &mut one.scene.contacts[contact].law {
             decided.when = told.collect();
+            decided.slip = None;
         }
         Ok(())
     }

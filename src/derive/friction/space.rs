@@ -68,6 +68,14 @@ fn eliminated(scene: &Scene, contact: usize, [t, n]: [&Vector; 2]) -> Result<[Ex
     let Some((_, law)) = scene.friction() else {
         return Err(Stop::Limit(String::from("a contact without friction")));
     };
+    let [a, b, c, tangential, normal] = [(); 5].map(|()| Expr::zero());
+    let unknown = ContactSpace {
+        a,
+        b,
+        c,
+        tangential,
+        normal,
+    };
     for (unit, seen) in [(t, vec![t, n]), (n, vec![n])] {
         let outright = |axis: usize| {
             let mut impulse = [Expr::zero(), Expr::zero()];
@@ -84,6 +92,8 @@ fn eliminated(scene: &Scene, contact: usize, [t, n]: [&Vector; 2]) -> Result<[Ex
             mode: Mode::GivenRatio,
             when: Vec::new(),
             conditions: [outright(0), outright(1)],
+            space: unknown.clone(),
+            slip: None,
         }));
         let mut work = Work::new(&probe)?;
         let at = &probe.contacts[contact].at;

@@ -7,6 +7,7 @@
 mod cases;
 mod ends;
 mod flight;
+mod impact;
 mod motion;
 mod newton;
 mod pivot;
@@ -21,12 +22,13 @@ use super::neat::tidied;
 use super::opening;
 use super::rough;
 use super::sentence::{self, full_sentence};
+use super::slip::Rough;
 use super::words::{self, say};
-use super::{Before, Detail, Inline, Math, Part, Scope, Slot, Solution, Writer};
+use super::{Before, Detail, Inline, Math, Part, Slot, Solution};
 use crate::answer::Answer;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{Piece, Sentence, sentence as saying};
-use crate::scene::{Ask, Scene, Stage, StageKind, without_case};
+use crate::scene::{Ask, Scene, StageKind, without_case};
 use crate::story::{Case, StageTold, Told, line};
 
 /// Longest condition, in characters, that is a heading.
@@ -41,6 +43,7 @@ pub(super) fn tell(scene: &Scene, told: &Told, detail: Detail) -> Solution {
         valid: super::results::stated(scene),
         letters: Vec::new(),
         stands: Vec::new(),
+        rough: None,
     };
     page.opening();
     let mut answers = told.answers.clone();
@@ -123,6 +126,8 @@ struct Page<'a> {
     letters: Vec<(Math, &'static str)>,
     /// Equations that later stages need not tell again.
     stands: Vec<Vec<Math>>,
+    /// How the rough contact of the impact under way moves under its impulse, where that is told.
+    rough: Option<Rough>,
 }
 
 impl Page<'_> {
@@ -393,138 +398,6 @@ impl Page<'_> {
         self.solution.text(full_sentence(self.scene, &text));
     }
 
-    /// An impact, written like a collision by itself.
-    fn impact(&mut self, stage: &Stage, case: &Case, [i, k]: [usize; 2], together: bool) {
-        let told = &self.told.stages[i];
-        let several = told.cases.len() > 1;
-        let id = if several {
-            format!("{}/{}", told.name, k + 1)
-        } else {
-            told.name.clone()
-        };
-        if several {
-            let mut heading = vec![say(format!("Case {}: ", k + 1))];
-            match self.by_contact(told) {
-                true => heading.push(say(sentence::called(self.scene, &case.rubs))),
-                false => heading.extend(sentence::sentence(self.scene, &case.holds_where())),
-            }
-            self.solution.section(1, heading);
-        }
-        let (scene, derivation) = case.asked(&self.going_on([i, k]));
-        if !together {
-            self.handed(case);
-        }
-        let mut writer = Writer::new(&scene, &derivation, &case.proof, self.solution.detail);
-        writer.depth = if several { 2 } else { 1 };
-        // The text goes on where it stands; symbols belong to the impact.
-        let first = self.solution.steps.len();
-        std::mem::swap(&mut writer.solution.sections, &mut self.solution.sections);
-        std::mem::swap(&mut writer.solution.steps, &mut self.solution.steps);
-        let mut names = self.solution.names.clone();
-        names.append(&mut writer.solution.names);
-        writer.solution.names = names;
-        if self.solution.detail != Detail::Brief && !several {
-            writer.case();
-        }
-        writer.given_after();
-        self.just_after(&mut writer, case, [i, k]);
-        // That everything was checked is told once, at the end.
-        if self.solution.detail == Detail::Full || !case.proof.holds() {
-            writer.checked();
-        }
-        for condition in writer.conditions() {
-            let known = |s: &Symbol| self.scene.parameter(s).is_some();
-            let all_known = sentence::symbols(&condition).all(|s| known(&s));
-            if all_known && !self.valid.contains(&condition) {
-                self.valid.push(condition);
-            }
-        }
-        std::mem::swap(&mut writer.solution.sections, &mut self.solution.sections);
-        std::mem::swap(&mut writer.solution.steps, &mut self.solution.steps);
-        self.solution.names = writer.solution.names;
-        for step in &mut self.solution.steps[first..] {
-            step.scope = Some(id.clone());
-        }
-        let line = line(&self.told.stages, (i, k));
-        let earlier = line.flat_map(|(j, _)| &self.told.stages[j].needs);
-        let given = told.given.iter().map(|(_, e)| e);
-        let own = case.conditions.iter().map(|(_, e)| e);
-        let mut needs = needed(self.scene, earlier.chain(given).chain(own));
-        needs.extend(case.when.iter().cloned());
-        self.solution.scopes.push(Scope {
-            name: id,
-            stage: stage.name.clone(),
-            active: case.active.clone(),
-            mode: super::decided(&scene),
-            handed: case.handed.clone(),
-            earlier: told.earlier.clone(),
-            open: told.before.open.keys().cloned().collect(),
-            before: befores(&scene),
-            needs,
-            meanings: writer.solution.meanings,
-        });
-    }
-
-    /// The bodies whose motion just after an impact later stages go on with.
-    fn going_on(&self, [i, k]: [usize; 2]) -> Vec<usize> {
-        let next = self.told.stages.iter().filter(|s| s.branch == Some((i, k)));
-        let all = next.flat_map(|s| match &s.placed.kind {
-            StageKind::Impact { .. } => {
-                let joints = s.placed.scene.touching();
-                joints.flat_map(|one| one.bodies).collect()
-            }
-            kind => kind.moved(),
-        });
-        all.collect()
-    }
-
-    /// The motion just after an impact: its equations, or the stage or case in which they were written already.
-    fn just_after(&self, writer: &mut Writer<'_>, case: &Case, [i, k]: [usize; 2]) {
-        let same = cases::in_earlier(self.told, [i, k]);
-        let alike = || (0..i).find_map(|j| self.alike(j, writer));
-        let again = || cases::again(self.scene, &self.told.stages[i].cases, k);
-        let full = self.solution.detail == Detail::Full;
-        let earlier = match same {
-            Some(at) => Some((at, Vec::new())),
-            None if full => None,
-            None => alike(),
-        };
-        match (earlier, again()) {
-            (Some(([j, c], come)), _) => {
-                let there = &self.told.stages[j];
-                let stage = sentence::called(self.scene, &words::stage(&there.name));
-                let which = match there.cases.len() {
-                    1 => String::new(),
-                    _ => format!("case {} of ", c + 1),
-                };
-                let rest = match come.as_slice() {
-                    [] => ", and so is the motion just after:",
-                    _ => ", with another motion just before:",
-                };
-                let lead = format!("The equations are those of {which}{stage}{rest}");
-                writer.in_earlier(&lead, come);
-            }
-            (None, Some(again)) => writer.again(&case.rubs, &again),
-            (None, None) => {
-                writer.blocks();
-                if !writer.d.definitions.is_empty() {
-                    writer.results();
-                }
-            }
-        }
-    }
-
-    /// An earlier impact of one outcome whose equations are those of the one under way, and how the bodies come into this one.
-    fn alike(&self, j: usize, writer: &Writer<'_>) -> Option<([usize; 2], Vec<Vec<Math>>)> {
-        let [case] = self.told.stages[j].cases.as_slice() else {
-            return None;
-        };
-        let (scene, derivation) = case.asked(&self.going_on([j, 0]));
-        let same = cases::same_equations((&scene, &derivation), (writer.scene, writer.d));
-        let come = cases::come(&scene, writer.scene);
-        (same && !come.is_empty()).then_some(([j, 0], come))
-    }
-
     /// Whether cases are called by what a rough contact does: their conditions are long, and stand before them.
     fn by_contact(&self, told: &StageTold) -> bool {
         let differ = |c: &Case| told.cases.iter().filter(|o| o.rubs == c.rubs).count() == 1;
@@ -649,7 +522,7 @@ impl Page<'_> {
                 "Check: followed in time numerically, from the given data alone, the scene ends with the same values."
             }
             true if self.told.stages.iter().any(|s| !s.cases.is_empty()) => {
-                "Check: the results of the impacts satisfy every equation of momentum, joints and contacts, and an independent numerical solution agrees."
+                "Check: the results of the impacts satisfy every equation, and an independent numerical solution agrees."
             }
             true => return,
         };
