@@ -13,7 +13,7 @@ use super::words::{self, fill, say};
 use super::{Claim, Detail, Inline, Line, Math, Part, Solution};
 use crate::algebra::{Sign, sign};
 use crate::answer::{Answer, Form};
-use crate::expr::{Expr, Point, Symbol};
+use crate::expr::{Expr, Node, Point, Symbol};
 use crate::formula::Relation;
 use crate::formula::{Piece, Sentence};
 use crate::scene::{Ask, Extremum, Scene};
@@ -161,8 +161,34 @@ fn slope(
     }
     solution.text(fill(lead, [words::formula(&Expr::symbol(p))]));
     let math = words::related(&slope, relation, &Expr::zero());
-    solution.display(vec![Line::plain(math)]);
+    let mut lines = vec![Line::plain(math)];
+    if relation == "="
+        && let Some(math) = square_of(scene, &slope, p, place)
+    {
+        lines.push(Line::plain(math));
+    }
+    solution.display(lines);
     true
+}
+
+/// The square that a factor of two terms gives where it vanishes: of 1 − 5 sin²θ, sin²θ = 1/5.
+fn square_of(scene: &Scene, slope: &Expr, p: &Symbol, place: &Expr) -> Option<Vec<Math>> {
+    let there = std::collections::BTreeMap::from([(p.clone(), place.clone())]);
+    let vanishes = |e: &&Expr| tidied(scene, &e.substitute(&there)).is_zero();
+    let factor = slope.factors().iter().find(vanishes)?;
+    let [one, other] = factor.terms() else {
+        return None;
+    };
+    let (varies, rest) = match (one.mentions(p), other.mentions(p)) {
+        (true, false) => (one, other),
+        (false, true) => (other, one),
+        _ => return None,
+    };
+    let square = varies.factors().iter().find(|f| f.mentions(p))?;
+    let value = tidied(scene, &(-rest / (varies / square)));
+    let is_square = matches!(square.node(), Node::Power(_, n) if *n == Expr::from(2));
+    let equation = words::related(square, "=", &value);
+    (is_square && !value.mentions(p)).then(|| [vec![Math::Op("⇒")], equation].concat())
 }
 
 /// Adds a section with the answers to one question, in the order given.

@@ -134,7 +134,14 @@ impl Writer<'_> {
                 self.balance(equation, n <= WRITTEN_OUT);
             }
         }
-        self.solved(&[block], "Solving them gives");
+        // Homogeneous equations that are independent need no solving.
+        let mut sides = block.equations.iter().map(|e| self.sides(e).1);
+        let vanish = sides.all(|right| right.is_zero());
+        let lead = match vanish && self.d.solution(block).iter().all(Expr::is_zero) {
+            true => "They are homogeneous and independent, so",
+            false => "Solving them gives",
+        };
+        self.solved(&[block], lead);
     }
 
     /// `ω₁, v_x and P`.

@@ -15,10 +15,7 @@ pub(super) fn because(solution: &Solution, meaning: &str) -> Option<Vec<Inline>>
     let text = match event {
         "jams" if ends.len() == 1 => {
             let end = [words::formula(&Expr::symbol(&ends[0]))];
-            return Some(fill(
-                "It jams where {} is infinite:",
-                end,
-            ));
+            return Some(fill("It jams where {} is infinite:", end));
         }
         "sticks" => "It sticks as long as friction can give the tangential impulse this takes:",
         "slides" => {
@@ -61,7 +58,7 @@ fn is_headed(meaning: &str) -> bool {
 pub(super) fn further(solution: &mut Solution, ask: &Ask, answer: &Answer) {
     if let Ask::Approximate { order, .. } = ask {
         return solution.say(&match order {
-            Some(order) => format!("To order {order},"),
+            Some(order) => format!("To {},", words::order(*order)),
             None => String::from("The leading term is"),
         });
     }
@@ -145,7 +142,7 @@ pub(super) fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> 
                 Some(0) => {}
                 Some(1) => out.push(say(", to first order")),
                 Some(2) => out.push(say(", to second order")),
-                Some(order) => out.push(say(format!(", to order {order}"))),
+                Some(order) => out.push(say(format!(", to {}", words::order(*order)))),
                 None => out.insert(0, say("Leading term of ")),
             }
             out
@@ -162,8 +159,8 @@ pub(super) fn heading(scene: &Scene, ask: &Ask, answer: &Answer) -> Vec<Inline> 
         },
         Ask::Turn { number, total, .. } => {
             let form = match total {
-                true => "In {} turns, however many",
-                false => "In turn {}, whichever it is",
+                true => "In the first {} turns",
+                false => "In the {}th turn",
             };
             fill(form, [math(&Expr::symbol(number))])
         }

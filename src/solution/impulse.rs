@@ -203,9 +203,9 @@ impl Writer<'_> {
             ));
         }
         let chain = self.chain(frame);
-        let whom = match moving.as_slice() {
-            [b] => words::body(self.scene, *b),
-            _ => String::from("either"),
+        let moves = match moving.as_slice() {
+            [b] => format!("{here} moves with {}", words::body(self.scene, *b)),
+            _ => format!("the points at {here} move with the bodies"),
         };
         let is_particle = |b: &usize| self.scene.bodies[*b].is_particle();
         let law = match chain.as_slice() {
@@ -240,7 +240,7 @@ impl Writer<'_> {
                     },
                     _ => String::from("each center of mass"),
                 };
-                format!("momentum, and angular momentum about {about}; {here} moves with {whom}")
+                format!("momentum, and angular momentum about {about}; {moves}")
             }
         };
         text.push(say(format!(". Balance {law}:")));

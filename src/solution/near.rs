@@ -58,7 +58,7 @@ pub(super) fn near<'s>(
             .collect();
         if !other.is_empty() {
             let mut text = vec![say(match order {
-                Some(order) => format!("To order {order}, "),
+                Some(order) => format!("To {}, ", words::order(order)),
                 None => String::from("Its leading term: "),
             })];
             text.extend(words::row(other, " and "));

@@ -42,6 +42,14 @@ pub fn count(n: usize) -> String {
     WORDS.get(n).map_or(n.to_string(), |w| (*w).to_string())
 }
 
+/// `first order`, `order 4`.
+pub fn order(n: u32) -> String {
+    match ["zeroth", "first", "second", "third"].get(n as usize) {
+        Some(word) => format!("{word} order"),
+        None => format!("order {n}"),
+    }
+}
+
 /// The letter of a point: its own name, or `G` for the center of mass of the only body that moves.
 pub fn point(scene: &Scene, place: Place) -> String {
     match place {
