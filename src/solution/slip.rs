@@ -122,7 +122,7 @@ impl Writer<'_> {
     /// Tells how the rough contact moves under an impulse and where its slip and its compression end, if the laws of these cases
     /// or their conditions rest on that.
     pub(super) fn yields(&mut self, contact: usize, cases: &[&Decided], has_conditions: bool) {
-        let rests = |c: &&Decided| {
+        let rests = |c: &Decided| {
             let mut words = c.conditions.iter().map(|c| c.words);
             words.any(|w| {
                 w.starts_with("normal impulse") || w.contains("reversal") || w.contains("by energy")
@@ -133,7 +133,7 @@ impl Writer<'_> {
         };
         let outright = matches!(first.law.hypothesis, Hypothesis::ChatterjeeRuina { .. });
         let is_followed = first.law.hypothesis.has_path() || outright;
-        let needed = has_conditions || cases.iter().any(|c| rests(&c));
+        let needed = has_conditions || cases.iter().any(|c| rests(c));
         if !is_followed || !needed || first.space.is_held() {
             return;
         }
