@@ -274,7 +274,10 @@ fn body(solution: &mut Solution, scene: &Scene, ask: &Ask, answer: &Answer, told
         });
         let unit = format!("{unit}{}", in_degrees.unwrap_or_default());
         let value = say(format!("{value}{unit}."));
-        solution.text(vec![say(NUMBERS), words::formula(&of), value]);
+        // Numbers without symbols rest on no values of the scene.
+        let is_plain = answer.formula().is_some_and(Expr::is_constant);
+        let lead = if is_plain { "That is " } else { NUMBERS };
+        solution.text(vec![say(lead), words::formula(&of), value]);
     }
     said(solution, scene, ask, answer);
     if brief && holds(answer) {

@@ -146,6 +146,11 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     let with_names = std::mem::replace(&mut base.symbols, plain);
     base.symbols.absorb(&with_names);
     scene.domains = domains;
+    let unread = read.iter().position(Option::is_none);
+    if let (Some(i), true) = (unread, base.faults.is_empty()) {
+        let hint = "ask for less of it, or write it in another way";
+        base.report(stages[i].span, "this stage could not be read", hint);
+    }
     let Some(read) = read.into_iter().collect() else {
         return;
     };
@@ -460,7 +465,8 @@ fn held_on(
                 law: Some(LawName::Sticking),
                 ..ContactFile::between(name.span, pair)
             };
-            contacts.0.push((name, Some(contact)));
+            // Before the supports and strings, which stand last.
+            contacts.0.insert(0, (name, Some(contact)));
         }
     }
 }
