@@ -135,3 +135,30 @@ fn order(e: &Expr) -> Option<i64> {
         Node::Call(..) => None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A product that is zero at all points of the lattice but the last one along the first symbol.
+    fn nearly(name: &str, degree: i64) -> Expr {
+        let from = |k: i64| Expr::symbol(name) - Expr::from(START[0] + k);
+        Expr::product((0..degree).map(from))
+    }
+
+    #[test]
+    fn one_point_less_would_prove_what_is_false() {
+        let y = Expr::symbol("y");
+        for degree in 1..6 {
+            let e = nearly("x", degree);
+            assert_eq!(prove(&e, &Expr::zero()), None);
+            assert_eq!(prove(&(&e + &y), &y), None);
+            assert_eq!(prove(&(&y / &(&e + &y)), &Expr::one()), None);
+            let same = prove(&(&e * &y + &y), &(&y * &(&e + &Expr::one())));
+            assert!(same.is_some());
+        }
+        let squares = (Expr::symbol("x") - &y) * (Expr::symbol("x") + &y);
+        assert!(prove(&squares, &(Expr::symbol("x").powi(2) - y.powi(2))).is_some());
+        assert_eq!(prove(&squares, &Expr::symbol("x").powi(2)), None);
+    }
+}
