@@ -60,6 +60,7 @@ pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
     let case = Case {
         active: Vec::new(),
         idle: Vec::new(),
+        redundant: false,
         when: Vec::new(),
         rubs: String::new(),
         conditions: Vec::new(),

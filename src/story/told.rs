@@ -146,6 +146,8 @@ pub struct Case {
     pub active: Vec<String>,
     /// Names of those that do not act and yet do not part: nothing pulls at them or presses on them.
     pub idle: Vec<String>,
+    /// Whether more act than the motion needs, so that the impulse of one of them is not determined.
+    pub redundant: bool,
     /// What a contact with friction does, such as "`C` slides"; empty where there is none.
     pub rubs: String,
     /// What must be ≥ 0 for it, in words and as an expression; empty where it holds on the whole domain.

@@ -448,6 +448,7 @@ fn start(scene: &Scene, solids: &[Solid], at: &Point<f64>) -> Result<State, Unde
     Ok(State {
         bodies,
         joined: Vec::new(),
+        fastest: 0.0,
     })
 }
 

@@ -79,6 +79,8 @@ pub struct State {
     pub bodies: Vec<BodyState>,
     /// Bodies that a sticking contact or a hinge joins, of the last impact that touched either.
     pub joined: Vec<[usize; 2]>,
+    /// Largest speed that an impact has seen so far \[m/s\]: beside it, what is left of a motion brought to rest is rounding.
+    pub fastest: f64,
 }
 
 impl State {

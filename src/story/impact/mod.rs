@@ -14,6 +14,7 @@ pub(super) use outcome::acting;
 use incoming::{approach, hand_on, hinges_fit, touches};
 use outcome::{
     Active, ENERGY, add_possible, case, fits, gain, is_refuted, no_answer, put_to_act, state_after,
+    with_redundant,
 };
 
 use super::{Case, Kept, Refused, StageTold, State};
@@ -66,6 +67,7 @@ pub(super) fn tell(
             }
         }
     }
+    cases = with_redundant(cases);
     if let Some(sure) = cases.iter().position(|c| c.conditions.is_empty()) {
         // Momentum and the one-sided laws have one outcome only; what holds everywhere is it.
         cases = vec![cases.swap_remove(sure)];

@@ -72,7 +72,7 @@ pub(super) fn case(
         _ => None,
     };
     let mut conditions = Vec::new();
-    let mut idle = Vec::new();
+    let (mut idle, mut redundant) = (Vec::new(), false);
     // Where a support needs the same, what friction does says it.
     for need in &outcome.when {
         let need = need.substitute(handed);
@@ -85,6 +85,7 @@ pub(super) fn case(
     }
     for (i, (_, words)) in wanted.iter().enumerate() {
         let Some(end) = amount(&closed, &scene, active, i)? else {
+            redundant |= set.contains(&i) && !is_supposed;
             continue;
         };
         if is_zero(&end, &scene.domains) == Some(true) {
@@ -124,6 +125,7 @@ pub(super) fn case(
         possible,
         active: set.iter().map(|i| one_sided[*i].name.clone()).collect(),
         idle,
+        redundant,
         when: outcome.when.clone(),
         rubs: outcome.words.clone(),
         conditions,
@@ -134,6 +136,28 @@ pub(super) fn case(
         derivation,
         proof,
     }))
+}
+
+/// The cases, where more than the motion needs may act. Impulses that push can be had from more of them only if they can from
+/// some that have one solution (Carathéodory, on cones), with the same motion: such a set tells when it is so, and the larger one
+/// that its impulses are not determined.
+pub(super) fn with_redundant(cases: Vec<Case>) -> Vec<Case> {
+    let (redundant, sure): (Vec<Case>, Vec<Case>) = cases.into_iter().partition(|c| c.redundant);
+    let larger = |case: &Case| {
+        let holds = |name| case.active.contains(name) || case.idle.contains(name);
+        redundant.iter().find(|all| {
+            let acts = |name: &String| all.active.contains(name);
+            all.rubs == case.rubs && case.active.iter().all(acts) && all.active.iter().all(holds)
+        })
+    };
+    let as_larger = |case: Case| match larger(&case) {
+        Some(all) => Case {
+            conditions: case.conditions,
+            ..all.clone()
+        },
+        None => case,
+    };
+    sure.into_iter().map(as_larger).collect()
 }
 
 /// Takes note where given values do not keep to what is supposed of a contact with friction.

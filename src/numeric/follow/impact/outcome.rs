@@ -11,6 +11,7 @@ impl Table<'_> {
     pub(super) fn after(&self, course: &Course<'_>, fitting: &[Tried], before: &State) -> State {
         let mut after = before.clone();
         let speed = self.fastest(fitting);
+        after.fastest = speed;
         let spin = if self.arm > 0.0 {
             speed / self.arm
         } else {

@@ -3,7 +3,7 @@
 use super::super::{BodyState, Course, Lost, State};
 use super::{ROUNDING, Support, Table, norm};
 use crate::expr::arithmetic::difference;
-use crate::numeric::given::{Freedom, GivenBody, around};
+use crate::numeric::given::{Freedom, GivenBody, GivenImpulse, around};
 use crate::scene::{OneSided, Scene};
 
 impl<'a> Table<'a> {
@@ -68,7 +68,7 @@ impl<'a> Table<'a> {
             touched,
             unplaced,
             loose,
-            speed: 0.0,
+            speed: before.fastest,
             momentum: 0.0,
             arm: 0.0,
         };
@@ -78,6 +78,7 @@ impl<'a> Table<'a> {
 
     /// Finds the sizes that rounding is measured by.
     fn measure(&mut self) {
+        let earlier = self.speed;
         let joints = self.given.hinges.iter();
         let joints = joints.chain(self.given.contacts.iter().map(|c| &c.joint));
         let places: Vec<([usize; 2], [f64; 2])> = joints
@@ -94,7 +95,17 @@ impl<'a> Table<'a> {
             let speed = norm(&body.velocity) + body.spin.abs() * arm;
             self.arm = self.arm.max(arm);
             self.speed = self.speed.max(speed);
-            self.momentum = self.momentum.max(body.mass * speed);
+            if body.freedom != Freedom::Fixed {
+                // What was brought to rest before has rounding left of its momentum then.
+                self.momentum = self.momentum.max(body.mass * speed.max(earlier));
+            }
+        }
+        for blow in &self.given.blows {
+            if let GivenImpulse::Whole(p) = &blow.impulse {
+                let (p, mass) = (norm(p), self.given.bodies[blow.body].mass);
+                self.momentum = self.momentum.max(p);
+                self.speed = self.speed.max(if mass > 0.0 { p / mass } else { 0.0 });
+            }
         }
     }
 
