@@ -389,10 +389,10 @@ impl Course<'_> {
         &self,
         [before, mut after]: [State; 2],
         time: Component,
-        has_forces: bool,
+        has_weight: bool,
         moved: Moved,
     ) -> Passed {
-        motion::others(self, &before, &mut after, &moved.bodies, &time, has_forces);
+        motion::others(self, &before, &mut after, &moved.bodies, &time, has_weight);
         self.passed(time, before, after, What::Motion(moved))
     }
 

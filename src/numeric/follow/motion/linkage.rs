@@ -127,10 +127,10 @@ pub(in crate::numeric::follow) fn linkage(
     linkage: &Linkage,
 ) -> Result<Passed, Lost> {
     let bodies: Vec<usize> = linkage.places.iter().map(|(b, _)| *b).collect();
-    let has_forces = linkage.gravity.is_some();
+    let has_weight = linkage.gravity.is_some();
     let Ok(movers) = Movers::of(course, &bodies, &before, [0.0; 2]) else {
         let time = Err(course.open(Why::Needed));
-        return Ok(all_open(course, before, &bodies, has_forces, time));
+        return Ok(all_open(course, before, &bodies, has_weight, time));
     };
     let ends = linkage.ends.each_ref();
     let [from, to] = ends.map(|end| course.number(end, "coordinate"));
@@ -199,7 +199,7 @@ pub(in crate::numeric::follow) fn linkage(
         }),
         ..Moved::default()
     };
-    Ok(course.moved([before, after], time, has_forces, moved))
+    Ok(course.moved([before, after], time, has_weight, moved))
 }
 
 /// What the places hold besides the coordinate, and nothing else: they are looked at thousands of times.

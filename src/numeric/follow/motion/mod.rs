@@ -305,7 +305,7 @@ fn all_open(
     course: &Course<'_>,
     before: State,
     bodies: &[usize],
-    has_forces: bool,
+    has_weight: bool,
     time: Component,
 ) -> Passed {
     let open = course.open(Why::Needed);
@@ -318,17 +318,18 @@ fn all_open(
         bodies: bodies.to_vec(),
         ..Moved::default()
     };
-    course.moved([before, after], time, has_forces, moved)
+    course.moved([before, after], time, has_weight, moved)
 }
 
-/// Bodies that the stage does not name: they wait, rest, fly on, or nobody knows.
+/// Bodies that the stage does not name: they wait, rest, fly on, or nobody knows. An applied force or moment is that of what it
+/// names; weight would act on all.
 pub(super) fn others(
     course: &Course<'_>,
     before: &State,
     after: &mut State,
     moving: &[usize],
     time: &Component,
-    has_forces: bool,
+    has_weight: bool,
 ) {
     let fastest = before.bodies.iter().chain(&after.bodies);
     let fastest = fastest.flat_map(|b| &b.velocity).flatten();
@@ -366,7 +367,7 @@ pub(super) fn others(
             continue;
         }
         let is_prescribed = course.solids[b].freedom == Freedom::Fixed;
-        if has_forces && !is_prescribed {
+        if has_weight && !is_prescribed {
             body.leave_open(&course.open(Why::Forces));
             continue;
         }

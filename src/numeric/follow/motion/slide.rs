@@ -89,11 +89,11 @@ pub(in crate::numeric::follow) fn slide(
         false => before,
     };
     let bodies = slide.bodies();
-    let has_forces = slide.gravity.is_some() || slide.force.is_some();
+    let has_weight = slide.gravity.is_some();
     let begin = begun(course, slide, &before);
     let Ok(mut movers) = Movers::of(course, &bodies, &begin, [0.0; 2]) else {
         let time = Err(course.open(Why::Needed));
-        return Ok(all_open(course, before, &bodies, has_forces, time));
+        return Ok(all_open(course, before, &bodies, has_weight, time));
     };
     movers.from = movers.arm(0);
     if let Some(below) = &slide.on {
@@ -191,7 +191,7 @@ pub(in crate::numeric::follow) fn slide(
         ..Moved::default()
     };
     let time = Ok(run.time * units.time);
-    Ok(course.moved([before, after], time, has_forces, moved))
+    Ok(course.moved([before, after], time, has_weight, moved))
 }
 
 /// Strings push nothing.

@@ -298,14 +298,14 @@ pub(in crate::numeric::follow) fn turn(
             bodies.push(b);
         }
     }
-    let has_forces = turn.gravity.is_some() || turn.torque.is_some();
+    let has_weight = turn.gravity.is_some();
     // The bodies first: where they are open, the fixed point may have no value either.
     let Ok(mut movers) = Movers::of(course, &bodies, &before, [0.0; 2]) else {
         let time = match &turn.until {
             Until::For(time) => Ok(course.number(time, "time")?),
             _ => Err(course.open(Why::Needed)),
         };
-        return Ok(all_open(course, before, &bodies, has_forces, time));
+        return Ok(all_open(course, before, &bodies, has_weight, time));
     };
     movers.from = course.pair(&turn.about, "the fixed point")?;
     let rotation = Rotation::of(course, turn, movers)?;
@@ -347,5 +347,5 @@ pub(in crate::numeric::follow) fn turn(
         samples,
         ..Moved::default()
     };
-    Ok(course.moved([before, after], time, has_forces, moved))
+    Ok(course.moved([before, after], time, has_weight, moved))
 }
