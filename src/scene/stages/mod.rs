@@ -146,11 +146,6 @@ pub(super) fn resolve(base: &mut Resolver<'_>, scene: &mut Scene) {
     let with_names = std::mem::replace(&mut base.symbols, plain);
     base.symbols.absorb(&with_names);
     scene.domains = domains;
-    let unread = read.iter().position(Option::is_none);
-    if let (Some(i), true) = (unread, base.faults.is_empty()) {
-        let hint = "ask for less of it, or write it in another way";
-        base.report(stages[i].span, "this stage could not be read", hint);
-    }
     let Some(read) = read.into_iter().collect() else {
         return;
     };
@@ -560,6 +555,10 @@ fn one(
     } = r;
     if faults.is_empty() {
         faults.extend(check(&mut scene, &claims));
+    }
+    if kind.is_none() && faults.is_empty() {
+        // Never silently: without this stage the scene would be another one.
+        faults.push(Fault::new(stage.name.span, "this stage could not be read"));
     }
     let read = kind.map(|kind| Stage {
         name: stage.name.text.clone(),
