@@ -182,6 +182,8 @@ fn way_of(scene: &Scene, stages: &[StageTold], followed: &Followed, point: &Poin
         };
         let acts = |case: &Case| match &passed.what {
             What::Motion(_) => false,
+            // Of more than the motion needs, some are found to act.
+            What::Impact(impact) if case.redundant => impact.is_within(&case.active),
             What::Impact(impact) => impact.is_by(&case.active),
         };
         let is_so = |case: &Case| acts(case) && case.conditions.iter().all(|(_, e)| holds(e));

@@ -48,6 +48,11 @@ impl Impact {
             _ => false,
         }
     }
+
+    /// Whether none but these supports and strings may act.
+    pub fn is_within(&self, names: &[String]) -> bool {
+        self.acting.iter().flatten().all(|a| names.contains(a))
+    }
 }
 
 /// An impulse with its name.
