@@ -56,7 +56,7 @@ fn read(row: &Row) -> Result<Scene, String> {
 }
 
 fn judged(scene: &Scene) -> Possible {
-    judge(scene, &derive::derive(scene).expect("a derivation"))
+    judge(scene, &derive::derive(scene).expect("a derivation"), &[])
 }
 
 fn verdict(possible: &Possible) -> &'static str {

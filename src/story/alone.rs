@@ -21,7 +21,7 @@ const SEVERAL: &str = "with values, `carom compare` tells what Moreau's law, Poi
 pub(super) fn tell(scene: &Scene) -> Result<Told, Refused> {
     let derivation = derive::derive(scene).map_err(|stop| Refused::stop("", stop))?;
     let mut proof = verify::prove(scene, &derivation);
-    let possible = possible::judge(scene, &derivation);
+    let possible = possible::judge(scene, &derivation, &[]);
     let mut known = super::answer::as_decided(scene);
     for open in possible.open() {
         if open.is_equation {

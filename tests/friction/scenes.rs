@@ -157,7 +157,7 @@ fn every_check_of_every_case_holds() {
                 table.cases[i].mode,
                 proof.scene
             );
-            let possible = possible::judge(case, &derivation);
+            let possible = possible::judge(case, &derivation, &[]);
             assert!(possible.holds(), "{name}: {:?}", possible.reasons());
         }
     }

@@ -118,7 +118,7 @@ pub(super) fn case(
         return Ok(None);
     };
     let proof = verify::prove(&scene, &derivation);
-    let mut possible = verify::possible::judge(&scene, &derivation);
+    let mut possible = judged(&scene, &derivation, one_sided);
     possible.put(handed, &scene.values(), &scene.domains);
     against_values(&mut possible, &scene, &conditions, &outcome.words);
     Ok(Some(Case {
@@ -158,6 +158,12 @@ pub(super) fn with_redundant(cases: Vec<Case>) -> Vec<Case> {
         None => case,
     };
     sure.into_iter().map(as_larger).collect()
+}
+
+/// Whether it can happen: what begins at a support or on a string need not come together there.
+fn judged(scene: &Scene, derivation: &Derivation, one_sided: &[OneSided]) -> Possible {
+    let supports: Vec<&str> = one_sided.iter().map(|one| one.name.as_str()).collect();
+    verify::possible::judge(scene, derivation, &supports)
 }
 
 /// Takes note where given values do not keep to what is supposed of a contact with friction.

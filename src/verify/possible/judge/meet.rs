@@ -1,8 +1,9 @@
 //! How two bodies meet beyond the one normal that a contact has: whether their outlines leave room for each other, what is known
 //! where there is no normal, and the other points at which straight sides touch.
 
-use super::sides::{self, Sense};
-use super::{Condition, Judge, Rule, Verdict, is_zero};
+use super::super::sides::{self, Sense};
+use super::super::{Condition, Rule, Verdict, is_zero};
+use super::Judge;
 use crate::expr::{Expr, Vector, dot};
 use crate::scene::Contact;
 
