@@ -107,6 +107,8 @@ def notices(programs, folder, number, tests):
             return test
         if run.returncode:
             return test
+        if b"running 0 tests" in run.stdout:
+            sys.exit(f"no test is called {test}")
     return None
 
 
