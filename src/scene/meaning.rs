@@ -135,7 +135,7 @@ fn words(scene: &Scene, uses: &[Use<'_>], name: &Symbol) -> Option<String> {
     let mut mine = uses.iter().filter(|(.., e)| is_it(e)).peekable();
     // A rod of the length 2 ℓ; that says more than where its center is.
     let is_size = |what: &&str| !PLACED.contains(what) && !POINT.contains(what);
-    let half = |e: &Expr| (&Expr::ratio(1, 2) * e).as_symbol() == Some(name);
+    let half = |e: &Expr| is_it(&(&Expr::ratio(1, 2) * e));
     if !mine.peek().is_some_and(|(what, ..)| is_size(what))
         && let Some((what, Some(body), _)) = uses.iter().find(|(.., e)| half(e))
     {
@@ -219,7 +219,7 @@ fn uses(scene: &Scene) -> Vec<Use<'_>> {
 /// The coordinates of a place, the height first: of a letter that stands for both it says more.
 fn placed<'s>(name: &'s str, at: &'s Vector, words: &[&'static str; 4], out: &mut Vec<Use<'s>>) {
     for (e, words) in at.iter().zip(words.chunks(2)).rev() {
-        let what = words[usize::from(e.as_symbol().is_none())];
+        let what = words[usize::from(e.is_negative())];
         out.push((what, Some(name), e.clone()));
     }
 }
@@ -250,7 +250,7 @@ fn of_body<'s>(body: &'s Body, out: &mut Vec<Use<'s>>) {
         }
     } else {
         for (e, words) in body.velocity.iter().zip(ALONG.chunks(2)) {
-            push(words[usize::from(e.as_symbol().is_none())], e);
+            push(words[usize::from(e.is_negative())], e);
         }
     }
     push(

@@ -6,7 +6,6 @@ use super::super::{Key, Question, declare};
 use super::{along_axes, answer, quantitative, vector};
 use crate::dimension::{self, Dimension};
 use crate::expr::{Expr, Symbol, only};
-
 use crate::formula::{self, Content, Reading, Symbols};
 
 /// An answer whose unit a sign ties to its number, or brackets enclose: `9.81*m/s^2`, `5 (m/s)`; and `2.4 s-1`.
