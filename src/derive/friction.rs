@@ -261,8 +261,11 @@ impl Forms {
                             1 => Direction::Only(*s),
                             _ => Direction::Asked(*s),
                         };
-                        let case = self.case(scene, table, mode, direction, conditions)?;
-                        table.cases.push(case);
+                        match self.case(scene, table, mode, direction, conditions) {
+                            // Such an impact has no end, whatever the parameters.
+                            Err(Stop::DivisionByZero) => table.ruled_out += 1,
+                            case => table.cases.push(case?),
+                        }
                     }
                     None => table.ruled_out += 1,
                 }
@@ -330,7 +333,19 @@ impl Forms {
             }
         }
         let bounds = open.into_iter().map(|when| self.bound(when, law));
-        bounds.collect::<Result<Vec<_>, _>>().map(Some)
+        let bounds = bounds.collect::<Result<Vec<_>, _>>()?;
+        // So do a least and a greatest value that are the same, where one of them does not belong to its side.
+        let is_strict = |r: Relation| matches!(r, Relation::Less | Relation::Greater);
+        let is_upper = |r: Relation| matches!(r, Relation::Less | Relation::LessEqual);
+        let excluded = bounds.iter().enumerate().any(|(i, one)| {
+            bounds[..i].iter().any(|other| {
+                one.left == other.left
+                    && one.right == other.right
+                    && is_upper(one.relation) != is_upper(other.relation)
+                    && (is_strict(one.relation) || is_strict(other.relation))
+            })
+        });
+        Ok((!excluded).then_some(bounds))
     }
 
     /// A condition solved for μ where it is linear in μ with a factor of known sign.

@@ -164,6 +164,8 @@ pub struct Definition {
 pub enum Stop {
     /// A limit of the algebra was met.
     Limit(String),
+    /// Something is divided by what is zero whatever the parameters.
+    DivisionByZero,
     /// Laws and givens contradict each other; the words name the law at which it shows.
     Contradiction(String),
     /// A law of friction has no answer, as beside something else that strikes; the words say why.
@@ -174,6 +176,7 @@ impl fmt::Display for Stop {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Stop::Limit(what) => write!(f, "stopped at a limit: {what}"),
+            Stop::DivisionByZero => f.write_str("stopped at a limit: division by zero"),
             Stop::NoAnswer(why) => f.write_str(why),
             Stop::Contradiction(law) => write!(
                 f,
@@ -187,7 +190,10 @@ impl std::error::Error for Stop {}
 
 impl From<algebra::Stop> for Stop {
     fn from(stop: algebra::Stop) -> Stop {
-        Stop::Limit(stop.to_string())
+        match stop {
+            algebra::Stop::DivisionByZero => Stop::DivisionByZero,
+            limit => Stop::Limit(limit.to_string()),
+        }
     }
 }
 

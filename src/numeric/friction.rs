@@ -172,11 +172,22 @@ pub fn contact_space<T: Number>(
         columns.push(after);
     }
     let [t, n] = &directions;
+    // Of a body that cannot slip there, or does not, rounding of the parts is no slip: friction would be driven by it.
+    let largest = |parts: &[&[T; 2]]| {
+        let all = parts.iter().flat_map(|part| part.iter().map(Number::size));
+        all.fold(0.0, f64::max)
+    };
+    let along = |v: &[T; 2], direction: &[T; 2], size: f64| {
+        let part = dot(v, direction);
+        let is_rounding = part.size() <= T::rounding() * size;
+        if is_rounding { T::zero() } else { part }
+    };
+    let [yields, speeds] = [largest(&[&columns[0], &columns[1]]), largest(&[&one, &two])];
     Ok(ContactSpace {
-        a: dot(&columns[0], t),
-        b: dot(&columns[0], n),
-        c: dot(&columns[1], n),
-        tangential: dot(&before, t),
+        a: along(&columns[0], t, yields),
+        b: along(&columns[0], n, yields),
+        c: along(&columns[1], n, yields),
+        tangential: along(&before, t, speeds),
         normal: dot(&before, n),
     })
 }

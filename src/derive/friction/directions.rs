@@ -24,7 +24,12 @@ impl Forms {
             if one.direction == Direction::Asked(1)
                 && let Some(i) = against.iter().position(like)
             {
-                match self.turned(&one, &against[i], &table.side)? {
+                let turned = match self.turned(&one, &against[i], &table.side) {
+                    // What would be compared has no value, such as what is divided by μ = 0.
+                    Err(Stop::DivisionByZero) => None,
+                    turned => turned?,
+                };
+                match turned {
                     Some(Direction::Either) => {
                         let other = against.remove(i);
                         self.join(&mut one, other.conditions, table.contact)?;
