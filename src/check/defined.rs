@@ -242,3 +242,9 @@ pub(super) fn holds(needs: &[Expr], at: &Point<f64>) -> bool {
     let mut values = needs.iter().filter_map(|e| e.evaluate(at));
     values.all(|value| value >= 0.0)
 }
+
+/// Whether all of these are above zero at a point; none without one.
+pub(super) fn within(needs: &[Expr], at: &Point<f64>) -> bool {
+    let mut values = needs.iter().filter_map(|e| e.evaluate(at));
+    !needs.is_empty() && values.all(|value| value > 0.0)
+}

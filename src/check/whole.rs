@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use super::defined::holds;
+use super::defined::{holds, within};
 use super::impacts::Impact;
 use super::{Claim, Meaning, POINTS, Report};
 use crate::expr::{Expr, Point, Symbol};
@@ -18,6 +18,8 @@ use crate::scene::{Mode, Scene};
 const TRIES: u64 = 120;
 /// The first of them are of ordinary size, the others of all sizes.
 const ORDINARY: u64 = 40;
+/// Points among which those are sought at which a rare case should come about.
+const SOUGHT: u64 = 2000;
 /// Relative difference between what is handed on and what is found.
 const CLOSE: f64 = 1e-7;
 
@@ -39,16 +41,22 @@ pub(super) fn replay(
     let needed = super::replay::needed(needed, meanings, claims);
     let mut points = Vec::new();
     let mut found: Vec<Found> = vec![Found::default(); impacts.len()];
-    for seed in 1..=TRIES {
+    for seed in 1..=SOUGHT {
         if points.len() as u64 >= POINTS && found.iter().all(|f| f.compared) {
             break;
         }
         let draw = match seed {
             ..=ORDINARY => numeric::random_point,
+            _ if seed > TRIES && seed % 2 == 0 => numeric::random_point,
             _ => numeric::point_of_any_size,
         };
         let point = draw(&needed, &scene.domains, seed);
         let mut doubles = numeric::rounded(&point);
+        // Beyond that only where an impact that was not met yet should go as told.
+        let mut rest = impacts.iter().zip(&found).filter(|(_, f)| !f.compared);
+        if seed > TRIES && !rest.any(|(impact, _)| within(&impact.needs, &doubles)) {
+            continue;
+        }
         let Ok(followed) = follow::follow(scene, &doubles) else {
             continue;
         };
@@ -67,7 +75,10 @@ pub(super) fn replay(
                     found.apart = apart.or_else(|| differs(impact, &doubles, bodies, &sizes));
                     found.compared = true;
                 }
-                (true, false) => found.otherwise = found.otherwise.or_else(|| mode(passed)),
+                // On the border of two cases it is either.
+                (true, false) if within(&impact.needs, &doubles) => {
+                    found.otherwise = found.otherwise.or_else(|| mode(passed));
+                }
                 _ => {}
             }
         }

@@ -119,14 +119,14 @@ impl<'a> Way<'a> {
 
 /// Checks everything printed about a scene against one way it goes.
 pub fn check(way: &Way) -> Vec<Finding> {
-    let Way { scene, all, .. } = *way;
+    let scene = way.scene;
     let desk = Desk::new(way);
     let findings = scene.printed.iter().map(|printed| desk.check(printed));
     let mut findings: Vec<Finding> = findings.collect();
     desk.consequences(&mut findings);
     for (finding, printed) in findings.iter_mut().zip(&scene.printed) {
         if let (Some(true), Print::Formula { item, .. }) = (finding.holds, &printed.what) {
-            finding.given = conditions(scene, all, item);
+            finding.given = conditions(way, item);
             finding.only_where = cases::in_words(&finding.given);
         }
     }
@@ -136,16 +136,13 @@ pub fn check(way: &Way) -> Vec<Finding> {
     findings
 }
 
-/// What an answer rests on beyond what the scene states.
-fn conditions(scene: &Scene, all: &[Answer], item: &str) -> Vec<String> {
+/// What an answer rests on beyond what the scene states, in this way before any other.
+fn conditions(way: &Way, item: &str) -> Vec<String> {
     let is_it = |a: &&Answer| a.name == item || a.question == item;
-    let given = all
-        .iter()
-        .find(is_it)
-        .into_iter()
-        .flat_map(|a| &a.assumptions);
+    let mut all = way.derivation.answers.iter().chain(way.all);
+    let given = all.find(is_it).into_iter().flat_map(|a| &a.assumptions);
     let conditions = given.filter(|words| words.is_condition());
-    let solved = conditions.map(|words| for_the_coefficient(scene, words).to_string());
+    let solved = conditions.map(|words| for_the_coefficient(way.scene, words).to_string());
     solved.collect()
 }
 
