@@ -74,7 +74,10 @@ pub(in crate::story) fn turn(
         all.extend(need);
         assumptions.push(words);
     }
-    let assumed = assumed.map(|(need, words)| {
+    // Only a time at a steady rate leads to the same end in either sense, where none is given.
+    let is_steady = work.is_zero() && matches!(turn.until, Until::For(_));
+    let is_either = is_steady && turn.clockwise.is_none();
+    let assumed = assumed.filter(|_| !is_either).map(|(need, words)| {
         needs.push(need);
         words
     });
@@ -82,10 +85,7 @@ pub(in crate::story) fn turn(
         assumptions.push(pushed(&body.name));
     }
     assumptions.extend(forward);
-    // Only a time at a steady rate leads to the same end in either sense.
-    if !work.is_zero() || !matches!(turn.until, Until::For(_)) {
-        assumptions.extend(assumed);
-    }
+    assumptions.extend(assumed);
     let spin_end = match work.is_zero() {
         true => spin.clone(),
         false => driven(stage, turn, &spin, [&inertia, &end], way)?,

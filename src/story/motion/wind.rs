@@ -4,7 +4,7 @@ use super::{half, kept, meanwhile, tidied};
 use crate::algebra::Sign;
 use crate::answer::calc::{Seen, is_zero, sign};
 use crate::domain::Domains;
-use crate::expr::{Expr, dot, minus};
+use crate::expr::{Expr, cross, dot, minus};
 use crate::formula::Sentence;
 use crate::scene::{Stage, Wind};
 use crate::story::{Refused, StageTold, State};
@@ -32,13 +32,14 @@ pub(in crate::story) fn wind(
         let why = "a rope that winds up gets shorter, and this gets longer";
         return Err(Refused::new(&stage.name, why, "exchange the lengths"));
     }
-    let speed = tidied(stage, &dot(&v, &v).sqrt())?;
+    // Counterclockwise as at the beginning, or clockwise.
+    let across = tidied(stage, &(cross(&rope, &v) / &free))?;
     let mut after = before.clone();
-    after.velocity[wind.body] = [Expr::zero(), speed.clone()];
+    after.velocity[wind.body] = [Expr::zero(), across.clone()];
     after.center[wind.body] = [&wind.around[0] + &wind.to, wind.around[1].clone()];
     // How long it takes goes beyond all bounds as the pole gets thinner.
     let mut assumptions = meanwhile::others(stage, &before, &mut after, None);
-    let energy = tidied(stage, &half(&(&body.mass * &speed.powi(2))))?;
+    let energy = tidied(stage, &half(&(&body.mass * &across.powi(2))))?;
     let mut out = StageTold::new(stage, before, after);
     out.kept = vec![
         kept(
