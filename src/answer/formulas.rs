@@ -11,7 +11,7 @@ use super::powers::not_zero;
 use super::{
     Answer, Check, Form, Known, Refused, Work, inequality, limit, optimum, solve, threshold, zeros,
 };
-use crate::algebra::Sign;
+use crate::algebra::{Sign, Stop};
 use crate::dimension::{self, Dimension};
 use crate::domain::{self, Domains};
 use crate::equality::{self, Equality, How};
@@ -312,6 +312,13 @@ impl Work<'_> {
         put(self.scene, self.name, self.known, e, with)
     }
 
+    /// Whether what is asked has no value anywhere, such as the instantaneous center of what does not turn.
+    fn divides_by_zero(&self, asked: &Expr, with: &[(Symbol, Expr)]) -> bool {
+        let with: Known = with.iter().cloned().collect();
+        let whole = asked.substitute(self.known).substitute(&with);
+        matches!(tidy(&whole, &self.scene.domains), Err(Stop::DivisionByZero))
+    }
+
     /// What is asked as it stands, with the results in it, and equal factors gathered.
     fn raw(&self, asked: &Expr, with: &[(Symbol, Expr)]) -> Expr {
         let with: Known = with.iter().cloned().collect();
@@ -332,7 +339,14 @@ impl Work<'_> {
             "" => format!("value of {}", write_plain(formula)),
             meaning => meaning.to_string(),
         });
-        let value = self.put(formula, with)?;
+        let value = match self.put(formula, with) {
+            Err(_) if self.divides_by_zero(formula, with) => {
+                let why = "no value: it is divided by zero, whatever the parameters";
+                out.text.push(Sentence::words(why));
+                return Ok(out);
+            }
+            value => value?,
+        };
         self.put_in_fits(with)?;
         out.dimension = match (dimension, self.stated_dimension(formula)?) {
             (Some(told), _) => told.clone(),

@@ -69,6 +69,10 @@ pub(super) fn fill(
     let roots = match roots {
         Ok(roots) => roots,
         Err(why) => {
+            if matches!(why, Unsolved::Absent) && reached(out, parameter, (&gap, relation), domains)
+            {
+                return;
+            }
             out.text.push(match why {
                 Unsolved::Absent => always(&gap, Some(parameter), called, relation, domains),
                 Unsolved::Inside => {
@@ -145,7 +149,7 @@ fn reached(
         let [root] = found.inside.as_slice() else {
             return None;
         };
-        (root.proved && r.closed).then(|| (root.clone(), is_upper))
+        root.proved.then(|| (root.clone(), is_upper))
     };
     let Some(bounds) = ends.iter().map(bound).collect::<Option<Vec<_>>>() else {
         return false;
@@ -164,13 +168,13 @@ fn reached(
     };
     let root = &bounds[last].0;
     // What is to be solved is that the motion comes to its end.
-    let need = ends[last].excess.clone();
-    out.stated = Some((need, Relation::GreaterEqual, Expr::zero()));
-    let side = if is_upper {
-        Relation::LessEqual
-    } else {
-        Relation::GreaterEqual
+    let (need, closed) = (ends[last].excess.clone(), ends[last].closed);
+    let (below, above) = match closed {
+        true => (Relation::LessEqual, Relation::GreaterEqual),
+        false => (Relation::Less, Relation::Greater),
     };
+    out.stated = Some((need, above, Expr::zero()));
+    let side = if is_upper { below } else { above };
     let needs = root.needs.iter().cloned();
     out.needs
         .extend(needs.map(|(e, closed)| (root.value.clone(), e, closed)));
@@ -178,10 +182,11 @@ fn reached(
     out.form = Form::value(root.value.clone());
     out.range
         .push((Expr::symbol(parameter), side, root.value.clone()));
-    let there = if is_upper {
-        "up to there"
-    } else {
-        "from there on"
+    let there = match (is_upper, closed) {
+        (true, true) => "up to there",
+        (true, false) => "below",
+        (false, true) => "from there on",
+        (false, false) => "above",
     };
     let wherever = "it holds wherever the motion comes to its end, which it does";
     out.text.push(sentence!("{} {}", wherever, there));
@@ -372,9 +377,22 @@ fn sides(
         false => [falls, grows],
     };
     let strict = matches!(relation, Relation::Less | Relation::Greater);
-    let ends = |upper: bool| ends_at(parameter, value, upper, domains);
+    let is_ending = |r: &crate::domain::Relation| matches!(r.origin, Origin::Ending(_));
+    let ends = |upper: bool| {
+        let own = if upper { &domain.high } else { &domain.low };
+        let own = own
+            .as_ref()
+            .map(|end| is_zero(&(value - &end.expr()), domains));
+        own == Some(Some(true)) || bound_at(parameter, value, upper, domains, |r| !is_ending(r))
+    };
     if holds_below && ends(false) || holds_above && ends(true) {
         return at_the_end(out, parameter, value, strict);
+    }
+    // Where a motion comes to its end just up to there, what is asked of it has a value beyond.
+    let unfinished = |upper| bound_at(parameter, value, upper, domains, is_ending);
+    if holds_below && unfinished(false) || holds_above && unfinished(true) {
+        let words = "beyond that value the motion does not go on as told";
+        out.text.push(Sentence::words(words));
     }
     let found = match strict {
         true if holds_below => Some(Relation::Less),
@@ -396,25 +414,18 @@ fn sides(
     }
 }
 
-/// Whether the domain of a parameter ends at a value. Where a motion comes to its end just from there on, what is asked of it has a
-/// value on both sides.
-fn ends_at(parameter: &Symbol, value: &Expr, upper: bool, domains: &Domains) -> bool {
-    let is_it = |end: &Expr| is_zero(&(value - end), domains) == Some(true);
-    let own = domains.symbols.get(parameter);
-    let own = own.and_then(|d| {
-        if upper {
-            d.high.as_ref()
-        } else {
-            d.low.as_ref()
-        }
-    });
-    let bounds = domains.relations.iter().filter(|r| {
-        let is_ending = matches!(r.origin, Origin::Ending(_));
-        !is_ending && r.excess.mentions(parameter)
-    });
+/// Whether one of these relations ends the values of a parameter at one, from above or from below.
+fn bound_at(
+    parameter: &Symbol,
+    value: &Expr,
+    upper: bool,
+    domains: &Domains,
+    counts: impl Fn(&crate::domain::Relation) -> bool,
+) -> bool {
+    let bounds = domains.relations.iter();
+    let bounds = bounds.filter(|r| counts(r) && r.excess.mentions(parameter));
     let mut ends = bounds.filter_map(|r| end_of(parameter, r, domains));
-    own.is_some_and(|end| is_it(&end.expr()))
-        || ends.any(|(end, is_upper)| is_upper == upper && is_it(&end))
+    ends.any(|(end, is_upper)| is_upper == upper && is_zero(&(value - &end), domains) == Some(true))
 }
 
 /// The sides meet at the end of the domain beyond which the inequality would hold: it holds there alone, or nowhere.
