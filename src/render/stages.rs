@@ -212,6 +212,9 @@ fn breach_words(breach: &Breach) -> String {
         Breach::Enters(name) => {
             format!("the bodies go on into each other at {name}, or a string gets longer")
         }
+        Breach::Gone(name) => {
+            format!("the wall that is struck at {name} has moved on since it was struck before")
+        }
     }
 }
 

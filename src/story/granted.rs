@@ -2,8 +2,10 @@
 
 use super::StageTold;
 use super::words::carried;
+use crate::answer::calc::is_zero;
+use crate::expr::{Expr, minus};
 use crate::formula::{Sentence, listed, sentence};
-use crate::scene::{OneSided, StageKind, Turn};
+use crate::scene::{Ask, OneSided, Scene, StageKind, Turn};
 
 /// What is told of impacts.
 pub(crate) const NO_TIME: &str =
@@ -68,6 +70,54 @@ pub(super) fn assumed(readings: &[String], stages: &[StageTold]) -> Vec<Sentence
             true
         }
     });
+    out
+}
+
+/// Which point of a body is asked about where the body has turned since: a step from a body is one along the axes at any time,
+/// and what lay there at the beginning has turned with the body.
+pub(super) fn points_carried(scene: &Scene, told: &StageTold) -> Vec<Sentence> {
+    // A stage that begins as the file says has no symbols for the places of bodies.
+    let Some(stage) = scene.stages.iter().find(|s| !s.places.is_empty()) else {
+        return Vec::new();
+    };
+    let by_now = told.after.places(stage);
+    let placed = &told.placed.scene;
+    let mut out = Vec::new();
+    for question in &placed.questions {
+        let Ask::Velocity {
+            body,
+            point: Some((name, at)),
+            ..
+        } = &question.ask
+        else {
+            continue;
+        };
+        let Some(point) = stage.scene.points.iter().find(|p| p.name == *name) else {
+            continue;
+        };
+        let is_step = |e: &Expr| stage.places.iter().flatten().any(|s| e.mentions(s));
+        if !point.at.iter().any(is_step) {
+            continue;
+        }
+        let is_impact = matches!(told.placed.kind, StageKind::Impact { .. });
+        let arm = match is_impact {
+            true => minus(at, &placed.bodies[*body].center),
+            false => told.after.carried(scene, *body, name),
+        };
+        let step = minus(
+            &point.at.each_ref().map(|e| e.substitute(&by_now)),
+            &told.after.center[*body],
+        );
+        let stays = |e: &Expr| is_zero(e, &placed.domains) == Some(true);
+        if !minus(&arm, &step).iter().all(stays) {
+            let body = &placed.bodies[*body].name;
+            out.push(sentence!(
+                "`{}` is the point of `{}` that lay there at the beginning, and has turned with it",
+                name,
+                body
+            ));
+        }
+    }
     out
 }
 

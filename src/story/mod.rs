@@ -148,6 +148,7 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
             let domains = &mut placed.scene.domains;
             *domains = begun(stage, &stages, branch, &given, domains.clone());
             let begins = several.then(|| before.clone());
+            let walls = motion::walls_are_there(&placed, &stages, branch, &before)?;
             let told = one(scene, &stages, &placed, branch, (before, &given))
                 .map(|told| motion::stays_in_front(&placed, &stages, branch, told))
                 .and_then(|told| motion::riders_stay(&placed, &stages, branch, told))
@@ -169,6 +170,8 @@ fn through(scene: &Scene, from: Option<&State>) -> Result<Told, Refused> {
                 (Err(why), _) => return Err(why),
             };
             told.checks.extend(at_values(scene, &told));
+            let points = granted::points_carried(scene, &told);
+            told.assumptions.extend(points.into_iter().chain(walls));
             told.earlier = earlier;
             told.branch = branch;
             told.given = given;

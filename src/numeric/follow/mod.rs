@@ -203,8 +203,10 @@ fn through(scene: &Scene, solids: Vec<Solid>, start: &State, values: &Point<f64>
             let back = passage::back_through(&course, &followed, (stage, passed), &values);
             passed.passing.extend(back);
             let pulls = grips::pulls(scene, (&course, &followed), (stage, passed), &values);
-            if let What::Motion(moved) = &mut passed.what {
-                moved.pulls = pulls;
+            let gone = passage::off_the_wall(&course, &followed, (stage, passed), &values);
+            match &mut passed.what {
+                What::Motion(moved) => moved.pulls = pulls,
+                What::Impact(impact) => impact.breaches.extend(gone.into_iter().map(Breach::Gone)),
             }
             for (i, pair) in passage::beside(scene, (&course, &followed), passed, &values) {
                 passed.passing.push(pair);

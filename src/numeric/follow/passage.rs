@@ -12,7 +12,7 @@ use super::{
 use crate::expr::arithmetic::dot;
 use crate::expr::{Expr, Point, Vector};
 use crate::numeric::given::Undefined;
-use crate::scene::{Body, ContactLaw, OneSided, Scene, Shape, Stage, StageKind};
+use crate::scene::{Body, Contact, ContactLaw, OneSided, Scene, Shape, Stage, StageKind};
 
 /// Most places looked at between two samples, and about how many in all.
 const BETWEEN: usize = 24;
@@ -251,8 +251,8 @@ fn times(moved: &Moved) -> Vec<f64> {
     times
 }
 
-/// The bodies that a motion along a line or a flight takes through something at rest which they have struck before: straight
-/// back against its normal, from the place where they struck it. It has no outline, but there it is.
+/// The bodies that a motion along a line or a flight takes through a wall which they have struck before: straight back against
+/// its normal, from the place where they struck it. It has no outline, but there it is, or has gone on as it does.
 pub(super) fn back_through(
     course: &[Stage],
     followed: &Followed,
@@ -272,7 +272,11 @@ pub(super) fn back_through(
             continue;
         };
         let there = at_places(&course[j], &struck.before, values);
-        for (pair, body, normal) in walls(&course[j]) {
+        for Struck {
+            wall, body, normal, ..
+        } in walls(&course[j])
+        {
+            let pair = [wall.min(body), wall.max(body)];
             let is_so = || {
                 let i = moved.bodies.iter().position(|m| *m == body)?;
                 let turns = |s: &State| s.bodies[body].spin != Ok(0.0);
@@ -280,11 +284,16 @@ pub(super) fn back_through(
                     return None;
                 }
                 let normal = finite_pair(&normal, &there, String::new).ok()?;
-                let [x, y] = &struck.before.bodies[body].center;
-                let from = [x.clone().ok()?, y.clone().ok()?];
+                let from = known_center(&struck.before, body)?;
+                let [was, begins, ends] = [&struck.before, &passed.before, &passed.after]
+                    .map(|state| known_center(state, wall));
+                let (was, begins, ends) = (was?, begins?, ends?);
+                let last = times.last().filter(|t| **t > 0.0).copied().unwrap_or(1.0);
                 let away = times.iter().map(|t| {
                     let [x, y, _] = moved.pose(i, *t);
-                    let gone = [x - from[0], y - from[1]];
+                    let wall =
+                        [0, 1].map(|k| begins[k] + t / last * (ends[k] - begins[k]) - was[k]);
+                    let gone = [x - from[0] - wall[0], y - from[1] - wall[1]];
                     let aside = gone[0] * normal[1] - gone[1] * normal[0];
                     [dot(&gone, &normal), aside.abs()]
                 });
@@ -297,6 +306,56 @@ pub(super) fn back_through(
         }
     }
     out
+}
+
+/// The contacts of an impact at which a wall that goes on moving is struck straight before or behind the face it was struck at before:
+/// it is not there.
+pub(super) fn off_the_wall(
+    course: &[Stage],
+    followed: &Followed,
+    (stage, passed): (&Stage, &Passed),
+    values: &Point<f64>,
+) -> Vec<String> {
+    let mut out = Vec::new();
+    for now in walls(stage) {
+        let velocity = &passed.before.bodies[now.wall].velocity;
+        let earlier = successors(stage.from, |j| course[*j].from);
+        let is_off = |j: usize| {
+            let before = &followed.stages[j].as_ref().ok()?.before;
+            let [here, normal] = now.face(stage, &passed.before, values)?;
+            let then = walls(&course[j]).into_iter().filter(|s| s.wall == now.wall);
+            let mut then = then.filter_map(|s| s.face(&course[j], before, values));
+            Some(then.any(|[there, n]| {
+                let gone = [here[0] - there[0], here[1] - there[1]];
+                let aside = (gone[0] * normal[1] - gone[1] * normal[0]).abs();
+                let turned = (n[0] - normal[0]).hypot(n[1] - normal[1]);
+                let size = here[0].hypot(here[1]).max(there[0].hypot(there[1]));
+                let tolerance = TOUCH * size;
+                turned < ROUNDING && aside <= tolerance && dot(&gone, &normal).abs() > tolerance
+            }))
+        };
+        let moves = velocity.iter().any(|v| *v != Ok(0.0));
+        if moves && earlier.filter_map(is_off).any(|off| off) {
+            out.push(now.contact.name);
+        }
+    }
+    out
+}
+
+impl Struck {
+    /// The place that is struck, seen from the wall, and the normal.
+    fn face(&self, stage: &Stage, before: &State, values: &Point<f64>) -> Option<[[f64; 2]; 2]> {
+        let there = at_places(stage, before, values);
+        let number = |v: &Vector| finite_pair(v, &there, String::new).ok();
+        let (at, wall) = (number(&self.contact.at)?, known_center(before, self.wall)?);
+        Some([[at[0] - wall[0], at[1] - wall[1]], number(&self.normal)?])
+    }
+}
+
+/// Where the center of a body is, where that is determined.
+fn known_center(state: &State, body: usize) -> Option<[f64; 2]> {
+    let [x, y] = &state.bodies[body].center;
+    Some([x.clone().ok()?, y.clone().ok()?])
 }
 
 /// Whether places by their height above a wall, and how far aside, come to lie behind it straight below where it was struck, by more
@@ -312,27 +371,43 @@ fn is_behind(away: &[[f64; 2]], far: f64) -> bool {
     })
 }
 
-/// What is at rest and struck in an impact: the pair of bodies, the one that strikes it, and the normal towards that.
-fn walls(stage: &Stage) -> Vec<([usize; 2], usize, Vector)> {
+/// A fixed body that does not turn, struck in an impact.
+struct Struck {
+    contact: Contact,
+    wall: usize,
+    /// What strikes it.
+    body: usize,
+    /// Normal towards that.
+    normal: Vector,
+}
+
+/// The walls that an impact strikes.
+fn walls(stage: &Stage) -> Vec<Struck> {
     let StageKind::Impact { one_sided, .. } = &stage.kind else {
         return Vec::new();
     };
     let bodies = &stage.scene.bodies;
-    let rests = |b: usize| bodies[b].is_fixed() && bodies[b].velocity.iter().all(Expr::is_zero);
+    let is_wall = |b: usize| bodies[b].is_fixed() && bodies[b].spin.is_zero();
     let supports = one_sided
         .iter()
         .filter(|o| !o.is_string)
         .map(OneSided::acting);
     let contacts = stage.scene.contacts.iter().cloned().chain(supports);
-    let contacts = contacts.filter(|c| !matches!(c.law, ContactLaw::None | ContactLaw::Sticking));
-    let all = contacts.filter_map(|c| {
-        let ([first, second], normal) = (c.bodies, c.normal?);
-        let pair = [first.min(second), first.max(second)];
-        match (rests(first), rests(second)) {
-            (true, false) => Some((pair, second, normal)),
-            (false, true) => Some((pair, first, normal.map(|n| -n))),
-            _ => None,
-        }
+    let pushes =
+        |c: &Contact| !matches!(c.law, ContactLaw::None | ContactLaw::Sticking) && !c.is_string;
+    let all = contacts.filter(pushes).filter_map(|contact| {
+        let ([first, second], normal) = (contact.bodies, contact.normal.clone()?);
+        let (wall, body, normal) = match (is_wall(first), is_wall(second)) {
+            (true, false) => (first, second, normal),
+            (false, true) => (second, first, normal.map(|n| -n)),
+            _ => return None,
+        };
+        Some(Struck {
+            contact,
+            wall,
+            body,
+            normal,
+        })
     });
     all.collect()
 }

@@ -7,10 +7,10 @@
 //! body may have ended before, which is said.
 
 use crate::answer::calc::{Seen, above_zero, at_least_zero, is_zero, sign, tidy};
-use crate::expr::{Expr, Vector, dot, minus};
-use crate::formula::{Sentence, sentence};
+use crate::expr::{Expr, Vector, cross, dot, minus};
+use crate::formula::{Sentence, sentence, write_plain};
 use crate::scene::{Contact, ContactLaw, Scene, Stage, StageKind};
-use crate::story::{StageTold, line};
+use crate::story::{Refused, StageTold, State, line};
 
 /// Adds to a motion what it needs so that it does not end behind what its bodies have hit.
 pub(in crate::story) fn stays_in_front(
@@ -32,34 +32,54 @@ pub(in crate::story) fn stays_in_front(
             continue;
         };
         for contact in &case.scene.contacts {
-            let Some((wall, body, normal)) = hit(&case.scene, contact) else {
+            let Some((wall, body, normal)) = wall_of(&case.scene, contact) else {
                 continue;
             };
+            let of = &case.scene.bodies[body];
+            if !of.is_particle() && of.shape.radius().is_none() {
+                told.assumptions.extend(unseen(&stage, &told, [wall, body]));
+                continue;
+            }
+            let places = [wall, body].map(|b| &told.after.center[b]);
             if !stage.kind.moved().contains(&body)
-                || told.after.why_open(&told.after.center[body]).is_some()
+                || told.after.why_open(places.into_iter().flatten()).is_some()
             {
                 continue;
             }
-            let moved = minus(&told.after.center[body], &case.after.center[body]);
+            let gone = |state: &State| {
+                let [body, wall] =
+                    [body, wall].map(|b| minus(&state.center[b], &case.after.center[b]));
+                minus(&body, &wall)
+            };
+            let moved = gone(&told.after);
             let off = dot(&moved, &normal);
             let sideways = &(&moved[0] * &normal[1]) - &(&moved[1] * &normal[0]);
             let Ok(off) = tidy(&off, domains) else {
                 continue;
             };
-            // Where it is behind in any case, the second way finds them passing through each other.
-            if matches!(sign(&off, domains), Seen::Proved(_) | Seen::Negative) {
+            let seen = sign(&off, domains);
+            let straight = is_zero(&sideways, domains) == Some(true);
+            // Where it is straight behind in any case, the second way finds them passing through each other.
+            let was_behind = || sign(&dot(&gone(&told.before), &normal), domains).is_negative();
+            if seen.is_not_negative() || seen.is_negative() && (straight || was_behind()) {
                 continue;
             }
             let [wall, name] = [wall, body].map(|b| &stage.scene.bodies[b].name);
             let at = &contact.name;
-            told.assumptions.push(match is_zero(&sideways, domains) {
-                Some(true) => {
+            told.assumptions.push(match straight {
+                true => {
                     let need = at_least_zero(&off, domains);
                     told.needs.push(off);
                     let words = "{}, so that `{}` is not back at `{}` by the end of `{}`";
                     Sentence::filled(words, [need, name.into(), at.into(), (&stage.name).into()])
                 }
-                _ => {
+                false if seen.is_negative() => sentence!(
+                    "`{}` ends before `{}` passes its tangent at `{}`",
+                    wall,
+                    name,
+                    at
+                ),
+                false => {
                     let behind = at_least_zero(&-&off, domains);
                     let words =
                         "`{}` ends before `{}` passes its tangent at `{}`, which it does where {}";
@@ -69,6 +89,21 @@ pub(in crate::story) fn stays_in_front(
         }
     }
     told
+}
+
+/// That a body which turns in flight is not held against a wall it has hit: its outline comes nearer than its center.
+fn unseen(stage: &Stage, told: &StageTold, [wall, body]: [usize; 2]) -> Option<Sentence> {
+    let turns = is_zero(&told.before.spin[body], &stage.scene.domains) != Some(true);
+    let flies = matches!(&stage.kind, StageKind::Fall(fall) if fall.bodies().contains(&body));
+    let [wall, body] = [wall, body].map(|b| &stage.scene.bodies[b].name);
+    (turns && flies).then(|| {
+        sentence!(
+            "`{}` does not touch `{}` again in `{}`, which is not looked into",
+            body,
+            wall,
+            &stage.name
+        )
+    })
 }
 
 /// Says of an impact that nothing follows at once where it drives a body into one that was hit at the same instant: what comes
@@ -142,20 +177,67 @@ fn pushes(contact: &Contact) -> bool {
     !contact.passes && !matches!(contact.law, ContactLaw::None | ContactLaw::Sticking)
 }
 
-/// The fixed body at rest that a round body or a particle hits at a contact that pushes, that body, and the normal towards it.
-fn hit(scene: &Scene, contact: &Contact) -> Option<(usize, usize, Vector)> {
+/// A wall that an impact strikes has gone on moving since it was struck before: its face has to be where it is struck now. Where
+/// something else of it may be struck, to the side, that is taken for granted.
+pub(in crate::story) fn walls_are_there(
+    stage: &Stage,
+    stages: &[StageTold],
+    branch: Option<(usize, usize)>,
+    before: &State,
+) -> Result<Vec<Sentence>, Refused> {
+    let domains = &stage.scene.domains;
+    let is_none = |e: &Expr| is_zero(e, domains) == Some(true);
+    let mut out = Vec::new();
+    for contact in &stage.scene.contacts {
+        let Some((wall, _, normal)) = wall_of(&stage.scene, contact) else {
+            continue;
+        };
+        if before.velocity[wall].iter().all(is_none) {
+            continue;
+        }
+        let earlier = branch.into_iter().flat_map(|at| line(stages, at));
+        let cases = earlier.filter_map(|(i, k)| stages[i].cases.get(k));
+        for then in cases.flat_map(|case| case.scene.contacts.iter().map(move |c| (case, c))) {
+            let (case, struck) = then;
+            let same = wall_of(&case.scene, struck);
+            let same = same.filter(|(w, _, n)| *w == wall && minus(n, &normal).iter().all(is_none));
+            if same.is_none() {
+                continue;
+            }
+            let moved = minus(&before.center[wall], &case.after.center[wall]);
+            let gone = minus(&minus(&contact.at, &struck.at), &moved);
+            let off = dot(&gone, &normal);
+            if before.why_open([&off]).is_some() || is_none(&off) {
+                continue;
+            }
+            let off = tidy(&off, domains).unwrap_or(off);
+            let (name, at, was) = (&stage.scene.bodies[wall].name, &contact.name, &struck.name);
+            if !is_none(&cross(&gone, &normal)) {
+                let words = "`{}` has a face at `{}`, {} off that struck at `{}`";
+                let parts = [name.into(), at.into(), (&off).into(), was.into()];
+                out.push(Sentence::filled(words, parts));
+                continue;
+            }
+            let why = format!(
+                "`{name}` goes on moving, and what was struck at `{was}` is no longer at `{at}`: {} lies between them along the normal",
+                write_plain(&off)
+            );
+            let hint = "end the motion before where they meet, such as \"for\" the time until then";
+            return Err(Refused::new(&stage.name, why, hint));
+        }
+    }
+    Ok(out)
+}
+
+/// The fixed body of a contact that pushes, if it does not turn, the other, and the normal towards that.
+fn wall_of(scene: &Scene, contact: &Contact) -> Option<(usize, usize, Vector)> {
     let [first, second] = contact.bodies;
-    let normal = contact.normal.clone().filter(|_| pushes(contact))?;
+    let pushes = pushes(contact) && !contact.is_string;
+    let normal = contact.normal.clone().filter(|_| pushes)?;
     let (wall, body, normal) = match scene.bodies[first].is_fixed() {
         true => (first, second, normal),
         false => (second, first, normal.map(|e| -&e)),
     };
     let [fixed, moving] = [wall, body].map(|b| &scene.bodies[b]);
-    let rests = fixed
-        .velocity
-        .iter()
-        .chain([&fixed.spin])
-        .all(Expr::is_zero);
-    let is_round = moving.is_particle() || moving.shape.radius().is_some();
-    (fixed.is_fixed() && rests && is_round && !moving.is_fixed()).then_some((wall, body, normal))
+    (fixed.is_fixed() && fixed.spin.is_zero() && !moving.is_fixed()).then_some((wall, body, normal))
 }

@@ -16,7 +16,7 @@ mod supposed;
 mod turn;
 mod wind;
 
-pub(super) use back::{meets_again, stays_in_front};
+pub(super) use back::{meets_again, stays_in_front, walls_are_there};
 pub(super) use fall::fall;
 pub(crate) use linkage::by_coordinate;
 pub(super) use linkage::{accelerations, linkage};

@@ -86,6 +86,8 @@ pub enum Breach {
     Pulls(String),
     /// The bodies go on into each other here, or a string gets longer.
     Enters(String),
+    /// The wall that is struck here has moved on since it was struck before.
+    Gone(String),
 }
 
 /// Solves an impact.
