@@ -391,6 +391,20 @@ fn a_threshold_tells_its_side_and_whether_the_limit_belongs_to_it() {
 }
 
 #[test]
+fn what_holds_wherever_a_motion_comes_to_rest_holds_beyond_the_value_from_which_it_does() {
+    let told = told_of("block-thrown-down-a-slope-comes-to-rest");
+    let least = told.answers.iter().find(|a| a.name == "mu_min");
+    let range = &least.expect("an answer").range;
+    let range = range
+        .iter()
+        .map(|(_, relation, value)| (relation.sign(), write_plain(value)));
+    assert_eq!(
+        range.collect::<Vec<_>>(),
+        [(">", String::from("tan(alpha)"))]
+    );
+}
+
+#[test]
 fn a_condition_that_always_or_never_holds_is_told_as_such() {
     assert!(said(r#""q": {"threshold": "v", "holds": "v*m > 0"}"#).starts_with("it always holds"));
     assert!(

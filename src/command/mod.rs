@@ -205,12 +205,19 @@ fn follow(scene: &Scene, format: Format) -> Result<Output, String> {
     let point = numeric::follow::values(scene)
         .map_err(|missing| numeric::NoPoint::Missing(missing).to_string())?;
     let followed = numeric::follow(scene, &point).map_err(|undefined| undefined.to_string())?;
-    let worked = worked::to_draw(scene, None).ok().map(Worked::weighed);
-    let strange = worked.as_ref().map(|worked| worked.strange.clone());
-    let noted = [
-        worked.map_or_else(Vec::new, refusals),
-        strange.unwrap_or_default(),
-    ];
+    let noted = match worked::to_draw(scene, None).map(Worked::weighed) {
+        Ok(worked) => {
+            let strange = worked.strange.clone();
+            [refusals(worked), strange]
+        }
+        Err(why) => {
+            let why = why.lines().next().unwrap_or_default();
+            [
+                Vec::new(),
+                vec![format!("not judged whether all of it can be: {why}")],
+            ]
+        }
+    };
     let text = match format {
         Format::Text => {
             let numbers = render::stages::text(scene, &followed, &point);
