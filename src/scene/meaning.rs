@@ -49,6 +49,18 @@ const PLACED: [&str; 4] = [
     "depth of {} below the origin at first",
 ];
 
+/// How far a body is from the origin, and the angle of the line to it, from the x axis or from the y axis.
+const AWAY: [&str; 3] = [
+    "distance of {} from the origin at first",
+    "angle at first between the x axis and the line from the origin to {}",
+    "angle at first between the y axis and the line from the origin to {}",
+];
+/// The same for the impulse of a string.
+const STRING: [&str; 2] = [
+    "angle between the x axis and the string",
+    "angle between the y axis and the string",
+];
+
 /// The same of a point.
 const POINT: [&str; 4] = [
     "distance of {} to the right of the origin",
@@ -65,9 +77,8 @@ pub(super) fn infer(scene: &mut Scene) {
         // A statement says what its letters are.
         let is_said = |name| is_introduced(scene, name) || is_told_before(scene, name);
         let unsaid = all.filter(|(_, p)| p.meaning.is_empty() && !is_said(&p.name));
-        unsaid
-            .filter_map(|(i, p)| Some((i, words(scene, &uses, &p.name)?)))
-            .collect()
+        let all = unsaid.filter_map(|(i, p)| Some((i, words(scene, &uses, &p.name)?)));
+        told_apart(scene, all.collect())
     };
     for (i, meaning) in meanings {
         for stage in &mut scene.stages {
@@ -80,6 +91,38 @@ pub(super) fn infer(scene: &mut Scene) {
         }
         scene.parameters[i].meaning = meaning;
     }
+}
+
+/// Meanings, those that are the same with where each holds: `coefficient of restitution at K`.
+fn told_apart(scene: &Scene, all: Vec<(usize, String)>) -> Vec<(usize, String)> {
+    let place = |i: usize| {
+        let name = &scene.parameters[i].name;
+        let is_it = |e: &Expr| e.as_symbol() == Some(name);
+        let of_law = |law: &ContactLaw| match law {
+            ContactLaw::Frictionless { restitution } => is_it(restitution),
+            ContactLaw::Friction(law) => is_it(&law.restitution) || is_it(&law.mu),
+            _ => false,
+        };
+        let stages = scene.stages.iter().map(|stage| &stage.scene);
+        let mut contacts = [scene].into_iter().chain(stages).flat_map(|s| &s.contacts);
+        if let Some(contact) = contacts.find(|c| of_law(&c.law)) {
+            return Some(format!(" at {}", contact.name));
+        }
+        let uses_it = |stage: &&Stage| {
+            let mut found = false;
+            let mut look = |e: &mut Expr| found |= is_it(e);
+            stage.kind.clone().formulas_mut(&mut look);
+            found
+        };
+        let mut motions = scene.stages.iter();
+        Some(format!(" in “{}”", motions.find(uses_it)?.name))
+    };
+    let same = |words: &str| all.iter().filter(|(_, other)| other == words).count() > 1;
+    let apart = |(i, words): &(usize, String)| match same(words).then(|| place(*i)).flatten() {
+        Some(place) => (*i, format!("{words}{place}")),
+        None => (*i, words.clone()),
+    };
+    all.iter().map(apart).collect()
 }
 
 /// Whether a statement introduces a symbol, by its name or its Greek letter: `of length l`. Behind a sign or another symbol it
@@ -135,13 +178,20 @@ fn words(scene: &Scene, uses: &[Use<'_>], name: &Symbol) -> Option<String> {
     let mut mine = uses.iter().filter(|(.., e)| is_it(e)).peekable();
     // A rod of the length 2 ℓ; that says more than where its center is.
     let is_size = |what: &&str| !PLACED.contains(what) && !POINT.contains(what);
-    let half = |e: &Expr| is_it(&(&Expr::ratio(1, 2) * e));
+    let multiple = |k: Expr| {
+        let is_multiple = |e: &Expr| is_it(&(&k * e));
+        let mut all = uses.iter();
+        let (what, body, _) = all.find(|(_, body, e)| body.is_some() && is_multiple(e))?;
+        Some(what.replace("{}", &called((*body)?)))
+    };
     if !mine.peek().is_some_and(|(what, ..)| is_size(what))
-        && let Some((what, Some(body), _)) = uses.iter().find(|(.., e)| half(e))
+        && let Some(size) = multiple(Expr::ratio(1, 2))
     {
-        return Some(format!("half the {}", what.replace("{}", &called(body))));
+        return Some(format!("half the {size}"));
     }
-    let (what, first, _) = mine.next()?;
+    let Some((what, first, _)) = mine.next() else {
+        return Some(format!("twice the {}", multiple(Expr::from(2))?));
+    };
     let mut bodies: Vec<String> = first.iter().map(|body| called(body)).collect();
     for (_, body, _) in mine.filter(|(also, ..)| also == what) {
         let body = body.map(called);
@@ -170,9 +220,11 @@ fn called(scene: &Scene, body: &str) -> String {
         _ => Default::default(),
     });
     let part = parts.find(is_it).map(Body::called);
-    let point = || scene.points.iter().find(|p| p.name == body);
-    let point = || Some(point()?.name.clone());
-    let part = part.or_else(point);
+    let stages = scene.stages.iter().map(|stage| &stage.scene);
+    let contacts = [scene].into_iter().chain(stages).flat_map(|s| &s.contacts);
+    let points = scene.points.iter().map(|p| &p.name);
+    let mut places = points.chain(contacts.map(|c| &c.name));
+    let part = part.or_else(|| places.find(|name| *name == body).cloned());
     let part = part.unwrap_or_else(|| format!("the {}", body.replace('_', " ")));
     match part.strip_prefix("body ") {
         Some(letter) => format!("part {letter}"),
@@ -209,9 +261,18 @@ fn uses(scene: &Scene) -> Vec<Use<'_>> {
             out.push((what, Some(&body.name), size.clone()));
         }
         placed(&body.name, &body.center, &PLACED, &mut out);
+        if let Some((size, Some((axis, angle)))) = polar(&body.center) {
+            out.push((AWAY[0], Some(&body.name), size.clone()));
+            out.push((AWAY[1 + axis], Some(&body.name), angle.clone()));
+        }
     }
     for point in &scene.points {
         placed(&point.name, &point.at, &POINT, &mut out);
+    }
+    for stage in &scene.stages {
+        for contact in &stage.scene.contacts {
+            placed(&contact.name, &contact.at, &POINT, &mut out);
+        }
     }
     out
 }
@@ -434,6 +495,21 @@ fn of_motion<'s>(scene: &'s Scene, stage: usize, out: &mut Vec<Use<'s>>) {
                 SlideEnd::Distance(way) => push("distance that {} goes", body, way),
                 SlideEnd::Time(time) => push("time for which {} moves", body, time),
                 _ => {}
+            }
+        }
+        StageKind::Linkage(linkage) => {
+            let coordinate = scene.parameter(&linkage.coordinate);
+            let what = match coordinate.is_some_and(|p| p.dimension.is_none()) {
+                true => "angle at which the motion ends",
+                false => "place at which the motion ends",
+            };
+            push(what, None, &linkage.ends[1]);
+        }
+        StageKind::Impact { one_sided, .. } => {
+            for string in one_sided.iter().filter(|o| o.is_string) {
+                if let Some((axis, angle)) = inclination(&string.normal) {
+                    push(STRING[axis], None, angle);
+                }
             }
         }
         StageKind::Fall(fall) => {

@@ -136,7 +136,7 @@ pub fn meant(scene: &Scene, values: bool) -> Option<Vec<Inline>> {
     let mut text = vec![say("Here ")];
     for (i, p) in meant.iter().enumerate() {
         text.push(formula(&Expr::symbol(&p.name)));
-        let own = ["a ", "an ", "the ", "half ", "one "];
+        let own = ["a ", "an ", "the ", "half ", "twice ", "one "];
         let is_own = own.iter().any(|w| p.meaning.starts_with(w));
         let article = match p.meaning.starts_with(char::is_lowercase) && !is_own {
             true => "the ",
