@@ -391,7 +391,7 @@ fn sides(
     // Where a motion comes to its end just up to there, what is asked of it has a value beyond.
     let unfinished = |upper| bound_at(parameter, value, upper, domains, is_ending);
     if holds_below && unfinished(false) || holds_above && unfinished(true) {
-        let words = "beyond that value the motion does not go on as told";
+        let words = "there the motion does not come to its end";
         out.text.push(Sentence::words(words));
     }
     let found = match strict {

@@ -8,8 +8,12 @@ use crate::expr::{Expr, Symbol};
 use crate::formula::Relation;
 use crate::scene::{Ask, Extremum, INSTANTANEOUS_CENTER, Scene};
 
-/// Why a coefficient of friction is the least or the largest with which something happens.
+/// Why an answer is what it is, where its formula does not show that.
 pub(super) fn because(solution: &Solution, meaning: &str) -> Option<Vec<Inline>> {
+    if meaning.starts_with("moment of inertia") {
+        let text = "By the parallel-axis theorem it is that about the center of mass plus the mass times the square of the distance from there:";
+        return Some(vec![say(text)]);
+    }
     let (_, event) = meaning.split_once("coefficient of friction with which it ")?;
     let ends: Vec<Symbol> = solution.ends_of_sliding().collect();
     let text = match event {

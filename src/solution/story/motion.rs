@@ -149,10 +149,24 @@ impl Page<'_> {
             true => raw.clone(),
             false => self.about(stage, told, turn),
         };
-        let head = vec![name("I", &turn.about_name, "", false)];
+        let head = vec![self.inertia_letter(&turn.about_name)];
         let why = "moment of inertia about the fixed point: I + m r²";
         let line = self.chain(head, raw, tidy, why);
         self.is_new(&line.math).then_some(line)
+    }
+
+    /// The letter of the moment of inertia of all that turns about a point, where an answer of that name is not of less.
+    pub(super) fn inertia_letter(&self, about: &str) -> Math {
+        let own = format!("I_{about}");
+        let mut answers = self.told.answers.iter().filter(|a| a.name == own);
+        let is_other = |value: &Expr| {
+            let mut turns = self.told.stages.iter().filter(|told| {
+                matches!(&told.placed.kind, StageKind::Turn(turn) if turn.about_name == about)
+            });
+            turns.any(|told| told.inertia.as_ref().is_some_and(|[_, all]| all != value))
+        };
+        let is_taken = answers.any(|a| a.formula().is_some_and(is_other));
+        name("I", if is_taken { "total" } else { about }, "", false)
     }
 
     /// The letter of the work of a force; of the only one without its name, unless that letter is taken.
@@ -230,7 +244,10 @@ impl Page<'_> {
                     }
                 }
                 Some(Ask::Spin { .. }) if !to_rest => "the angular velocity at the end",
-                Some(Ask::Distance) if to_rest => "the distance covered",
+                Some(Ask::Distance) if to_rest => match answer.words.starts_with("displacement") {
+                    true => "the displacement",
+                    false => "the distance covered",
+                },
                 _ => continue,
             };
             sought.push((Expr::symbol(&answer.name).into(), why));

@@ -281,7 +281,7 @@ impl Page<'_> {
             moment,
             mark,
         } = rates;
-        let inertia = || name("I", about, "", false);
+        let inertia = || self.inertia_letter(about);
         let acceleration = [
             -(angular * &arm[1]) - square * &arm[0],
             angular * &arm[0] - square * &arm[1],
@@ -398,7 +398,7 @@ impl Page<'_> {
             let why = "moment of inertia times angular acceleration = moments";
             let step = Some(self.solution.step(Vec::new(), vec![claim], why));
             let symbol = Expr::symbol(&answer.name);
-            let inertia = name("I", &turn.about_name, "", false);
+            let inertia = self.inertia_letter(&turn.about_name);
             let math = set("{} {} = {}", [inertia, symbol.into(), moment.into()]);
             lines.push(Line { math, step });
         }

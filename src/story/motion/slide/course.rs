@@ -339,7 +339,16 @@ impl Line<'_> {
                 SlideEnd::Stops => -(&self.speed.powi(2) / &(&Expr::from(2) * &self.acceleration)),
                 _ => self.way(t),
             };
-            let mut step = Step::new("s", &raw, &course.distance, "the distance covered");
+            // What turns back on the way covers more than it is displaced.
+            let keeps_on = [&self.speed, &course.speed].map(|v| sign(v, self.domains()));
+            let why = match keeps_on
+                .iter()
+                .all(|seen| seen.is_positive() || seen.is_not_negative())
+            {
+                true => "the distance covered",
+                false => "the displacement",
+            };
+            let mut step = Step::new("s", &raw, &course.distance, why);
             if rolls {
                 step.by_time = vec![Expr::zero(), self.speed.clone(), half(&self.acceleration)];
             }
