@@ -236,7 +236,13 @@ impl Asked<'_> {
             }
             let gap = left - right;
             let aside = self.aside(seen, parameter, at);
+            // Beyond the end of a domain nothing is told.
+            let is_out = |step: f64| !self.admits(seen, parameter, at + step);
+            let ends = is_out(-aside) != is_out(aside);
             let sides = [-aside, 0.0, aside].map(|step| {
+                if ends && step != 0.0 && is_out(step) {
+                    return None;
+                }
                 let there = (parameter.clone(), at + step);
                 self.formula(seen, &gap, with, &[there])
             });
