@@ -8,7 +8,7 @@ use super::fault::{Fault, Faulty};
 use super::plain_unit;
 use super::prose::{changes, goes_on, is_in, leads};
 use super::several::MOST;
-use super::symbols::name;
+use super::symbols::{among, name};
 use crate::dimension;
 
 const OPEN: [&str; 2] = ["\\boxed", "\\fbox"];
@@ -130,42 +130,33 @@ fn around(text: &str, mut at: usize, inside: [usize; 2]) -> Faulty<String> {
 }
 
 /// A text without blanks, dollars and what else only sets the type at its end.
-fn trimmed(text: &str) -> &str {
-    const DRESS: [&str; 12] = [
-        "**",
-        "\\(",
-        "\\[",
-        "\\,",
-        "\\;",
-        "\\!",
-        "\\ ",
-        "\\displaystyle",
-        "\\Large",
-        "\\large",
-        "\\left",
-        "#",
-    ];
-    let mut text = text;
+fn trimmed(mut text: &str) -> &str {
+    const DRESS: &str = "**|\\(|\\[|\\,|\\;|\\!|\\ |\\displaystyle|\\Large|\\large|\\left|#";
     loop {
-        let plain = text.trim_end_matches(|c: char| c.is_whitespace() || "$\"“~".contains(c));
-        match DRESS.iter().find_map(|dress| plain.strip_suffix(dress)) {
+        text = text.trim_end_matches(|c: char| c.is_whitespace() || "$\"“~".contains(c));
+        match DRESS.split('|').find_map(|dress| text.strip_suffix(dress)) {
             Some(shorter) => text = shorter,
-            None => return plain,
+            None => return text,
         }
     }
 }
 
 /// A text without the like at its beginning.
-fn bare(text: &str) -> &str {
-    const DRESS: [&str; 8] = ["**", "\\)", "\\]", "\\,", "\\;", "\\!", "\\ ", "\\right"];
-    let mut text = text;
+fn bare(mut text: &str) -> &str {
+    const DRESS: &str = "**|\\)|\\]|\\,|\\;|\\!|\\ |\\right";
     loop {
-        let plain = text.trim_start_matches(|c: char| c.is_whitespace() || "$\"”~".contains(c));
-        match DRESS.iter().find_map(|dress| plain.strip_prefix(dress)) {
+        text = text.trim_start_matches(|c: char| c.is_whitespace() || "$\"”~".contains(c));
+        match DRESS.split('|').find_map(|dress| text.strip_prefix(dress)) {
             Some(shorter) => text = shorter,
-            None => return plain,
+            None => return text,
         }
     }
+}
+
+/// A text with blanks for some signs, `|` between them.
+fn blanked(text: &str, signs: &str) -> String {
+    let signs = signs.split('|');
+    signs.fold(text.to_string(), |text, sign| text.replace(sign, " "))
 }
 
 /// Where the first of several boxes begins that a comma or a word joins: `\boxed{5} and \boxed{6}`.
@@ -191,12 +182,7 @@ fn joined_boxes(text: &str, mut at: usize) -> Faulty<Option<usize>> {
 
 /// Whether what stands between two boxes joins them: a comma or a word, a unit before it, and the name of the next behind it.
 fn joins(between: &str) -> bool {
-    const DRESS: [&str; 8] = [
-        "\\text", "\\mathrm", "\\quad", "\\(", "\\)", "\\[", "\\]", "\\,",
-    ];
-    let bare = DRESS
-        .iter()
-        .fold(between.to_string(), |text, sign| text.replace(sign, " "));
+    let bare = blanked(between, "\\text|\\mathrm|\\quad|\\(|\\)|\\[|\\]|\\,");
     let bare = format!(" {} ", bare.replace(['$', '{', '}'], " ").trim());
     let signs = [" and ", " or ", ",", ";"].into_iter();
     let Some((at, sign)) = signs
@@ -293,10 +279,7 @@ fn relates(text: &str) -> bool {
 
 /// Whether a text holds a number, a name of one letter or a formula.
 fn says_value(text: &str) -> bool {
-    const DRESS: [&str; 7] = ["\\text", "\\quad", "\\mathrm", "\\;", "\\,", "\\)", "\\]"];
-    let bare = DRESS
-        .iter()
-        .fold(text.to_string(), |text, sign| text.replace(sign, " "));
+    let bare = blanked(text, "\\text|\\quad|\\mathrm|\\;|\\,|\\)|\\]");
     let mut words = bare.split(|c: char| !c.is_alphanumeric());
     let name = |word: &str| word.chars().count() == 1 && !is_in("a i", word);
     bare.contains(['\\', '=']) || words.any(|w| name(w) || w.contains(char::is_numeric))
@@ -409,9 +392,7 @@ fn is_denial(word: &str) -> bool {
 /// Where the formula ends that begins with a box, and whether what touches it is a unit, a relation or the like, which needs
 /// no brackets around the box; nothing where it ends with the box.
 fn behind(text: &str, close: usize, math: bool, touched: bool) -> Faulty<Option<(usize, bool)>> {
-    const FACTORS: [&str; 7] = [
-        "million", "thousand", "billion", "trillion", "hundred", "dozen", "or",
-    ];
+    const FACTORS: &str = "million thousand billion trillion hundred dozen or";
     let rest = &text[close..];
     let words = rest.split(|c: char| !c.is_alphabetic() && !"'’".contains(c));
     let mut words = words
@@ -465,7 +446,7 @@ fn behind(text: &str, close: usize, math: bool, touched: bool) -> Faulty<Option<
             _ => first.any(changes),
         };
         let plain = capital || goes_on(word) || word.is_empty();
-        return match changed || !plain || FACTORS.contains(&word) {
+        return match changed || !plain || among(FACTORS, word) {
             true => Err(fault(close, text.len())),
             false => Ok(None),
         };

@@ -4,6 +4,7 @@
 //! In: a text. Out: the same, byte for byte, with blanks for what is taken off.
 
 use super::prose::{Held, changes, is_in};
+use super::symbols::name;
 use super::token::function;
 use super::{Reading, Symbols, is_greek, read};
 
@@ -81,20 +82,9 @@ fn open(out: &mut String, at: usize, end: usize, sign: bool) {
 
 /// The byte behind the group in braces that begins at a place, or after blanks.
 fn group(text: &str, at: usize) -> Option<usize> {
-    let rest = text.get(at..)?;
-    let blanks = rest.len() - rest.trim_start_matches(' ').len();
-    let mut depth = 0;
-    for (i, c) in rest[blanks..].char_indices() {
-        match c {
-            '{' => depth += 1,
-            '}' => depth -= 1,
-            _ => {}
-        }
-        if depth == 0 {
-            return (i > 0).then_some(at + blanks + i + 1);
-        }
-    }
-    None
+    let rest = text.get(at..)?.trim_start_matches(' ');
+    let length = name::closing(rest.as_bytes())? + 1;
+    Some(text.len() - rest.len() + length)
 }
 
 /// A text without the reason in words behind it, `0 because the contact is smooth`, which holds no formula and denies nothing.

@@ -71,17 +71,8 @@ pub(super) fn shows_space(text: &[u8], start: usize, end: usize) -> bool {
 pub(super) fn degree_mark(rest: &str) -> Option<usize> {
     let blanks = rest.len() - rest.trim_start_matches(' ').len();
     let body = &rest[blanks..];
-    const MARKS: [&str; 8] = [
-        r"{\circ}",
-        r"\circ",
-        "{∘}",
-        "{°}",
-        "∘",
-        "°",
-        r"{\degree}",
-        r"\degree",
-    ];
-    let mark = MARKS.iter().find(|mark| body.starts_with(**mark))?;
+    const MARKS: &str = r"{\circ}|\circ|{∘}|{°}|∘|°|{\degree}|\degree";
+    let mark = MARKS.split('|').find(|mark| body.starts_with(mark))?;
     Some(blanks + mark.len())
 }
 

@@ -53,7 +53,7 @@ pub use fault::Fault;
 use fault::Faulty;
 pub(crate) use frames::{lines_apart, unlisted};
 pub use note::{Note, Remark};
-pub(crate) use prose::{beside_condition, changes, concluded};
+pub(crate) use prose::{beside_condition, changes, concluded, is_in};
 pub use quotient::Quotient;
 pub(crate) use reading::within_limit;
 pub use reading::{MAX_BYTES, Reading};
@@ -63,7 +63,7 @@ pub use sentence::{Piece, Sentence, capital, digits, either, listed, sides, trim
 pub(crate) use sets::UNNAMED;
 pub(crate) use several::{letters_apart, relations};
 pub use symbols::{Declared, Symbols, letter};
-pub(crate) use symbols::{is_angle_name, is_greek, letters};
+pub(crate) use symbols::{among, is_angle_name, is_greek, letters};
 pub(crate) use together::values_of_one;
 pub use token::Literal;
 pub(crate) use units::plain_unit;

@@ -68,7 +68,7 @@ const PLAIN: &str = "a after an and angular answer asked at ball before block bo
     speeds this together travel travels us when where";
 
 /// Whether a word is one of a list with blanks between.
-pub(super) fn is_in(list: &str, word: &str) -> bool {
+pub(crate) fn is_in(list: &str, word: &str) -> bool {
     list.split(' ')
         .any(|known| word.eq_ignore_ascii_case(known))
 }
@@ -207,15 +207,7 @@ pub(super) fn ratio(text: &str) -> Option<String> {
 
 /// The value that goes on from what was asked: `≈ 1.2 m/s`, `= 1.2 m/s`, `about 1.2 m/s`.
 pub(super) fn value(text: &str) -> Option<&str> {
-    const WORDS: [&str; 7] = [
-        "about",
-        "approximately",
-        "approx.",
-        "approx",
-        "roughly",
-        "circa",
-        "ca.",
-    ];
+    const WORDS: &str = "about approximately approx. approx roughly circa ca.";
     let text = text.trim_start();
     let signed = |sign: &&str| text.strip_prefix(*sign);
     if let Some(behind) = ["≈", "\\approx", "\\simeq", "\\sim", "="]
@@ -234,7 +226,7 @@ pub(super) fn value(text: &str) -> Option<&str> {
     let framed = text.strip_prefix("\\text{").and_then(|r| r.split_once('}'));
     if let Some((said, behind)) = framed {
         let said = said.trim();
-        let known = WORDS.iter().any(|word| word.eq_ignore_ascii_case(said));
+        let known = is_in(WORDS, said);
         return (known && is_value(behind)).then_some(behind);
     }
     let said = |word: &str| {
@@ -242,7 +234,7 @@ pub(super) fn value(text: &str) -> Option<&str> {
         let number = behind.strip_prefix(' ').is_some_and(is_value);
         (said.eq_ignore_ascii_case(word) && number).then_some(behind)
     };
-    WORDS.into_iter().find_map(said)
+    WORDS.split(' ').find_map(said)
 }
 
 /// Where the words begin behind a formula that let a letter of it be any whole number: `with n an integer`, `, n ∈ ℤ`.

@@ -368,7 +368,7 @@ pub(crate) fn letters() -> impl Iterator<Item = (&'static str, &'static str)> {
 }
 
 /// Whether a word is one of a list.
-pub(super) fn among(list: &str, word: &str) -> bool {
+pub(crate) fn among(list: &str, word: &str) -> bool {
     list.split(' ').any(|known| known == word)
 }
 

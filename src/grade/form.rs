@@ -172,22 +172,29 @@ fn cancels(w: &Written) -> bool {
     shared || w.pieces().into_iter().any(cancels)
 }
 
-/// What stands above the fraction line, and below it, without exponents.
-fn factors<'w>(w: &'w Written, below: bool, sides: &mut [Vec<&'w Written>; 2]) {
+/// Every factor of a piece, each with whether it stands below the fraction line.
+fn each_factor<'w>(w: &'w Written, below: bool, take: &mut dyn FnMut(&'w Written, bool)) {
     match &w.shape {
         Shape::Product(parts) => {
             for (i, (link, part)) in parts.iter().enumerate() {
-                factors(part, below != (i > 0 && *link == Link::Over), sides);
+                each_factor(part, below != (i > 0 && *link == Link::Over), take);
             }
         }
         Shape::Fraction(a, b) => {
-            factors(a, below, sides);
-            factors(b, !below, sides);
+            each_factor(a, below, take);
+            each_factor(b, !below, take);
         }
-        Shape::Bracket(inside) => factors(inside, below, sides),
-        Shape::Power(base, exponent) if whole(exponent).is_some() => factors(base, below, sides),
-        _ => sides[usize::from(below)].push(w),
+        Shape::Bracket(inside) => each_factor(inside, below, take),
+        _ => take(w, below),
     }
+}
+
+/// What stands above the fraction line, and below it, without exponents.
+fn factors<'w>(w: &'w Written, below: bool, sides: &mut [Vec<&'w Written>; 2]) {
+    each_factor(w, below, &mut |part, below| match &part.shape {
+        Shape::Power(base, exponent) if whole(exponent).is_some() => factors(base, below, sides),
+        _ => sides[usize::from(below)].push(part),
+    });
 }
 
 /// Whether two pieces are the same name, or the same sum of such.
@@ -247,8 +254,13 @@ fn repeats(e: &Expr) -> bool {
 
 /// Whether whole factors above and below a fraction line can be reduced, or a whole number under a root has a square in it.
 fn reducible(w: &Written) -> bool {
-    let mut sides = [1, 1];
-    whole_factors(w, false, &mut sides);
+    let mut sides = [1_i64, 1];
+    each_factor(w, false, &mut |part, below| {
+        let side = &mut sides[usize::from(below)];
+        *side = whole(part)
+            .and_then(|n| side.checked_mul(n))
+            .unwrap_or(*side);
+    });
     let [above, below] = sides;
     let rooted = match &w.shape {
         Shape::Root(None, inside) => {
@@ -350,26 +362,6 @@ fn whole(w: &Written) -> Option<i64> {
         _ => {
             let literal = w.literal().filter(|l| l.value.is_integer() && !l.decimal)?;
             literal.value.numer().as_i64().filter(|n| *n > 0)
-        }
-    }
-}
-
-/// Multiplies what stands above the fraction line, and below it, by the whole numbers among the factors.
-fn whole_factors(w: &Written, below: bool, sides: &mut [i64; 2]) {
-    match &w.shape {
-        Shape::Product(factors) => {
-            for (i, (link, factor)) in factors.iter().enumerate() {
-                whole_factors(factor, below != (i > 0 && *link == Link::Over), sides);
-            }
-        }
-        Shape::Fraction(a, b) => {
-            whole_factors(a, below, sides);
-            whole_factors(b, !below, sides);
-        }
-        Shape::Bracket(inside) => whole_factors(inside, below, sides),
-        _ => {
-            let side = &mut sides[usize::from(below)];
-            *side = whole(w).and_then(|n| side.checked_mul(n)).unwrap_or(*side);
         }
     }
 }

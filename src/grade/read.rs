@@ -104,7 +104,7 @@ fn english(text: &str, reading: &Reading) -> Option<Fault> {
     let split = reading.notes.iter().filter(|n| n.remark == Remark::Letters);
     let word = |note: &&Note| {
         let run = text.get(note.start..note.end).unwrap_or_default();
-        run.len() > 2 && WORDS.split(' ').any(|word| run.eq_ignore_ascii_case(word))
+        run.len() > 2 && formula::is_in(WORDS, run)
     };
     let note = split.clone().find(word)?;
     let word = &text[note.start..note.end];
@@ -329,9 +329,7 @@ fn without_remark(text: &str) -> Option<&str> {
     };
     const CONDITIONS: &str = "when where while for upward upwards down downward downwards up left right clockwise \
         counterclockwise anticlockwise approximately about roughly each both";
-    let changes = |word: &&str| {
-        formula::changes(word) || CONDITIONS.split_whitespace().any(|other| other == *word)
-    };
+    let changes = |word: &&str| formula::changes(word) || formula::among(CONDITIONS, word);
     let is_remark = words.iter().all(is_word) && !words.iter().any(changes);
     (is_remark && words.iter().any(|word| word.len() > 2)).then_some(before)
 }

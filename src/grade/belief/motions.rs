@@ -7,6 +7,7 @@ use super::{BELIEFS, Belief, Slip};
 use crate::answer::Answer;
 use crate::derive;
 use crate::expr::{Expr, dot, minus};
+use crate::formula::among;
 use crate::scene::{Ask, EnergyWhen, Question, Scene, Stage, StageKind, Turn};
 
 /// The beliefs about motions.
@@ -111,15 +112,7 @@ fn rolls_as_another(s: &Scene) -> Vec<Slip> {
 }
 
 /// What is believed of impacts that shows in what comes after them.
-const ON_THE_WAY: [&str; 7] = [
-    "ELASTIC",
-    "PLASTIC",
-    "RESTITUTION_SIGN",
-    "RESTITUTION_ENERGY",
-    "PARALLEL_AXIS_DROPPED",
-    "POINT_MASS",
-    "RECOIL_IGNORED",
-];
+const ON_THE_WAY: &str = "ELASTIC PLASTIC RESTITUTION_SIGN RESTITUTION_ENERGY PARALLEL_AXIS_DROPPED POINT_MASS RECOIL_IGNORED";
 
 /// Every way in which a belief can show in a scene with stages: in its motions, and in its impacts, whose outcome goes on.
 pub(in crate::grade) fn in_stages(s: &Scene) -> Vec<(&'static Belief, Slip)> {
@@ -129,7 +122,7 @@ pub(in crate::grade) fn in_stages(s: &Scene) -> Vec<(&'static Belief, Slip)> {
     }
     let impacts = s.stages.iter().enumerate();
     for (k, stage) in impacts.filter(|(_, s)| matches!(s.kind, StageKind::Impact { .. })) {
-        for belief in BELIEFS.iter().filter(|b| ON_THE_WAY.contains(&b.code)) {
+        for belief in BELIEFS.iter().filter(|b| among(ON_THE_WAY, b.code)) {
             // What changes equations and not the scene cannot be handed to the story.
             let slips = (belief.slips)(&stage.scene).into_iter();
             found.extend(slips.filter(|slip| slip.change.is_none()).map(|one| {

@@ -55,27 +55,11 @@ pub(super) fn with_definitions(key: &Key, text: &str) -> Option<Reading> {
 
 /// A text that begins with what names are, with the statement at its end put first: each of them is an equation for a name.
 fn definitions_last(text: &str) -> Option<String> {
-    const SIGNS: [&str; 14] = [
-        "\\Longrightarrow",
-        "\\Rightarrow",
-        "\\implies",
-        "⟹",
-        "⇒",
-        "=>",
-        ", so ",
-        ", hence ",
-        ", thus ",
-        " so ",
-        " hence ",
-        " thus ",
-        "; ",
-        " and ",
-    ];
+    const SIGNS: &str = "\\Longrightarrow|\\Rightarrow|\\implies|⟹|⇒|=>|, so |, hence |, thus | so | hence | thus |; | and ";
     let equation = text.contains('=') && text.len() <= LONGEST;
     let plain = equation.then(|| {
-        SIGNS
-            .iter()
-            .fold(text.to_string(), |text, sign| text.replace(sign, ", "))
+        let signs = SIGNS.split('|');
+        signs.fold(text.to_string(), |text, sign| text.replace(sign, ", "))
     })?;
     let pieces: Vec<&str> = plain
         .split(", ")
@@ -94,19 +78,10 @@ fn definitions_last(text: &str) -> Option<String> {
 const LONGEST: usize = 2_000;
 
 fn said_behind(key: &Key, text: &str) -> Option<Reading> {
-    const WORDS: [&str; 8] = [
-        " where ",
-        " with ",
-        " mit ",
-        " wobei ",
-        "\\text{where}",
-        "\\text{ where }",
-        "\\text{with}",
-        "\\text{ with }",
-    ];
-    let found = WORDS
-        .iter()
-        .filter_map(|word| Some((text.find(word)?, word.len())));
+    const WORDS: &str =
+        " where | with | mit | wobei |\\text{where}|\\text{ where }|\\text{with}|\\text{ with }";
+    let found = WORDS.split('|');
+    let found = found.filter_map(|word| Some((text.find(word)?, word.len())));
     // `½ μ v², μ = …` and `½ μ v² (μ = …)`
     let names = |sign: &str, at: usize| {
         let (name, _) = text[at + sign.len()..].split_once('=')?;

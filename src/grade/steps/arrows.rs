@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use super::pages::is_heading;
 use super::text::relates;
+use crate::formula::among;
 use crate::scene::Scene;
 
 /// A vector in a line, by the bytes it takes.
@@ -131,14 +132,8 @@ pub(super) fn primed(text: &str) -> BTreeSet<(String, String)> {
 
 /// A solution with all its vectors as letters with arrows, and with marks for the moments that it tells in words.
 pub(super) fn spelled(text: &str, scene: &Scene) -> String {
-    let signs = [
-        "\\vec",
-        "\\mathbf",
-        "\\boldsymbol",
-        "\\bm",
-        "\\overrightarrow",
-    ];
-    if !signs.iter().any(|sign| text.contains(sign)) {
+    let signs = "\\vec|\\mathbf|\\boldsymbol|\\bm|\\overrightarrow";
+    if !signs.split('|').any(|sign| text.contains(sign)) {
         return text.to_string();
     }
     let text = own_hats(&from_bold(&text.replace("\\overrightarrow", "\\vec")));
@@ -321,11 +316,8 @@ fn moments(line: &str) -> Vec<(usize, usize, &'static str)> {
                 || rest
                     .trim_start()
                     .starts_with([':', ',', ')', '.', ';', '$', '=', '\\', '*']);
-            let is_event = |w: &str| {
-                EVENTS
-                    .split(' ')
-                    .any(|event| event == w.trim_end_matches(|c: char| !c.is_alphabetic()))
-            };
+            let is_event =
+                |w: &str| among(EVENTS, w.trim_end_matches(|c: char| !c.is_alphabetic()));
             let event = words.position(is_event);
             let to = match event {
                 Some(k) if rest.starts_with(' ') => {

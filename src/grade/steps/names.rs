@@ -101,9 +101,7 @@ pub(super) fn is_quantity_first(unit: &str) -> bool {
     let power = ["²", "^2", "^{2}"].into_iter();
     let letter = power.filter_map(|p| unit.trim().strip_suffix(p)).next();
     let letter = letter.unwrap_or(unit.trim());
-    "Ω \\Omega V h t A C F H K L T l d W"
-        .split(' ')
-        .any(|own| own == letter)
+    formula::among("Ω \\Omega V h t A C F H K L T l d W", letter)
 }
 
 impl Desk<'_> {

@@ -43,7 +43,7 @@ fn cut(line: &str) -> Option<(Vec<String>, &str)> {
 
 /// Whether words speak of what is asked, and of nothing else.
 fn speaks_of(words: &[String], question: &Question, names: &[String], lone: bool) -> bool {
-    let has = |any: &str| words.iter().any(|w| any.split(' ').any(|known| known == w));
+    let has = |any: &str| words.iter().any(|w| formula::among(any, w));
     let (kind, fits) = match &question.ask {
         Ask::Spin { .. } => (
             "angular rotational rate rotation speed velocity spin",
@@ -67,7 +67,7 @@ fn speaks_of(words: &[String], question: &Question, names: &[String], lone: bool
         _ => ("", false),
     };
     let known = |word: &String| {
-        let listed = |list: &str| list.split_whitespace().any(|w| w == word);
+        let listed = |list: &str| formula::among(list, word);
         listed(FILLERS) || listed(kind) || names.contains(word)
     };
     (fits || lone && has("answer result")) && words.iter().all(known)

@@ -78,12 +78,8 @@ fn spoken(piece: &str, of_masses: bool) -> Option<(String, Vec<String>)> {
         .or_else(that)?;
     let words = |text: &str| -> Vec<String> {
         let parts = text.split([' ', '=', ':', '-', '—']);
-        let filler = |word: &str| {
-            FILLERS
-                .split_whitespace()
-                .any(|f| word.eq_ignore_ascii_case(f))
-        };
-        let parts = parts.filter(|word| !word.is_empty() && (!filler(word) || *word == "A"));
+        let says = |word: &&str| !formula::is_in(FILLERS, word) || *word == "A";
+        let parts = parts.filter(|word| !word.is_empty() && says(word));
         parts.map(str::to_string).collect()
     };
     let before = words(piece.get(..at)?);
@@ -110,8 +106,8 @@ fn body_of<'s>(scene: &'s Scene, words: &[String]) -> Option<&'s Body> {
     let words: Vec<String> = words.iter().map(|word| word.to_lowercase()).collect();
     let says = |name: &str, alike: bool| {
         let is = |word: &String| {
-            let kind = ALIKE.iter().find(|kind| kind.split(' ').any(|w| w == name));
-            word == name || alike && kind.is_some_and(|kind| kind.split(' ').any(|w| w == word))
+            let kind = ALIKE.iter().find(|kind| formula::among(kind, name));
+            word == name || alike && kind.is_some_and(|kind| formula::among(kind, word))
         };
         words.iter().any(is)
     };

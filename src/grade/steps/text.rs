@@ -1,7 +1,7 @@
 //! The equations in a line as students write them, with words and arrows around them.
 
 use super::super::read;
-use crate::formula::{self, Fault, changes};
+use crate::formula::{self, Fault, among, changes, is_in};
 
 /// Signs that relate two sides.
 const SIGNS: [char; 5] = ['<', '>', '≤', '≥', '≈'];
@@ -102,7 +102,7 @@ fn in_dollars(text: &str) -> Option<Vec<&str>> {
     }
     let ends_in = |before: &str, words: &str| {
         let last = before.trim_end().rsplit(' ').next().unwrap_or_default();
-        words.split(' ').any(|word| word.eq_ignore_ascii_case(last))
+        is_in(words, last)
     };
     let (mut supposing, mut of_range) = (false, false);
     let formulas = pieces.iter().enumerate().filter_map(|(k, piece)| {
@@ -154,10 +154,8 @@ pub(super) fn supposition(text: &str) -> Option<(&str, Vec<&str>)> {
     });
     let text = text[tries.map_or(0, str::len)..].trim_start_matches([':', ',', ' ']);
     let lead = text.split(' ').next()?;
-    let leads = [
-        "for", "if", "when", "setting", "at", "with", "take", "taking", "putting", "let",
-    ];
-    let supposes = leads.contains(&&*lead.to_ascii_lowercase());
+    let leads = "for if when setting at with take taking putting let";
+    let supposes = is_in(leads, lead);
     if !supposes {
         let words = [" for ", " if ", " when "].into_iter();
         if let Some((said, given)) = words.filter_map(|word| text.split_once(word)).next() {
@@ -167,22 +165,14 @@ pub(super) fn supposition(text: &str) -> Option<(&str, Vec<&str>)> {
         }
     }
     let rest = &text[if supposes { lead.len() } else { 0 }..];
-    let ends = [
-        ": ",
-        " gives ",
-        ", ",
-        " then ",
-        " we get ",
-        " we find ",
-        " we have ",
-    ];
-    let ends = &ends[..if supposes { ends.len() } else { 2 }];
+    let ends = ": | gives |, | then | we get | we find | we have ".split('|');
+    let ends: Vec<&str> = ends.take(if supposes { 7 } else { 2 }).collect();
     // `For e = 0, d = l/2: …` and `For the end, d = l/2: …` suppose what stands before the colon.
     let found = |end: &&str| {
         let at = rest.find(*end).filter(|at| relates(&rest[..*at]))?;
         Some((at, end.len()))
     };
-    let colon = ends[..1].iter().find_map(&found);
+    let colon = ends.first().and_then(&found);
     let end = colon.or_else(|| ends.iter().filter_map(found).min());
     // `for θ = 0 ω = 3v/(2l)`: behind a number the second equation begins with its name.
     let second = || {
@@ -331,9 +321,7 @@ const SENSES: &str = "up upward upwards down downward downwards left leftward ri
     backward backwards clockwise counterclockwise anticlockwise not never wrong false";
 
 fn turns_sign(word: &str) -> bool {
-    SENSES
-        .split(' ')
-        .any(|sense| sense.eq_ignore_ascii_case(word))
+    is_in(SENSES, word)
 }
 
 /// Whether a text without an equation is a sentence, which may have formulas in it: `The distance of G is l/2`.
@@ -398,9 +386,7 @@ fn describes(left: &str) -> bool {
     let place = ["about", "at", "of", "on"].contains(&before);
     lower.chars().all(|c| c.is_ascii_alphabetic() || c == ' ')
         && (last.len() > 2 || place)
-        && words
-            .iter()
-            .any(|word| DESCRIBING.split_whitespace().any(|w| w == *word))
+        && words.iter().any(|word| among(DESCRIBING, word))
 }
 
 /// Whether words in brackets say what stands before them, and are no factors: `the deceleration of the block`.
@@ -431,8 +417,7 @@ pub(super) fn without_remark(text: &str) -> &str {
         || dots.any(|d| before.trim_end().ends_with(d))
         || far.iter().any(|far| before.trim_end().ends_with(far));
     let words = text.ends_with(')')
-        && (REMARKS.split_whitespace().any(|word| word == first)
-            || before.ends_with(' ') && describes_it(inside));
+        && (among(REMARKS, first) || before.ends_with(' ') && describes_it(inside));
     match before.strip_suffix("\\tag") {
         Some(equation) if number => equation.trim_end(),
         None if words => before.trim_end(),
@@ -468,7 +453,7 @@ pub(super) fn with_direction(line: &str, equation: &str) -> Option<String> {
     let whole = format!("_ {said}");
     let (body, _) = read::sense(&whole)?;
     let mut words = body.split([' ', ',']).skip(1);
-    let led = words.all(|word| word.is_empty() || BEFORE_SENSES.split(' ').any(|w| w == word));
+    let led = words.all(|word| word.is_empty() || among(BEFORE_SENSES, word));
     led.then(|| {
         format!(
             "{equation} ({})",
