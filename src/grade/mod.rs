@@ -32,6 +32,7 @@ use crate::domain::{Domain, Domains};
 use crate::expr::{Symbol, effort};
 use crate::formula::{self, Content, Fault, Reading, Symbols};
 pub(crate) use crate::verify::rounding::fraction;
+use doubt::Doubt;
 
 pub use form::Form;
 pub use number::Tolerance;
@@ -502,38 +503,43 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
     if matches!(reading.content, Content::Relations(..) | Content::Scalar(_)) {
         read::differentials(key, &mut reading);
     }
-    let mut finding = compare::contents(key, &reading, options);
-    if finding.verdict == Verdict::Different
+    let mut doubt = Doubt::new(key, answer, options, reading);
+    if doubt.is_wrong()
         && let Some(grade) = doubt::number(key, answer, options)
     {
         return grade;
     }
-    doubt::turned(key, answer, options, &mut reading, &mut finding);
-    doubt::unit_behind(key, answer, options, &mut reading, &mut finding);
-    unit::behind(key, &reading, &mut finding);
-    unit::of_relations(key, &reading, &mut finding);
-    finding.assumed.extend(meant);
-    if finding.is_equivalent() && key.direction.is_some() && read::sense(answer).is_none() {
-        finding.assumed.push("the direction is not judged".into());
+    doubt.turned();
+    doubt.unit_behind();
+    unit::behind(key, &doubt.reading, &mut doubt.finding);
+    unit::of_relations(key, &doubt.reading, &mut doubt.finding);
+    doubt.finding.assumed.extend(meant);
+    let is_right = doubt.finding.is_equivalent();
+    if is_right && key.direction.is_some() && read::sense(answer).is_none() {
+        let words = "the direction is not judged";
+        doubt.finding.assumed.push(words.into());
     }
-    doubt::crossed(key, answer, &reading, &mut finding);
-    let settled = finding.note == "EQUIV_READING";
+    doubt.crossed();
     // A wrong answer is never told so where another reading is right, however fast.
-    let open_to_doubt = (options.strength == Strength::Identity
-        || finding.verdict == Verdict::Different)
-        && !settled
-        && (reading.choices > u32::from(reading.slashes)
-            || doubt::power_of_function(&reading.content).is_some());
-    doubt::euler(key, &reading, options, &mut finding);
-    doubt::raised(key, answer, options, &mut finding);
-    doubt::side_by_side(key, answer, options, &reading, &mut finding);
-    doubt::primes(key, &reading, options, &mut finding);
-    doubt::imaginary(key, &reading, &mut finding);
-    doubt::any_whole_number(key, &reading, &mut finding);
-    doubt::backwards(key, &reading, &mut finding);
+    let open_to_doubt = (options.strength == Strength::Identity || doubt.is_wrong())
+        && doubt.finding.note != "EQUIV_READING"
+        && (doubt.reading.choices > u32::from(doubt.reading.slashes)
+            || doubt::power_of_function(&doubt.reading.content).is_some());
+    doubt.euler();
+    doubt.raised();
+    doubt.side_by_side();
+    doubt.primes();
+    doubt.imaginary();
+    doubt.any_whole_number();
+    doubt.backwards();
     if open_to_doubt {
-        doubt::ambiguity(key, answer, options, &reading, &mut finding);
+        doubt.ambiguity();
     }
+    let Doubt {
+        reading,
+        mut finding,
+        ..
+    } = doubt;
     if effort::spent() {
         finding.stopped();
     }
