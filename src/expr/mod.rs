@@ -186,6 +186,25 @@ impl Expr {
         self.as_number().is_some_and(Rational::is_integer)
     }
 
+    /// Whether it is made by sums, products and whole powers alone.
+    pub fn is_rational(&self) -> bool {
+        self.parts().all(|part| match part.node() {
+            Node::Call(..) => false,
+            Node::Power(_, k) => k.is_integer(),
+            _ => true,
+        })
+    }
+
+    /// Whether it is so without a power below one, and has a value everywhere.
+    pub fn is_polynomial(&self) -> bool {
+        let positive = |k: &Rational| k.is_integer() && k.is_positive();
+        self.parts().all(|part| match part.node() {
+            Node::Call(..) => false,
+            Node::Power(_, k) => k.as_number().is_some_and(positive),
+            _ => true,
+        })
+    }
+
     /// Whether it is a negative number, or a product with one.
     pub fn is_negative(&self) -> bool {
         match self.node() {

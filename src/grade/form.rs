@@ -128,15 +128,9 @@ fn is_long(key: &Key, answer: &Reading) -> bool {
 
 /// Whether a polynomial divides both sides of a fraction.
 fn divides(e: &Expr, key: &Key) -> bool {
-    let whole = |k: &Expr| k.as_number().is_some_and(|k| k.is_integer());
-    let plain = |part: &Expr| match part.node() {
-        Node::Power(_, k) => whole(k),
-        Node::Call(..) => false,
-        _ => true,
-    };
     let shared = |factors: &[Expr]| {
         let [mut above, mut below] = [Vec::new(), Vec::new()];
-        for factor in factors.iter().filter(|f| f.parts().all(plain)) {
+        for factor in factors.iter().filter(|f| f.is_rational()) {
             match factor.node() {
                 Node::Power(base, k) if k.as_number().is_some_and(Signed::is_negative) => {
                     below.push(base.clone());
@@ -370,15 +364,7 @@ fn whole(w: &Written) -> Option<i64> {
 fn factored(e: &Expr, key: &Key) -> bool {
     let domains = &key.question.domains;
     let irreducible = |sum: &Expr| {
-        let polynomial = |part: &Expr| match part.node() {
-            Node::Power(_, k) => k.is_integer(),
-            Node::Call(..) => false,
-            _ => true,
-        };
-        let parts = sum
-            .parts()
-            .all(polynomial)
-            .then(|| Field::of(domains, sum).ok());
+        let parts = sum.is_rational().then(|| Field::of(domains, sum).ok());
         let one = |(field, x): (Field, Element)| field.zeros(&x).len() < 2;
         let tidy = tidy(sum, domains);
         parts.flatten().is_none_or(one)

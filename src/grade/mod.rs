@@ -201,12 +201,7 @@ pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
         key.direction = Some(direction);
         return Ok(key);
     }
-    let mut symbols = if question.closed {
-        Symbols::strict()
-    } else {
-        Symbols::open()
-    };
-    declare(&mut symbols, question);
+    let symbols = names_of(question);
     if let Some(cases) = cases::keys(expected, question, &symbols) {
         let (cases, has_hole) = cases?;
         let none = || *Fault::new("none of the cases occurs on the domain", 0, 0);
@@ -217,11 +212,7 @@ pub fn key(expected: &str, question: &Question) -> Result<Key, Fault> {
             ..first
         });
     }
-    let strict = || {
-        let mut strict = Symbols::strict();
-        declare(&mut strict, question);
-        strict
-    };
+    let strict = || with_names(Symbols::strict(), question);
     let closed = || Question {
         closed: true,
         ..question.clone()
@@ -332,12 +323,7 @@ fn from_reading(mut reading: Reading, question: &Question) -> Key {
     }
     let undeclared = names.clone();
     question.symbols.extend(names.into_iter().map(Given::named));
-    let mut readable = if question.closed {
-        Symbols::strict()
-    } else {
-        Symbols::open()
-    };
-    declare(&mut readable, &question);
+    let mut readable = names_of(&question);
     // Vectors whose components are known are named whole, in bold too.
     for name in question.given().map(|given| &given.name) {
         if formula::is_component(name) && readable.find(&name[..name.len() - 2]).is_none() {
@@ -362,7 +348,17 @@ fn from_reading(mut reading: Reading, question: &Question) -> Key {
     }
 }
 
-fn declare(symbols: &mut Symbols, question: &Question) {
+/// The names of a question, and where it is not closed any others.
+fn names_of(question: &Question) -> Symbols {
+    let symbols = match question.closed {
+        true => Symbols::strict(),
+        false => Symbols::open(),
+    };
+    with_names(symbols, question)
+}
+
+/// Some names with those of a question.
+fn with_names(mut symbols: Symbols, question: &Question) -> Symbols {
     symbols.reserve(question.given().count());
     for given in question.given() {
         symbols.declare_as(
@@ -371,6 +367,7 @@ fn declare(symbols: &mut Symbols, question: &Question) {
             given.dimension.clone(),
         );
     }
+    symbols
 }
 
 /// Judges an answer against an expected formula.

@@ -12,7 +12,7 @@ mod named;
 use std::collections::BTreeMap;
 
 use super::unit::misfit;
-use super::{Key, declare};
+use super::{Key, with_names};
 use crate::dimension;
 use crate::expr::{Expr, Symbol};
 use crate::formula::{
@@ -303,8 +303,7 @@ pub(super) fn answer(key: &Key, text: &str) -> Result<Reading, Fault> {
     }
     // `2000 g` for `m = 2 kg`: where a quantity is asked, a letter behind a number is a unit if it can be one.
     if quantitative(&key.reading) && !usual.as_ref().is_ok_and(quantitative) {
-        let mut strict = Symbols::strict();
-        declare(&mut strict, &key.question);
+        let strict = with_names(Symbols::strict(), &key.question);
         if let Ok(reading) = formula::read(text, &strict)
             && quantitative(&reading)
         {
@@ -397,8 +396,7 @@ fn by_own_names(key: &Key, text: &str, fault: Fault) -> Result<Reading, Fault> {
     if measured && let Some(reading) = unit_apart(key, text) {
         return Ok(reading);
     }
-    let mut open = Symbols::open();
-    declare(&mut open, &key.question);
+    let open = with_names(Symbols::open(), &key.question);
     let Ok(reading) = formula::read(text, &open) else {
         return Err(fault);
     };

@@ -50,11 +50,7 @@ pub(in crate::grade) fn number(key: &Key, answer: &str, options: &Options) -> Op
     if answer.len() > LONGEST {
         return None;
     }
-    let comma = |rest: &str| {
-        let mut signs = ["{,}", ","].into_iter();
-        let sign = signs.find(|sign| rest.starts_with(sign))?;
-        (digits(&rest[sign.len()..]) > 0).then_some(sign.len())
-    };
+    let comma = |rest: &str| Some(comma(rest)?.0);
     let hint = "write numbers without a comma: it parts thousands in some countries and decimals in others";
     let beside = "write 7/4 or 1 + 3/4: side by side they could be a product";
     // `(2,3)` is two components.
@@ -77,6 +73,13 @@ pub(in crate::grade) fn number(key: &Key, answer: &str, options: &Options) -> Op
         let message = format!("right when it is read as {text}");
         grade.is_equivalent().then(|| grade.reread(message, hint))
     })
+}
+
+/// The bytes of a comma with which a text begins, and how many digits stand behind it, one at least.
+fn comma(text: &str) -> Option<(usize, usize)> {
+    let mut signs = ["{,}", ","].into_iter();
+    let length = signs.find(|sign| text.starts_with(sign))?.len();
+    Some((length, digits(&text[length..]))).filter(|(_, digits)| *digits > 0)
 }
 
 /// A text cut behind digits where something stands, which is so many bytes long; nothing where it stands nowhere.
@@ -106,11 +109,7 @@ fn parted(text: &str, stands: impl Fn(&str) -> Option<usize>) -> Option<Vec<Stri
 
 /// An expected formula with one comma before three digits, as a number of thousands and as a decimal number.
 pub(in crate::grade) fn commas(expected: &str) -> Option<[String; 2]> {
-    let comma = |rest: &str| {
-        let mut signs = ["{,}", ","].into_iter();
-        let sign = signs.find(|sign| rest.starts_with(sign))?;
-        (digits(&rest[sign.len()..]) == 3).then_some(sign.len())
-    };
+    let comma = |rest: &str| Some(comma(rest).filter(|(_, digits)| *digits == 3)?.0);
     let inside = expected.trim_start().starts_with(['(', '[', '{', '\\']);
     let parts = parted(expected, comma).filter(|parts| parts.len() == 2 && !inside)?;
     let starts = parts[0].len()

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::super::{Key, Question, declare};
+use super::super::{Key, Question, with_names};
 use super::{along_axes, answer, quantitative, vector};
 use crate::dimension::{self, Dimension};
 use crate::expr::{Expr, Symbol, only};
@@ -49,8 +49,7 @@ pub(in crate::grade) fn quantity(
     open: &Reading,
     question: &Question,
 ) -> Option<Reading> {
-    let mut symbols = Symbols::strict().briefly();
-    declare(&mut symbols, question);
+    let symbols = with_names(Symbols::strict().briefly(), question);
     let list = || {
         let lists = text.contains(',').then(|| symbols.clone().with_lists());
         let reading = lists.and_then(|lists| formula::read(text, &lists).ok());
@@ -90,8 +89,7 @@ fn bounds(text: &str, open: &Reading, question: &Question) -> Option<Reading> {
     if names.is_empty() || !text.contains(|c: char| c.is_ascii_digit()) {
         return None;
     }
-    let mut symbols = Symbols::strict().briefly();
-    declare(&mut symbols, question);
+    let mut symbols = with_names(Symbols::strict().briefly(), question);
     names.iter().for_each(|name| symbols.declare(name));
     let reading = formula::read(text, &symbols).ok()?;
     let mut sides = reading.content.chains().into_iter().flatten();

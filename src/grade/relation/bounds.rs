@@ -3,9 +3,10 @@
 
 use num_traits::Signed;
 
+use super::between_bars;
 use super::solved::solve_for;
 use crate::domain::Domains;
-use crate::expr::{Expr, Function, Node, Symbol, only};
+use crate::expr::{Expr, Symbol, only};
 use crate::formula::{Content, Join, Relation};
 
 /// `name  sign  value`.
@@ -46,13 +47,9 @@ impl Bound {
 
 /// `|x| < a` as `x < a and x > -a`, and `|x| > a` as `x > a or x < -a`.
 fn folded(left: &Content, sign: Relation, right: &Content) -> Option<(Join, [Bound; 2])> {
-    let inside = |side: &Content| match side.expr()?.node() {
-        Node::Call(Function::Abs, inside) => inside.as_symbol().cloned(),
-        _ => None,
-    };
-    let (name, sign, value) = match inside(left) {
+    let (name, sign, value) = match between_bars(left) {
         Some(name) => (name, sign, right.expr()?),
-        None => (inside(right)?, sign.turned(), left.expr()?),
+        None => (between_bars(right)?, sign.turned(), left.expr()?),
     };
     if !value.is_constant() || !sign.is_order() {
         return None;

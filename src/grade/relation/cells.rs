@@ -251,12 +251,7 @@ fn along(first: &Cases, second: &Cases, name: &Symbol, domains: &Domains) -> Opt
 /// What a formula divides by, where no function takes part.
 fn plain_divisors(e: &Expr, domains: &Domains) -> Vec<Expr> {
     let mut all = divisors(e, domains);
-    let is_plain = |part: &Expr| match part.node() {
-        Node::Call(..) => false,
-        Node::Power(_, k) => k.is_integer(),
-        _ => true,
-    };
-    all.retain(|e| e.parts().all(is_plain));
+    all.retain(Expr::is_rational);
     all
 }
 

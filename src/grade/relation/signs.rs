@@ -2,8 +2,6 @@
 
 use std::cmp::Ordering;
 
-use num_traits::Signed;
-
 use super::normal::{Cases, Normal, equation, holds};
 use super::{same_sign, sign_of};
 use crate::algebra::Sign;
@@ -58,14 +56,7 @@ fn product(n: &Normal, parts: &mut Vec<Expr>, domains: &Domains) -> Option<Produ
             }
             _ => (factor, true),
         };
-        let whole = |part: &Expr| match part.node() {
-            Node::Call(..) => false,
-            Node::Power(_, k) => k
-                .as_number()
-                .is_some_and(|k| k.is_integer() && k.is_positive()),
-            _ => true,
-        };
-        if !factor.parts().all(whole) {
+        if !factor.is_polynomial() {
             return None;
         }
         match sign_of(base, domains) {

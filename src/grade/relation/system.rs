@@ -129,21 +129,13 @@ pub(super) fn with_one_given(ctx: &Context, expected: &Cases, answer: &Cases) ->
     }) else {
         return None;
     };
-    // The value has to exist wherever the other symbol has one.
-    let everywhere = |part: &Expr| match part.node() {
-        Node::Call(..) => false,
-        Node::Power(_, k) => k
-            .as_number()
-            .is_some_and(|k| k.is_integer() && k.is_positive()),
-        _ => true,
-    };
     let fixed = |n: &Normal, name: &Symbol| {
         let slope = n.difference.derivative(name);
         let linear = slope.as_number().is_some_and(|k| !k.is_zero());
+        // The value has to exist wherever the other symbol has one.
         let root = (n.relation == Relation::Equal && linear)
             .then(|| solve_for(&n.difference, name, domains))??;
-        let exists = root.parts().all(everywhere);
-        exists.then_some(root)
+        root.is_polynomial().then_some(root)
     };
     let names = || uses.symbols.keys();
     let mut found = one.iter().flat_map(|n| names().map(move |name| (n, name)));

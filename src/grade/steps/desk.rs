@@ -17,7 +17,7 @@ use crate::derive::Moment;
 use crate::equality;
 use crate::expr::{Expr, Function, Node, Rational, Symbol};
 use crate::formula::{self, Content, Reading, Symbols};
-use crate::scene::Question;
+use crate::scene::{Ask, Question};
 
 /// What is known while a worked solution is read: the truth, what the student has said, and what wrong lines imply.
 pub(super) struct Desk<'a> {
@@ -453,6 +453,11 @@ impl<'a> Desk<'a> {
     /// What an expression is as the scene goes, in given quantities.
     pub(super) fn truth(&self, e: &Expr) -> Expr {
         self.put_in(e, &Values::new())
+    }
+
+    /// What is asked by a name.
+    pub(super) fn ask(&self, name: &str) -> Option<&Ask> {
+        Some(&self.sheet.scene.question(name)?.ask)
     }
 
     /// Whether a name is that of a given quantity.

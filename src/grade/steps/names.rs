@@ -563,10 +563,8 @@ impl Desk<'_> {
         let slipped = slipped.map(|(_, name, value)| (name.clone(), value.clone()));
         let one = self.with_own_but(link.gap()?, &slipped.collect());
         let domains = &self.sheet.scene.domains;
-        let value = solve_for(&one, name, domains)
-            .or_else(|| size_in(&one, name, domains))
-            .or_else(|| angle_in(&one, name, domains))
-            .or_else(|| below_in(&one, name, domains))?;
+        let mut ways = [solve_for, size_in, angle_in, below_in].into_iter();
+        let value = ways.find_map(|way| way(&one, name, domains))?;
         self.above.extend(link.gap().cloned());
         self.own.insert(name.clone(), value);
         Some(Status::Defines)

@@ -260,10 +260,7 @@ impl Desk<'_> {
     /// Whether a line is a balance of energies for an energy that is to be zero: what is proportional to an energy is about
     /// nothing else.
     fn is_balance(&self, link: &Link, line: &Expr, sought: &Sought) -> bool {
-        let is_energy = |name: &Symbol| {
-            let mut questions = self.sheet.scene.questions.iter();
-            questions.any(|q| *q.name == **name && matches!(q.ask, Ask::Energy { .. }))
-        };
+        let is_energy = |name: &Symbol| matches!(self.ask(name), Some(Ask::Energy { .. }));
         let Some(energy) = sought.condition.as_ref().and_then(Expr::as_symbol) else {
             return false;
         };

@@ -91,10 +91,7 @@ impl Desk<'_> {
         };
         // What is asked as a limit is judged as an answer.
         let asked = links.first().and_then(|link| link.sides[0].name());
-        let mut questions = self.sheet.scene.questions.iter();
-        if questions.any(|q| {
-            matches!(q.ask, Ask::Limit { .. }) && asked.is_some_and(|name| **name == *q.name)
-        }) {
+        if let Some(Ask::Limit { .. }) = asked.and_then(|name| self.ask(name)) {
             return None;
         }
         let so = |instead: &Values| {

@@ -474,10 +474,7 @@ impl Desk<'_> {
         let asked = sought.find(|s| s.is_named(name));
         let right = self.closed.get(asked.map_or(&**name, |s| &s.question))?;
         let mine = value(name, &self.with_own(one))?;
-        let mut questions = scene.questions.iter();
-        if let Some(Ask::Limit { of, parameter, to }) =
-            questions.find(|q| *q.name == **name).map(|q| &q.ask)
-        {
+        if let Some(Ask::Limit { of, parameter, to }) = self.ask(name) {
             return self.implied(|values| {
                 let of = self.put_in(of, values);
                 let end = limit::of(&of, parameter, to.as_ref(), &scene.domains).flatten();

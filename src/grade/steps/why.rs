@@ -510,11 +510,8 @@ impl Desk<'_> {
 
     /// A balance of energies from before a plastic impact to after it, also where it is to give what is sought.
     fn kept_energy(&self, gap: &Expr, names: &[Symbol]) -> Option<Diagnosis> {
-        let questions = &self.sheet.scene.questions;
-        let is_energy = |q: &Question| {
-            matches!(q.ask, Ask::Energy { .. }) && names.iter().any(|name| *q.name == **name)
-        };
-        if questions.iter().any(is_energy) {
+        let is_energy = |name: &Symbol| matches!(self.ask(name), Some(Ask::Energy { .. }));
+        if names.iter().any(is_energy) {
             return None;
         }
         let gap = self.truth(gap);
