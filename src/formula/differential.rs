@@ -10,18 +10,8 @@ use super::symbols::{Parts, both, is_greek};
 use super::token::Tok;
 
 /// Ways to write the sign of a derivative, apart from a plain d.
-const SIGNS: [&str; 10] = [
-    "\\mathrm{d}",
-    "\\mathrm d",
-    "\\text{d}",
-    "{\\rm d}",
-    "\\differentialD",
-    "\\partial",
-    "\\dd",
-    "\\mathrm{\\,d}",
-    "∂",
-    "ⅆ",
-];
+const SIGNS: &str =
+    "\\mathrm{d}|\\mathrm d|\\text{d}|{\\rm d}|\\differentialD|\\partial|\\dd|\\mathrm{\\,d}|∂|ⅆ";
 
 /// Commands of a fraction.
 const FRACTIONS: [&str; 3] = ["\\frac", "\\dfrac", "\\tfrac"];
@@ -232,7 +222,7 @@ impl Lexer<'_> {
     /// The byte behind a sign of a derivative, and whether it is a plain d.
     fn sign(&self, at: usize) -> Option<(usize, bool)> {
         let rest = &self.text[at..];
-        let Some(sign) = SIGNS.into_iter().find(|sign| rest.starts_with(sign)) else {
+        let Some(sign) = SIGNS.split('|').find(|sign| rest.starts_with(sign)) else {
             return rest.starts_with('d').then_some((at + 1, true));
         };
         let command = sign.ends_with(|c: char| c.is_ascii_alphabetic());

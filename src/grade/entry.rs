@@ -78,20 +78,10 @@ pub fn entry(line: &str, defaults: &Options) -> Result<Entry, BadLine> {
 pub use strict::id_in;
 
 fn fill(fields: &Map<String, Value>, id: &Value, defaults: &Options) -> Result<Entry, String> {
-    const FIELDS: [&str; 9] = [
-        "id",
-        "expected",
-        "answer",
-        "scene",
-        "name",
-        "quantity",
-        "symbols",
-        "tolerance",
-        "form",
-    ];
-    if let Some(name) = fields.keys().find(|k| !FIELDS.contains(&k.as_str())) {
-        let known = FIELDS.join(", ");
-        return Err(format!("unknown field {name:?}; known are {known}"));
+    const FIELDS: &str = "id, expected, answer, scene, name, quantity, symbols, tolerance, form";
+    let is_known = |name: &str| FIELDS.split(", ").any(|field| field == name);
+    if let Some(name) = fields.keys().find(|name| !is_known(name)) {
+        return Err(format!("unknown field {name:?}; known are {FIELDS}"));
     }
     let text = |name: &str| match fields.get(name) {
         None | Some(Value::Null) => Ok(None),

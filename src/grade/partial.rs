@@ -337,13 +337,14 @@ mod tests {
     use super::*;
     use crate::formula::{Symbols, read_expr};
 
+    fn codes(expected: &str, answer: &str) -> Vec<&'static str> {
+        let read = |text: &str| read_expr(text, &Symbols::strict()).expect("a formula");
+        let found = numbers(&read(expected), &read(answer));
+        found.iter().map(|d| d.code).collect()
+    }
+
     #[test]
     fn an_angle_rounded_in_degrees_is_told_as_rounded() {
-        let read = |text: &str| read_expr(text, &Symbols::strict()).expect("a formula");
-        let codes = |expected: &str, answer: &str| -> Vec<String> {
-            let found = numbers(&read(expected), &read(answer));
-            found.iter().map(|d| d.code.to_string()).collect()
-        };
         assert_eq!(codes("atan(4/3)", "53.13*pi/180"), ["ROUNDED"]);
         assert_eq!(codes("atan(4/3)", "-53.13*pi/180"), ["SIGN"]);
         assert_eq!(codes("pi/3", "-pi/3"), ["SIGN"]);
@@ -352,11 +353,6 @@ mod tests {
 
     #[test]
     fn numbers_under_a_cosine_may_be_meant_in_degrees() {
-        let read = |text: &str| read_expr(text, &Symbols::strict()).expect("a formula");
-        let codes = |expected: &str, answer: &str| -> Vec<String> {
-            let found = numbers(&read(expected), &read(answer));
-            found.iter().map(|d| d.code.to_string()).collect()
-        };
         assert_eq!(codes("10*cos(pi/6)", "10*cos(30)"), ["DEGREES"]);
         assert_eq!(codes("-8.66", "-10*cos(30)"), ["DEGREES"]);
         assert!(codes("8.66", "10*cos(31)").is_empty());

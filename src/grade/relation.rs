@@ -121,13 +121,12 @@ fn where_defined(found: Grade, [expected, answer]: [&[Normal]; 2], domains: &Dom
         Some(None) if !may_lack_values(e, a, domains) => found,
         Some(Some((at, is_lost))) => {
             let is_equation = e.relation == Relation::Equal;
-            let mut found = told(match (is_equation, is_lost) {
+            let words = match (is_equation, is_lost) {
                 (false, _) => told::OTHER_NUMBERS,
                 (true, true) => LOST,
                 (true, false) => GAINED,
-            });
-            found.counterexample = Some(Apart::new(at, holding(!is_lost), holding(is_lost)));
-            found
+            };
+            told(words).shown_by(Apart::new(at, holding(!is_lost), holding(is_lost)))
         }
         _ => undecided("whether both sides have values at all solutions could not be told"),
     }

@@ -78,9 +78,7 @@ fn decided(ctx: &Context, expected: &Expr, answer: &Expr, equality: Equality) ->
         },
         Equality::Different(at) => {
             let words = "the values differ at a point of the domain";
-            let mut finding = Grade::different("DIFF", "counterexample", words);
-            finding.counterexample = Some(apart(&at));
-            finding
+            Grade::different("DIFF", "counterexample", words).shown_by(apart(&at))
         }
         Equality::Invalid {
             side: Side::Right, ..
@@ -126,25 +124,24 @@ fn identical(ground: Ground, assumptions: Vec<Assumption>) -> Grade {
 fn where_defined(elsewhere: &equality::Counterexample) -> Grade {
     let words = "equal wherever both formulas have a value";
     let note = "EQUIV_WHERE_DEFINED";
-    let mut finding = Grade::new(Verdict::Equivalent, note, "identity", words);
     let lacking = match elsewhere.left == Value::None {
         true => "the expected formula",
         false => "the answer",
     };
     let at = elsewhere.at.words();
-    finding.assumed = vec![format!("both have a value: {lacking} has none at {at}")];
-    finding
+    Grade::new(Verdict::Equivalent, note, "identity", words)
+        .given(format!("both have a value: {lacking} has none at {at}"))
 }
 
 /// Equal where an expression is not negative, and different elsewhere.
 fn on_branch(condition: &str, elsewhere: &equality::Counterexample) -> Grade {
     let where_equal = format!("where {condition} ≥ 0");
     let words = format!("equal {where_equal}, different elsewhere");
-    let mut finding = Grade::different("DIFF_BRANCH", "branch", words);
-    finding.counterexample = Some(apart(elsewhere));
     let message = format!("right {where_equal}; elsewhere it differs");
     let hint = "your formula is right on a part of the domain only: think of signs";
-    finding.with(Diagnosis::new("BRANCH", message, hint))
+    Grade::different("DIFF_BRANCH", "branch", words)
+        .shown_by(apart(elsewhere))
+        .with(Diagnosis::new("BRANCH", message, hint))
 }
 
 /// Undecided, with the reason and what was seen.

@@ -86,6 +86,18 @@ impl Grade {
         }
     }
 
+    /// The same where this holds.
+    pub(crate) fn given(mut self, words: impl Into<String>) -> Grade {
+        self.assumed.push(words.into());
+        self
+    }
+
+    /// The same with a point at which the two part.
+    pub(crate) fn shown_by(mut self, apart: Apart) -> Grade {
+        self.counterexample = Some(apart);
+        self
+    }
+
     /// No steps are left: what no proof and no point settled before is undecided for that reason.
     pub(crate) fn stopped(&mut self) {
         let settled = match self.verdict {

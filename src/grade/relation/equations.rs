@@ -103,10 +103,8 @@ fn solutions(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {
         return told([OTHER[0], words, OTHER[2]]);
     }
     if solved_in(f, g, domains) && solved_in(g, f, domains) {
-        let mut finding = same_solutions("each equation, solved, fulfils the other");
-        let given = "what was divided by is not zero";
-        finding.assumed.push(given.into());
-        return finding;
+        let found = same_solutions("each equation, solved, fulfils the other");
+        return found.given("what was divided by is not zero");
     }
     // Without roots of sums, as in c = √(a² + b²).
     let plain = [expected, answer].map(|n| unrooted(n, domains));
@@ -151,8 +149,7 @@ fn vacuous(ctx: &Context, f: &Expr, g: &Expr, sought: Sought) -> Grade {
         Some(mut finding) => {
             let words = "not both equations have solutions on the domain: ";
             finding.proof.words = format!("{words}{REALS}, {}", finding.proof.words);
-            finding.assumed.push(REALS.into());
-            finding
+            finding.given(REALS)
         }
         None => undecided("neither equation has a solution on the domain"),
     }

@@ -70,9 +70,8 @@ fn by_extent(ctx: &Context, expected: &Normal, answer: &Normal) -> Option<Grade>
             let same = expected.relation == answer.relation
                 && factor(f, g, &reals).is_some_and(|q| q.positive && q.weak.is_empty());
             if same && !extents.contains(&Extent::None) && !extents.contains(&Extent::All) {
-                let mut finding = same_solutions("the two differ by a factor that is positive");
-                finding.assumed.push(REALS.into());
-                return Some(finding);
+                let found = same_solutions("the two differ by a factor that is positive");
+                return Some(found.given(REALS));
             }
             Some(undecided("on the domain neither inequality says anything"))
         }
@@ -142,10 +141,10 @@ fn by_factor(ctx: &Context, expected: &Normal, answer: &Normal, common: &Factor)
                 let words =
                     "the boundary belongs to one of the two inequalities and not to the other";
                 let hint = "look at the case of equality";
-                let mut finding = Grade::told("DIFF_STRICT", "solutions", words, hint);
                 let word = |n: &Normal| holding(n.relation != Relation::Less);
-                finding.counterexample = Some(Apart::new(at, word(answer), word(expected)));
-                return Some(finding);
+                let apart = Apart::new(at, word(answer), word(expected));
+                let found = Grade::told("DIFF_STRICT", "solutions", words, hint);
+                return Some(found.shown_by(apart));
             }
             None => return Some(undecided("the two differ at most on their boundary")),
         }

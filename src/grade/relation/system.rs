@@ -57,9 +57,7 @@ pub(super) fn in_one_symbol(
     };
     if along.lost.is_none() && along.gained.is_none() {
         let words = format!("{here}: {REALS}, the two hold at the same numbers");
-        let mut finding = same_solutions(&words);
-        finding.assumed.push(REALS.into());
-        return Some(finding);
+        return Some(same_solutions(&words).given(REALS));
     }
     // Different beyond a domain on which both always hold is not different on it.
     if some {
@@ -68,8 +66,7 @@ pub(super) fn in_one_symbol(
     }
     let mut finding = apart(ctx, expected, answer, &along);
     finding.proof.words = format!("{here}: {REALS}, {}", finding.proof.words);
-    finding.assumed.push(REALS.into());
-    Some(finding)
+    Some(finding.given(REALS))
 }
 
 /// The verdict on relations in two symbols, one of them positive, that hold of all multiples of what they hold of: that one
@@ -421,8 +418,6 @@ fn other_system((at, _): At, lost: bool) -> Grade {
         false => "a solution of the answer does not fulfil the expected equations",
     };
     let hint = "compare your equations with the laws they come from, term by term";
-    let mut finding = told([OTHER[0], words, hint]);
     let word = |holds: bool| if holds { "fulfilled" } else { "not fulfilled" };
-    finding.counterexample = Some(Apart::new(at, word(!lost), word(lost)));
-    finding
+    told([OTHER[0], words, hint]).shown_by(Apart::new(at, word(!lost), word(lost)))
 }
