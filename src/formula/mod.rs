@@ -62,6 +62,7 @@ pub(crate) use sentence::sentence;
 pub use sentence::{Piece, Sentence, capital, digits, either, listed, sides, trimmed};
 pub(crate) use sets::UNNAMED;
 pub(crate) use several::{letters_apart, relations};
+pub(crate) use symbols::name::closing;
 pub use symbols::{Declared, Symbols, letter};
 pub(crate) use symbols::{among, is_angle_name, is_greek, letters};
 pub(crate) use together::values_of_one;

@@ -354,16 +354,9 @@ impl<'a> Lexer<'a> {
         let blanks = self.text[self.pos..].len()
             - self.text[self.pos..].trim_start_matches([' ', '*']).len();
         let at = self.pos + blanks;
-        let inside = self.text[at..].strip_prefix('{');
-        let mut depth = 0;
-        let closes = |c: char| {
-            depth += i32::from(c == '{') - i32::from(c == '}');
-            depth < 0
-        };
-        let length = inside.and_then(|inside| inside.find(closes));
-        match (inside, length) {
-            (Some(inside), Some(length)) => Ok((&inside[..length], at + length + 2)),
-            _ => Err(Fault::new("a group in braces is expected here", start, at)),
+        match name::closing(&self.text.as_bytes()[at..]) {
+            Some(length) => Ok((&self.text[at + 1..at + length], at + length + 1)),
+            None => Err(Fault::new("a group in braces is expected here", start, at)),
         }
     }
 }

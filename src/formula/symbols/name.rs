@@ -13,7 +13,7 @@ fn braced(text: &str, at: usize) -> Option<(&str, usize)> {
 }
 
 /// The brace that closes the one with which a text begins.
-pub(in crate::formula) fn closing(text: &[u8]) -> Option<usize> {
+pub(crate) fn closing(text: &[u8]) -> Option<usize> {
     let mut depth = 0u32;
     for (i, byte) in text.iter().enumerate() {
         match byte {
@@ -493,23 +493,16 @@ pub(crate) fn base(text: &str, at: usize, parts: &mut Parts, depth: u32) -> Opti
                 "mathrm" | "mathit" | "mathsf" | "text" | "textit" | "textrm" | "mathcal" => {
                     argument(text, behind, parts, depth)?
                 }
-                "ell" => {
-                    parts.base.push('l');
+                _ => {
+                    parts.base.push_str(match word {
+                        "ell" => "l",
+                        "imath" => "i",
+                        "jmath" => "j",
+                        word if is_greek(word) => word,
+                        _ => return None,
+                    });
                     behind
                 }
-                "imath" => {
-                    parts.base.push('i');
-                    behind
-                }
-                "jmath" => {
-                    parts.base.push('j');
-                    behind
-                }
-                word if is_greek(word) => {
-                    parts.base.push_str(word);
-                    behind
-                }
-                _ => return None,
             }
         }
         '{' => argument(text, at, parts, depth)?,

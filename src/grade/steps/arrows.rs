@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use super::pages::is_heading;
 use super::text::relates;
-use crate::formula::among;
+use crate::formula::{among, closing};
 use crate::scene::Scene;
 
 /// A vector in a line, by the bytes it takes.
@@ -36,12 +36,7 @@ fn argument(text: &str, at: usize) -> Option<(&str, usize)> {
     let rest = &text[start..];
     let c = rest.chars().next()?;
     if c == '{' {
-        let mut depth = 0;
-        let end = rest.char_indices().find(|(_, c)| {
-            depth += i32::from(*c == '{') - i32::from(*c == '}');
-            depth == 0
-        });
-        let end = start + end?.0;
+        let end = start + closing(rest.as_bytes())?;
         return Some((text[start + 1..end].trim(), end + 1));
     }
     let letters = rest[c.len_utf8()..].find(|c: char| !c.is_ascii_alphabetic());
