@@ -7,6 +7,7 @@
 mod cases;
 mod ends;
 mod flight;
+mod height;
 mod impact;
 mod motion;
 mod newton;

@@ -79,6 +79,7 @@ impl Page<'_> {
             _ => None,
         };
         let to_rest = stopping.is_some() || pressing.is_some();
+        self.height(stage, told);
         let speed = (!to_rest).then(|| self.speed(stage, told)).flatten();
         self.energies(
             told,
