@@ -375,6 +375,18 @@ impl Field {
         }
     }
 
+    /// Whether a function or a power is that of something positive. A relation that tells that sign may hold the function itself,
+    /// as x asin(x) ≥ −1 does for x: then nothing is known.
+    fn is_of_positive(&self, v: usize, of: &Element) -> bool {
+        if self.asked.borrow().contains(&v) {
+            return false;
+        }
+        self.asked.borrow_mut().push(v);
+        let sign = self.sign_of(of);
+        self.asked.borrow_mut().pop();
+        sign == Some(Sign::Positive)
+    }
+
     fn known(&self, v: usize) -> Known {
         match &self.gens[v].kind {
             Kind::Symbol(name) => match self.interval(name).low {
@@ -392,9 +404,7 @@ impl Field {
             Kind::Root => self.radicand_sign(v),
             Kind::Abs(_) => Known::NotNegative,
             Kind::Call(Function::Exp | Function::Cosh, _) => Known::Positive,
-            Kind::Call(Function::Asin | Function::Atan, x)
-                if self.sign_of(x) == Some(Sign::Positive) =>
-            {
+            Kind::Call(Function::Asin | Function::Atan, x) if self.is_of_positive(v, x) => {
                 Known::Positive
             }
             Kind::Call(Function::Ln, x) if x.as_number().is_some_and(|x| x > ratio(1, 1)) => {
@@ -405,7 +415,7 @@ impl Field {
                 _ => Known::Unknown,
             },
             // Whatever the exponent.
-            Kind::Power(base, _) if self.sign_of(base) == Some(Sign::Positive) => Known::Positive,
+            Kind::Power(base, _) if self.is_of_positive(v, base) => Known::Positive,
             Kind::Call(..) | Kind::Power(..) => Known::Unknown,
         }
     }
