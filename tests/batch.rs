@@ -273,6 +273,25 @@ fn numbers_that_stand_alone_in_their_place_lie_within_the_tolerance() {
 }
 
 #[test]
+fn a_formula_is_refuted_by_a_point_outside_the_tolerance_alone() {
+    let rows = [
+        ("exp(x)", "1+x", 0.1, "equivalent EQUIV_TOLERANCE"),
+        ("sin(x)", "x", 0.1, "equivalent EQUIV_TOLERANCE"),
+        ("sin(x)", "0.999x", 0.1, "equivalent EQUIV_TOLERANCE"),
+        ("1/(1-x)", "1+x", 0.1, "equivalent EQUIV_TOLERANCE"),
+        ("sin(x)", "x-x^3/6", 0.5, "equivalent EQUIV_TOLERANCE"),
+        ("sin(x)", "x", 0.5, "different DIFF_SMALL_ANGLE"),
+        ("exp(x)", "1+2x", 0.1, "different DIFF"),
+    ];
+    for (expected, answer, most, verdict) in rows {
+        let symbols = json!({"x": {"domain": {"min": 0, "max": most}}});
+        let line =
+            json!({"expected": expected, "answer": answer, "tolerance": "1%", "symbols": symbols});
+        assert_eq!(judged(line), verdict, "{expected} | {answer}");
+    }
+}
+
+#[test]
 fn a_rounding_is_told_where_there_is_one() {
     let codes = |expected: &str, answer: &str| {
         let found = one(json!({"expected": expected, "answer": answer, "tolerance": "0.001%"}));

@@ -1,5 +1,7 @@
 //! Two expressions: equal, different or undecided, in the words of a grade; tolerances; quotients that are numbers.
 
+mod near;
+
 use num_traits::Signed;
 
 use super::context::{Context, is_short, quotient};
@@ -9,7 +11,7 @@ use crate::algebra::{Field, Sign};
 use crate::equality::{
     self, Assumption, AtPoints, Condition, Equality, Evidence, Ground, How, Reason, Side, Value,
 };
-use crate::expr::{Expr, Node};
+use crate::expr::{Expr, Node, Rational};
 use crate::formula::write_plain;
 
 /// Two expressions.
@@ -25,7 +27,18 @@ pub(crate) fn scalars(ctx: &Context, expected: &Expr, answer: &Expr) -> Grade {
     {
         return at_points(found, assumed);
     }
-    let decision = equality::decide(expected, answer, domains);
+    let mut decision = equality::decide(expected, answer, domains);
+    if let (Some(Tolerance::Relative(share)), Equality::Different(at)) =
+        (&ctx.options.tolerance, &decision.equality)
+    {
+        let constant = expected.is_constant() && answer.is_constant();
+        let at = at.clone();
+        match near::outside(expected, answer, share, at, domains) {
+            Some(at) => decision.equality = Equality::Different(at),
+            None if constant => {}
+            None => return not_apart(share, expected, answer, ctx),
+        }
+    }
     let mut finding = decided(ctx, expected, answer, decision.equality);
     finding.assumed.splice(0..0, decision.assumed);
     for e in [expected, answer] {
@@ -42,6 +55,16 @@ pub(crate) fn scalars(ctx: &Context, expected: &Expr, answer: &Expr) -> Grade {
         finding.diagnosis.extend(found);
     }
     finding
+}
+
+/// The finding where two formulas differ, and at no point that was found by more than a tolerance allows.
+fn not_apart(share: &Rational, expected: &Expr, answer: &Expr, ctx: &Context) -> Grade {
+    let words = Tolerance::Relative(share.clone()).words();
+    if near::is_within(expected, answer, share, ctx.domains()) {
+        return Grade::new(Verdict::Equivalent, "EQUIV_TOLERANCE", "tolerance", words);
+    }
+    let words = format!("{words} at all points tried, and it is not shown that it always is");
+    Grade::new(Verdict::Undecided, "UNDECIDED_TOLERANCE", "none", words)
 }
 
 /// What a comparison at random points says.
