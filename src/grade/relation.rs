@@ -278,6 +278,16 @@ fn link(ctx: &Context, expected: &Normal, answer: &Normal) -> Grade {
             .any(|(a, b)| a.difference != b.difference)
         {
             let mut found = link(&ctx.plain(), &plain[0], &plain[1]);
+            if found.is_equivalent() {
+                // A factor that the question itself lets be zero has solutions of its own.
+                let zero = |e: &Expr| may_vanish(ctx, e);
+                if mine.iter().any(zero) {
+                    return told(LOST);
+                }
+                if theirs.iter().any(zero) {
+                    return told(GAINED);
+                }
+            }
             if found.is_equivalent() && !given.is_empty() {
                 let assumed = std::mem::take(&mut found.assumed);
                 found = given_not_zero(APART, given);
@@ -378,6 +388,15 @@ fn divide(n: &mut Normal, sought: &BTreeSet<Symbol>, domains: &Domains) -> Vec<E
     }
     n.difference = rooted(Expr::product(rest));
     free.iter().filter(open).cloned().collect()
+}
+
+/// Whether a factor vanishes somewhere on the domain for sure: all its symbols are declared, and each to have either sign.
+fn may_vanish(ctx: &Context, e: &Expr) -> bool {
+    let declared = &ctx.domains().symbols;
+    let either = |name: &Symbol| declared.get(name).is_some_and(Domain::changes_sign);
+    let is_linear = |name: &Symbol| e.derivative(name).is_constant();
+    let names = e.symbols();
+    !names.is_empty() && names.iter().all(|name| either(name) && is_linear(name))
 }
 
 /// Whether what only either of two equations has may be what it says: `v − w` and `u − b` beside the factor `M − m` of both,
