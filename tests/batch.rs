@@ -265,6 +265,8 @@ fn numbers_that_stand_alone_in_their_place_lie_within_the_tolerance() {
         ("abs(x) < 1/3", "-0.333 < x < 0.35", "different"),
         ("v = 5 m/s", "2v = 10.02 m/s", "equivalent"),
         ("v = 5 m/s", "2v = 10.2 m/s", "different"),
+        ("5 m", "5.01 m = x", "equivalent"),
+        ("5 m", "5.1 m = x", "different"),
     ];
     for (expected, answer, verdict) in rows {
         let line = json!({"expected": expected, "answer": answer, "tolerance": "1%"});

@@ -71,6 +71,26 @@ pub(crate) fn verdict_of(key: &Key, answer: &Reading, options: &Options) -> Verd
 
 /// Compares with every number of the answer that the tolerance allows in the place of the expected one.
 fn tolerated(ctx: &Context, answer: &Reading) -> Grade {
+/// A value before its name, `5 m = x`, with the name first; formulas on both sides are an equation to be solved.
+pub(super) fn turned(content: &Content) -> Option<Content> {
+    let (sides, signs) = content.relations()?;
+    let (last, values) = sides.split_last()?;
+    let name = last.name().filter(|name| &***name != "pi")?;
+    let is_value = |side: &Content| match side {
+        Content::Scalar(e) => e.is_constant(),
+        Content::Quantity(_) => true,
+        Content::Vector(_) | Content::Matrix(_) | Content::Either(_) => !side.mentions(name),
+        _ => false,
+    };
+    let equal = |sign: &Relation| matches!(sign, Relation::Equal | Relation::Approximately);
+    if !values.iter().all(is_value) || !signs.iter().all(equal) {
+        return None;
+    }
+    let sides = std::iter::once(last).chain(values).cloned().collect();
+    let signs = std::iter::once(&signs[signs.len() - 1]).chain(&signs[..signs.len() - 1]);
+    Some(Content::Relations(sides, signs.cloned().collect()))
+}
+
     let found = compare(ctx, answer);
     let (expected, domains) = (&ctx.key.reading.content, ctx.domains());
     let changed = |content: &Content| *content != answer.content;

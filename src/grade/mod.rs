@@ -497,6 +497,9 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
     if let Some(content) = read::sizes(&reading.content, names) {
         reading.content = content;
     }
+    if let Some(content) = compare::turned(&reading.content) {
+        reading.content = content;
+    }
     if matches!(reading.content, Content::Relations(..) | Content::Scalar(_)) {
         read::differentials(key, &mut reading);
     }
@@ -517,6 +520,7 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         doubt.finding.assumed.push(words.into());
     }
     doubt.crossed();
+    unit::of_names(key, &doubt.reading, &mut doubt.finding);
     // A wrong answer is never told so where another reading is right, however fast.
     let open_to_doubt = (options.strength == Strength::Identity || doubt.is_wrong())
         && doubt.finding.note != "EQUIV_READING"

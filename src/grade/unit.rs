@@ -6,7 +6,7 @@ use super::context::Context;
 use super::scalar::scalars;
 use super::{Diagnosis, Grade, Key, Tolerance, Verdict, number};
 use crate::dimension::{self, Clash, Dimension, Unit};
-use crate::expr::{Expr, Rational, ratio};
+use crate::expr::{Expr, Rational, Symbol, ratio};
 use crate::formula::{self, Content, Fault, Quantity, Reading, Remark, Symbols};
 
 /// The unit behind a vector, a pair, or a formula in symbols, which carry none in their content.
@@ -65,6 +65,12 @@ pub(super) fn of_relations(key: &Key, reading: &Reading, finding: &mut Grade) {
             known.extend(names.map(|name| (name.to_string(), dimension.clone())));
         }
     }
+    // Bounds of something without a name are those of whatever the answer calls it.
+    if let Some(dimension) = known.get(formula::UNNAMED).cloned() {
+        let sides = reading.content.chains().into_iter().flatten();
+        let names = sides.filter_map(|side| side.name());
+        known.extend(names.map(|name| (name.to_string(), dimension.clone())));
+    }
     if finding.verdict != Verdict::Equivalent || known.is_empty() {
         return;
     }
@@ -76,6 +82,84 @@ pub(super) fn of_relations(key: &Key, reading: &Reading, finding: &mut Grade) {
         Some(bare) => missing(&Unit::coherent(parts[1 - bare].clone())),
         None => wrong(&parts[0], &parts[1], &parts[1].si(), false),
     };
+}
+
+/// Values that answer by names of their own, and would be right but for their units: `v_1 = 2 kg` for `2 m/s`, and `x = 4 kg`
+/// for `2x = 8`.
+pub(super) fn of_names(key: &Key, reading: &Reading, finding: &mut Grade) {
+    if finding.verdict != Verdict::Equivalent {
+        return;
+    }
+    let expected = &key.reading.content;
+    let mut sides = expected.chains().into_iter().flatten();
+    if sides.any(|side| dimension_of(side).is_some()) {
+        if let Some(found) = misfit_in(expected, &reading.content) {
+            *finding = found;
+        }
+        return;
+    }
+    let related = !expected.chains().is_empty();
+    let constant = || expected.exprs().iter().all(|e| e.is_constant());
+    let of_values = match (&key.reading.unit, related) {
+        (Some(unit), _) => Some(unit.dimension.clone()),
+        (None, true) => None,
+        (None, false) => asked(key).or_else(|| constant().then(Dimension::none)),
+    };
+    if of_values.is_none() && !related {
+        return;
+    }
+    let mut chains = reading.content.chains();
+    let is_asked = |name: &Symbol| key.question.asked.iter().any(|g| g.name == *name);
+    if chains.len() > 1 && !related {
+        // Results by their names were compared with their units, and of one value the last is the answer.
+        if chains
+            .iter()
+            .any(|sides| sides.iter().filter_map(Content::name).any(is_asked))
+        {
+            return;
+        }
+        if matches!(expected, Content::Scalar(_) | Content::Quantity(_)) {
+            chains.drain(..chains.len() - 1);
+        }
+    }
+    let wrong_in = |sides: &[Content]| {
+        let name = sides.iter().find_map(Content::name)?;
+        let known = || key.question.dimension_of(name);
+        let wanted = of_values
+            .clone()
+            .or_else(known)
+            .unwrap_or_else(Dimension::none);
+        let given = sides
+            .iter()
+            .filter_map(dimension_of)
+            .find(|given| *given != wanted)?;
+        Some(match wanted.is_none() {
+            true => extra(&given.si(), true),
+            false => wrong(&wanted, &given, &given.si(), true),
+        })
+    };
+    if let Some(found) = chains.into_iter().find_map(wrong_in) {
+        *finding = found;
+    }
+}
+
+/// The finding on a value whose unit does not fit the expected relations, of which it is a solution by its number: `x = 4 kg` for
+/// `2x = 8 m`.
+fn misfit_in(expected: &Content, answer: &Content) -> Option<Grade> {
+    // Expected relations that mix dimensions themselves demand no unit.
+    if clash(expected, &BTreeMap::new()).is_some() {
+        return None;
+    }
+    let misfit = |sides: &[Content]| {
+        let name = sides.iter().find_map(Content::name)?;
+        let given = sides.iter().find_map(dimension_of)?;
+        let known = BTreeMap::from([(name.to_string(), given.clone())]);
+        clash(expected, &known).map(|_| given.si())
+    };
+    let unit = answer.chains().into_iter().find_map(misfit)?;
+    let words = format!("the unit {unit} of the answer does not fit the expected relation");
+    let hint = "put your value with its unit into the relation";
+    Some(Grade::told("DIFF_UNIT", "dimension", words, hint))
 }
 
 /// The fault of a number whose unit would be one but for brackets below its slash: `4186 J/kg K`.
