@@ -325,7 +325,8 @@ fn results(content: &Content) -> Option<Vec<(Symbol, Content)>> {
 fn by_name(ctx: &Context, expected: &[(Symbol, Content)], answer: &[(Symbol, Content)]) -> Grade {
     let mut total: Option<Grade> = None;
     for (name, value) in expected {
-        let Some((_, mine)) = answer.iter().find(|(other, _)| other == name) else {
+        let mut given = answer.iter().filter(|(other, _)| other == name);
+        let Some((_, mine)) = given.next() else {
             let words = format!("{name} is missing");
             let hint = "more results are asked for";
             return Grade::told("DIFF_ONE_OF_TWO", "kind", words, hint);
@@ -336,6 +337,16 @@ fn by_name(ctx: &Context, expected: &[(Symbol, Content)], answer: &[(Symbol, Con
             let found = Diagnosis::new("RESULT", words.clone(), words);
             finding.diagnosis.insert(0, found);
             return finding;
+        }
+        // Who gives two values leaves the choice to the reader; a number for a formula is no other value of it.
+        let constant = |value: &Content| value.exprs().iter().all(|e| e.is_constant());
+        let alike = given.filter(|(_, other)| constant(other) == constant(mine));
+        let mut others = alike.map(|(_, other)| values(&ctx.plain(), value, other));
+        if others.any(|found| found.verdict == Verdict::Different) {
+            let words =
+                format!("two values of {name} are given, and one of them is not the expected one");
+            let hint = "decide for one value";
+            return Grade::told("DIFF_TWO_FOR_ONE", "kind", words, hint);
         }
         match &mut total {
             Some(total) if finding.is_equivalent() => total.assume(finding.assumed),
