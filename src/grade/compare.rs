@@ -1,5 +1,6 @@
 //! One content against another: values, vectors, pairs, quantities with units; relations go to [`super::relation`].
 
+mod links;
 mod named;
 pub(super) mod several;
 
@@ -16,6 +17,8 @@ use crate::dimension::Dimension;
 use crate::equality::{self};
 use crate::expr::{Expr, Symbol};
 use crate::formula::{self, Content, Reading, Relation};
+use links::{broken_within, differ, lists_apart};
+pub(super) use named::other_name;
 use named::{is_size, named_values, of_two_names, only_unknown, solved};
 
 /// Compares a reading with the key.
@@ -23,7 +26,13 @@ pub(crate) fn contents(key: &Key, answer: &Reading, options: &Options) -> Grade 
     let diagnose = options.strength == Strength::Identity;
     let beside = key.beside(&answer.content);
     let key = beside.as_ref().unwrap_or(key);
-    let found = tolerated(&Context::new(key, options, diagnose), answer);
+    let ctx = Context::new(key, options, diagnose);
+    let found = tolerated(&ctx, answer);
+    if found.is_equivalent()
+        && let Some([one, two]) = broken_within(&ctx, &answer.content)
+    {
+        return chain_apart(&ctx, [&one, &two]);
+    }
     if found.verdict == Verdict::Different
         && let Some(([expected, mine], sizes)) =
             of_length_one([&key.reading.content, &answer.content])
@@ -62,15 +71,6 @@ fn of_length_one(contents: [&Content; 2]) -> Option<([Content; 2], Vec<Expr>)> {
     Some((put, squares))
 }
 
-/// The verdict alone, without looking for what is wrong.
-pub(crate) fn verdict_of(key: &Key, answer: &Reading, options: &Options) -> Verdict {
-    let beside = key.beside(&answer.content);
-    let key = beside.as_ref().unwrap_or(key);
-    tolerated(&Context::new(key, options, false), answer).verdict
-}
-
-/// Compares with every number of the answer that the tolerance allows in the place of the expected one.
-fn tolerated(ctx: &Context, answer: &Reading) -> Grade {
 /// A value before its name, `5 m = x`, with the name first; formulas on both sides are an equation to be solved.
 pub(super) fn turned(content: &Content) -> Option<Content> {
     let (sides, signs) = content.relations()?;
@@ -91,6 +91,15 @@ pub(super) fn turned(content: &Content) -> Option<Content> {
     Some(Content::Relations(sides, signs.cloned().collect()))
 }
 
+/// The verdict alone, without looking for what is wrong.
+pub(crate) fn verdict_of(key: &Key, answer: &Reading, options: &Options) -> Verdict {
+    let beside = key.beside(&answer.content);
+    let key = beside.as_ref().unwrap_or(key);
+    tolerated(&Context::new(key, options, false), answer).verdict
+}
+
+/// Compares with every number of the answer that the tolerance allows in the place of the expected one.
+fn tolerated(ctx: &Context, answer: &Reading) -> Grade {
     let found = compare(ctx, answer);
     let (expected, domains) = (&ctx.key.reading.content, ctx.domains());
     let changed = |content: &Content| *content != answer.content;
@@ -398,6 +407,12 @@ fn apart_in(ctx: &Context, measured: &[Content], signs: &[Relation]) -> Option<[
             .iter()
             .all(|name| &**name == "pi" || named::declared_symbol(ctx, name))
     };
+    let equal = |sign: &Relation| matches!(sign, Relation::Equal | Relation::Approximately);
+    for (i, pair) in measured.windows(2).enumerate() {
+        if equal(&signs[i]) && lists_apart(ctx, [&pair[0], &pair[1]], &known) {
+            return Some([pair[0].clone(), pair[1].clone()]);
+        }
+    }
     let mut before: Option<(usize, &Content, &Expr)> = None;
     for (i, side) in measured.iter().enumerate() {
         let Some(two) = side.expr().filter(|e| known(e)) else {
@@ -409,15 +424,11 @@ fn apart_in(ctx: &Context, measured: &[Content], signs: &[Relation]) -> Option<[
         let between = &signs[from..i];
         let constant = one.is_constant() && two.is_constant();
         let same_kind = unit(first) == unit(side) || one.is_zero() && two.is_zero();
-        let equal = |sign: &Relation| matches!(sign, Relation::Equal | Relation::Approximately);
         let rounded = constant || between.contains(&Relation::Approximately);
         let apart = match between.iter().all(equal) {
             false => false,
             true if !same_kind => constant,
-            true if rounded => named::is_close(ctx, one, two) == Some(false),
-            true => equality::decide(one, two, ctx.domains())
-                .equality
-                .is_different(),
+            true => differ(ctx, one, two, rounded),
         };
         if apart {
             return Some([first.clone(), side.clone()]);

@@ -363,7 +363,7 @@ fn may_hold(ctx: &Context, sides: &[Content], name: &Symbol, value: &Content) ->
     points.iter().all(is_zero)
 }
 
-fn other_name(finding: Grade, mine: &Symbol, theirs: &Symbol) -> Grade {
+pub(in crate::grade) fn other_name(finding: Grade, mine: &Symbol, theirs: &Symbol) -> Grade {
     let words = format!("the answer speaks of {theirs}, and {mine} is asked for");
     let message = match finding.is_equivalent() {
         true => format!("{words}; the right side is the expected one"),
