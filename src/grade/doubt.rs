@@ -1,6 +1,7 @@
 //! Where a text could mean something else: other readings, an e that nobody declared, and what the reader decided.
 
 mod letters;
+mod units;
 mod unread;
 
 use super::compare;
@@ -8,6 +9,7 @@ use super::{Diagnosis, Grade, Key, Options, Proof, Verdict, read, show};
 use crate::dimension;
 use crate::expr::{Expr, Node, Point, Symbol};
 use crate::formula::{self, Content, Fault, Note, Reading, Relation, Remark, Symbols};
+pub(super) use units::run_together;
 pub(super) use unread::{commas, either_comma, number, unread};
 
 /// An answer that was read and judged, and may mean something else.

@@ -436,6 +436,11 @@ fn judge_within(key: &Key, answer: &str, options: &Options) -> Grade {
         return doubt::either_comma([&thousands, decimals], answer, options);
     }
     let mut grade = judge_here(key, answer, options);
+    if matches!(grade.verdict, Verdict::Different | Verdict::Invalid)
+        && let Some(right) = doubt::run_together(key, answer, options)
+    {
+        grade = right;
+    }
     // How a product of letters reads is no matter where the text is a quantity.
     let is_quantity = |q: &Key| read::is_quantity(q, answer);
     if options.strength == Strength::Identity
@@ -492,12 +497,12 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
     if let Some(content) = compare::several::named(&key.reading.content, &reading.content) {
         reading.content = content;
     }
+    if let Some(content) = compare::turned(&reading.content) {
+        reading.content = content;
+    }
     let meant = unit::as_asked(key, &mut reading);
     let names = key.question.symbols.iter().map(|g| &g.name);
     if let Some(content) = read::sizes(&reading.content, names) {
-        reading.content = content;
-    }
-    if let Some(content) = compare::turned(&reading.content) {
         reading.content = content;
     }
     if matches!(reading.content, Content::Relations(..) | Content::Scalar(_)) {
@@ -513,6 +518,7 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
     doubt.unit_behind();
     unit::behind(key, &doubt.reading, &mut doubt.finding);
     unit::of_relations(key, &doubt.reading, &mut doubt.finding);
+    unit::of_names(key, &doubt.reading, &mut doubt.finding);
     doubt.finding.assumed.extend(meant);
     let is_right = doubt.finding.is_equivalent();
     if is_right && key.direction.is_some() && read::sense(answer).is_none() {
@@ -520,7 +526,6 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         doubt.finding.assumed.push(words.into());
     }
     doubt.crossed();
-    unit::of_names(key, &doubt.reading, &mut doubt.finding);
     // A wrong answer is never told so where another reading is right, however fast.
     let open_to_doubt = (options.strength == Strength::Identity || doubt.is_wrong())
         && doubt.finding.note != "EQUIV_READING"
