@@ -2,6 +2,7 @@
 
 mod earlier;
 pub(in crate::grade) mod judge;
+mod others;
 mod rows;
 mod told;
 

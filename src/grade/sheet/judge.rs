@@ -154,17 +154,17 @@ impl Sheet {
     }
 
     fn judge_with_earlier(&self, entry: &Entry, answer: &str, options: &Options) -> Grade {
-        let Some((answer, told)) = self.with_earlier(entry, answer) else {
+        let Some((put_in, told)) = self.with_earlier(entry, answer) else {
             let grade = self.judge_in_given(entry, answer, options);
             // What cannot be read all the same is no fault of the earlier answers in it.
             return match grade.verdict {
                 Verdict::Invalid => judge_against(&self.key_with_earlier(entry).0, answer, options),
-                _ => grade,
+                _ => self.by_its_name(entry, answer, grade),
             };
         };
-        let mut grade = self.judge_in_given(entry, &answer, options);
+        let mut grade = self.judge_in_given(entry, &put_in, options);
         grade.assumed.extend(told);
-        grade
+        self.by_its_name(entry, answer, grade)
     }
 
     /// The grade of a formula with its number behind it: that of the formula, and where it is right that of the number.
