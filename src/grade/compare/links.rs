@@ -1,7 +1,6 @@
 //! Chains of equations within an answer: in several results, between vectors, matrices and lists.
 
 use super::{broken, named};
-use crate::dimension;
 use crate::equality;
 use crate::expr::{Expr, ratio};
 use crate::formula::Content;
@@ -21,21 +20,7 @@ pub(super) fn broken_within(ctx: &Context, content: &Content) -> Option<[Content
     let is_named = sides.len() > 2 && sides[0].name().is_some();
     let related = !ctx.key.reading.content.chains().is_empty();
     let constant = |side: &Content| side.exprs().iter().all(|e| e.is_constant());
-    // `x = 5 m = 5`: a letter nobody knows that is a unit makes of a number something else.
-    let unit = |a: &Content, b: &Content| {
-        let share = a.expr()? / b.expr().filter(|e| e.is_constant() && !e.is_zero())?;
-        let name = share.as_symbol()?;
-        Some(!named::declared_symbol(ctx, name) && dimension::unit(name).is_ok())
-    };
-    let mixed = || {
-        let mut pairs = sides[1..].windows(2);
-        let found = pairs.find(|p| {
-            constant(&ctx.key.reading.content)
-                && (unit(&p[0], &p[1]) == Some(true) || unit(&p[1], &p[0]) == Some(true))
-        })?;
-        Some([found[0].clone(), found[1].clone()])
-    };
-    let pair = is_named.then(|| broken(ctx, &sides[1..], &signs[1..]).or_else(mixed))??;
+    let pair = is_named.then(|| broken(ctx, &sides[1..], &signs[1..]))??;
     (!related || pair.iter().all(constant)).then_some(pair)
 }
 
