@@ -74,7 +74,7 @@ const TABLES: [(&str, &str, &str); 16] = [
     (
         "units.tsv",
         "Units",
-        "Missing, wrong and compatible units are three different remarks.",
+        "Missing, wrong and compatible units are three different remarks. Values by names of the answer's own, `v_1 = 2 m/s`, have units as well, and so have solutions of equations. Units run together before a negative exponent, `50 Nm^{-1}`, are a product where that alone is right.",
     ),
     (
         "quantities.tsv",
@@ -84,7 +84,7 @@ const TABLES: [(&str, &str, &str); 16] = [
     (
         "relations.tsv",
         "Equations, inequalities, pairs",
-        "Equations are the same where they have the same solutions on the domain. A factor that only one of them has leaves them the same, given that it is not zero, where it holds nothing of what is sought: of what is asked for, else of what both hold. Any other factor that may be zero loses or gains a root. In one symbol a number counts at which only one side has a value.",
+        "Equations are the same where they have the same solutions on the domain. A factor that only one of them has leaves them the same, given that it is not zero, where it holds nothing of what is sought: of what is asked for, else of what both hold. Any other factor that may be zero loses or gains a root, and so does one whose symbols are all declared and have either sign. In one symbol a number counts at which only one side has a value.",
     ),
     (
         "several.tsv",
