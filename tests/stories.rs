@@ -400,7 +400,7 @@ fn what_holds_wherever_a_motion_comes_to_rest_holds_beyond_the_value_from_which_
         .map(|(_, relation, value)| (relation.sign(), write_plain(value)));
     assert_eq!(
         range.collect::<Vec<_>>(),
-        [(">", String::from("tan(alpha)"))]
+        [(">", String::from("sin(alpha)/cos(alpha)"))]
     );
 }
 

@@ -456,6 +456,25 @@ fn judge_within(key: &Key, answer: &str, options: &Options) -> Grade {
     grade
 }
 
+/// Puts a reading into the form that is compared; gives what its unit is taken for.
+fn as_compared(key: &Key, reading: &mut Reading) -> Option<String> {
+    if let Some(content) = compare::several::named(&key.reading.content, &reading.content) {
+        reading.content = content;
+    }
+    if let Some(content) = compare::turned(&reading.content) {
+        reading.content = content;
+    }
+    let meant = unit::as_asked(key, reading);
+    let names = key.question.symbols.iter().map(|g| &g.name);
+    if let Some(content) = read::sizes(&reading.content, names) {
+        reading.content = content;
+    }
+    if matches!(reading.content, Content::Relations(..) | Content::Scalar(_)) {
+        read::differentials(key, reading);
+    }
+    meant
+}
+
 fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
     if let Some(quantity) = &key.quantity
         && read::is_quantity(quantity, answer)
@@ -494,20 +513,7 @@ fn judge_here(key: &Key, answer: &str, options: &Options) -> Grade {
         }
         return grade;
     }
-    if let Some(content) = compare::several::named(&key.reading.content, &reading.content) {
-        reading.content = content;
-    }
-    if let Some(content) = compare::turned(&reading.content) {
-        reading.content = content;
-    }
-    let meant = unit::as_asked(key, &mut reading);
-    let names = key.question.symbols.iter().map(|g| &g.name);
-    if let Some(content) = read::sizes(&reading.content, names) {
-        reading.content = content;
-    }
-    if matches!(reading.content, Content::Relations(..) | Content::Scalar(_)) {
-        read::differentials(key, &mut reading);
-    }
+    let meant = as_compared(key, &mut reading);
     let mut doubt = Doubt::new(key, answer, options, reading);
     if doubt.is_wrong()
         && let Some(grade) = doubt::number(key, answer, options)

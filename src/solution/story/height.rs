@@ -21,12 +21,18 @@ impl Page<'_> {
             _ => return,
         };
         // Of a particle its string or its track says it.
-        let bodies = turn.bodies();
+        let at = |b: &usize| minus(&stage.scene.bodies[*b].center, &turn.about);
+        let is_away = |b: &usize| !at(b).iter().all(Expr::is_zero);
+        let bodies: Vec<usize> = turn.bodies().into_iter().filter(is_away).collect();
         let is_extended = |b: &usize| !stage.scene.bodies[*b].is_particle();
         if turn.gravity.is_none() || !bodies.iter().any(is_extended) || told.work.len() != 1 {
             return;
         }
-        let arm = minus(&turn.lump(&stage.scene).center, &turn.about);
+        let arm = match bodies.as_slice() {
+            [only] => at(only),
+            _ if bodies.len() < turn.bodies().len() => return,
+            _ => minus(&turn.lump(&stage.scene).center, &turn.about),
+        };
         let far = tidied(self.scene, &dot(&arm, &arm).sqrt());
         let rise = tidied(self.scene, &(up * &far - &arm[1]));
         if rise.is_zero() {
