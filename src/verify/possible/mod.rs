@@ -8,7 +8,7 @@
 //! The rules, for the relative velocity u of the second body against the first at a contact (u⁻ before, u⁺ after), a normal
 //! n out of the first body, and the impulse P on the second (unilateral contact: Glocker, "Set-Valued Force Laws", ch. 5;
 //! Pfeiffer and Glocker, "Multibody Dynamics with Unilateral Contacts", ch. 8):
-//! - place: the contact lies on the outlines of its bodies; [`touch`] tells which have one;
+//! - place: the contact lies on the outlines of its bodies; [`crate::scene::touch`] tells which have one;
 //! - approach: u⁻·n ≤ 0; otherwise the bodies part before they collide. A sticking contact grips and may catch what moves
 //!   away, like a hook; it has to approach only along a normal that the scene gives;
 //! - apart: u⁺·n ≥ 0 at every touching point, also at the ends of straight sides that lie along each other (first order:
