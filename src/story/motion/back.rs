@@ -218,9 +218,13 @@ pub(in crate::story) fn walls_are_there(
                 out.push(Sentence::filled(words, parts));
                 continue;
             }
+            let between = match sign(&off, domains).is_negative() {
+                true => -&off,
+                false => off,
+            };
             let why = format!(
                 "`{name}` goes on moving, and what was struck at `{was}` is no longer at `{at}`: {} lies between them along the normal",
-                write_plain(&off)
+                write_plain(&between)
             );
             let hint = "end the motion before where they meet, such as \"for\" the time until then";
             return Err(Refused::new(&stage.name, why, hint));
