@@ -261,11 +261,8 @@ impl Forms {
                             1 => Direction::Only(*s),
                             _ => Direction::Asked(*s),
                         };
-                        match self.case(scene, table, mode, direction, conditions) {
-                            // Such an impact has no end, whatever the parameters.
-                            Err(Stop::DivisionByZero) => table.ruled_out += 1,
-                            case => table.cases.push(case?),
-                        }
+                        let case = self.case(scene, table, mode, direction, conditions)?;
+                        table.cases.push(case);
                     }
                     None => table.ruled_out += 1,
                 }
@@ -430,15 +427,22 @@ impl Forms {
             }));
             Ok(settled)
         };
-        let slip_ends = mode.slip_ends.as_ref().map(&mut settled).transpose()?;
-        let settled = settled(&mode.closing)?;
+        let slip_ends = mode.slip_ends.as_ref().map(&mut settled).transpose();
+        let (scene, slip_ends, ends) = match (settled(&mode.closing), slip_ends) {
+            // No impulse, however large, brings such an impact to its end.
+            (Err(Stop::DivisionByZero), _) | (_, Err(Stop::DivisionByZero)) => {
+                (scene.clone(), None, false)
+            }
+            (settled, slip_ends) => (settled?, slip_ends?, true),
+        };
+        let rebounds = mode.mode.sticks() && law_asks_for_rebound(&table.law);
         Ok(Case {
             mode: mode.mode,
             direction,
             conditions,
-            ends: !(table.one_way && mode.mode.sticks() && law_asks_for_rebound(&table.law)),
+            ends: ends && !(table.one_way && rebounds),
             impulse: mode.impulse,
-            scene: settled,
+            scene,
             slip_ends,
         })
     }

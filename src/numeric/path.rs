@@ -65,7 +65,7 @@ impl fmt::Display for NoPath {
             NoPath::Separating => "the bodies separate at the contact: they do not collide",
             NoPath::Strikes => "another contact collides at the same moment",
             NoPath::NeverEnds => {
-                "under this hypothesis the impact has no end: the contact sticks where it cannot move along its normal, and e > 0 asks for a rebound (Poisson's hypothesis has an answer)"
+                "under this hypothesis the impact has no end: the contact sticks where it cannot move along its normal, still in compression or where e > 0 asks for a rebound (for which Poisson's hypothesis has an answer)"
             }
             NoPath::Singular => {
                 "the law divides by zero: its contact does not come together, or cannot move freely in both directions"

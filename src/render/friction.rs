@@ -22,7 +22,7 @@ pub struct Shown<'a> {
 }
 
 /// What is said of a case that has no answer.
-const NO_END: &str = "  no answer: it sticks where it cannot move along its normal, and nothing ends the impact (Poisson's hypothesis has an answer)";
+const NO_END: &str = "  no answer: it sticks where it cannot move along its normal, and nothing ends the impact (where compression is over by then, Poisson's hypothesis has an answer)";
 
 /// The table for the terminal.
 pub fn text(
